@@ -1,0 +1,12 @@
+# Install and export: find_package(Selvage) gives selvage::kernel, selvage::io, and selvage::sim, selvage::verify if built.
+include(CMakePackageConfigHelpers)
+
+get_property(rooms GLOBAL PROPERTY SELVAGE_ROOMS)
+list(REMOVE_ITEM rooms selvage_fuzz)  # generators and campaigns are used through the program
+install(TARGETS ${rooms} EXPORT SelvageTargets FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/selvage")
+install(EXPORT SelvageTargets NAMESPACE selvage:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Selvage")
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/SelvageConfig.cmake.in" "${PROJECT_BINARY_DIR}/SelvageConfig.cmake"
+  INSTALL_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Selvage")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/SelvageConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/SelvageConfig.cmake" "${PROJECT_BINARY_DIR}/SelvageConfigVersion.cmake"
+  DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Selvage")

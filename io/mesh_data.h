@@ -1,0 +1,31 @@
+// Meshes and sequences as plain numbers, the only thing that crosses between rooms: vertex doubles and index triples.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace selvage::io {
+
+using Points = std::vector<std::array<double, 3>>;           ///< #V by 3, caller's length unit
+using Triangles = std::vector<std::array<std::int32_t, 3>>;  ///< #F by 3, each < #V
+
+enum class Precision { kFloat64, kFloat32 };  ///< what the file stores; float32 values are exact doubles
+
+/// Faces [begin, end) that belong together.
+struct Group {
+  enum class Role { kCloth, kBody };
+  std::string name;
+  Role role = Role::kCloth;
+  std::int32_t face_begin = 0, face_end = 0;
+};
+
+struct MeshData {
+  Points points;
+  Triangles triangles;
+  std::vector<Group> groups;  ///< empty: one anonymous cloth
+  Precision precision = Precision::kFloat64;
+};
+
+}  // namespace selvage::io

@@ -1,0 +1,67 @@
+// Mesh sequences: the folder format of docs/formats.md, .npz, or a list of single meshes, behind one reader.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/error.h"
+#include "io/mesh_data.h"
+
+namespace selvage::io {
+
+/// kSteps: the straight motion between consecutive frames is what was simulated and is to be certified.
+/// kFrames: samples of a motion; nothing is claimed about what lies between them.
+enum class SequenceKind { kFrames, kSteps };
+
+/// A sequence of frames that are read on demand; frame() may be called from several threads.
+class SequenceReader {
+ public:
+  virtual ~SequenceReader() = default;
+  [[nodiscard]] virtual std::size_t frame_count() const = 0;
+  [[nodiscard]] virtual SequenceKind kind() const = 0;
+  [[nodiscard]] virtual Precision precision() const = 0;
+  [[nodiscard]] virtual const std::vector<Group>& groups() const = 0;
+  /// A name a person can find again: the file of frame i, or "FILE[i]".
+  [[nodiscard]] virtual std::string frame_name(std::size_t frame) const = 0;
+  /// Time of frame i in seconds, or i where the source has no times.
+  [[nodiscard]] virtual double time(std::size_t frame) const = 0;
+  /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
+  [[nodiscard]] virtual bool same_faces_as_previous(std::size_t frame) const = 0;
+  /// Throws Error. Checks shape, finiteness and, where the format has hashes, the hash.
+  [[nodiscard]] virtual MeshData frame(std::size_t frame) const = 0;
+};
+
+/// One folder, one .npz, or one or more mesh files in the given order. Throws Error.
+[[nodiscard]] std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources);
+
+struct SequenceHeader {
+  Triangles triangles;
+  std::vector<Group> groups;
+  SequenceKind kind = SequenceKind::kFrames;
+  Precision precision = Precision::kFloat64;
+  std::string producer;  ///< program and version
+};
+
+/// Writes the folder format. Every file appears by atomic rename, so a killed run leaves a valid, shorter sequence.
+/// sequence.json is rewritten (atomically) after each frame: what it lists is complete and on disk.
+class SequenceWriter {
+ public:
+  /// Creates the folder. Throws Error if it holds a sequence already, unless `resume`, which then continues behind the
+  /// frames it lists (and checks that header and faces are the same).
+  SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume = false);
+  ~SequenceWriter();
+  void append(double time_s, const Points& points);
+  [[nodiscard]] std::size_t frame_count() const;
+  /// Forgets all frames from `count` on: a resumed run continues behind its checkpoint.
+  void truncate(std::size_t count);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace selvage::io

@@ -1,0 +1,18 @@
+// kernel.h: the whole public API of the collision kernel, in the order data flows.
+//   F, V_t0, V_t1 --(make_mesh, validate)--> Mesh --(BoxHierarchy)--> Candidates --(vf_ccd, ee_ccd)--> CollisionReport
+//   Positions    #V by 3 doubles in the caller's length unit; |coordinate| <= kMaxCoordinate.
+//   Trajectory   x(t) = (1 - t) x_t0 + t x_t1, t in [0, 1]: straight lines, nothing else.
+//   tolerance    a length the CALLER chooses; error_bound: a length the KERNEL proves. Never mixed in one name.
+//   Answers      kSeparated is a proof about the real trajectories of the stored doubles, rounding included.
+//   Failure      bad input: InputError. Limit reached: kUnresolved. Broken invariant: SELVAGE_ASSERT.
+//                Nothing throws, prints or reads a clock; equal bits in give equal bits out.
+#pragma once
+
+#include "kernel/box_hierarchy.h"
+#include "kernel/candidates.h"
+#include "kernel/ccd.h"
+#include "kernel/collisions.h"
+#include "kernel/fp_env.h"
+#include "kernel/mesh.h"
+#include "kernel/proximity.h"
+#include "kernel/types.h"

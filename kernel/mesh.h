@@ -1,0 +1,47 @@
+// A triangle mesh's connectivity. Positions are passed beside it, so that a step swaps them without a copy.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernel/types.h"
+
+namespace selvage {
+
+struct Mesh {
+  std::int32_t vertex_count = 0;
+  std::vector<std::array<VertexId, 3>> faces;
+  /// Unique, edge[0] < edge[1], sorted by (larger, smaller) vertex: the numbering of the public query sets.
+  std::vector<std::array<VertexId, 2>> edges;
+  /// face_edges[f][k] is the edge opposite to corner k of face f.
+  std::vector<std::array<EdgeId, 3>> face_edges;
+  /// The face that reports a feature, so that no pair is reported twice: the lowest-numbered one that holds it.
+  /// -1 for a vertex that no face holds: it is no part of the surface and takes part in nothing.
+  std::vector<FaceId> vertex_owner;
+  std::vector<FaceId> edge_owner;
+};
+
+enum class InputError : std::uint8_t {
+  kNone,
+  kSizeMismatch,
+  kNotFinite,
+  kTooLarge,
+  kIndexOutOfRange,
+  kRepeatedVertex,
+  kBadTolerance
+};
+
+/// One sentence for a person, with the remedy.
+[[nodiscard]] const char* describe(InputError error);
+
+/// Whether F (#F by 3) indexes vertices 0 .. vertex_count-1 and no face repeats a vertex. O(#F).
+[[nodiscard]] InputError validate_faces(std::int32_t vertex_count, const FacesRef& F);
+
+/// Builds edges and ownership; depends on indices alone. O(#F log #F). REQUIRES validate_faces() == kNone.
+/// Non-manifold edges, duplicate faces, holes and loose vertices are valid.
+[[nodiscard]] Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F);
+
+/// First thing wrong with the positions of a step, or kNone. O(#V). Zero-area faces and coincident vertices are valid.
+[[nodiscard]] InputError validate(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1);
+
+}  // namespace selvage

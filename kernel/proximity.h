@@ -1,0 +1,34 @@
+// Closest points of a vertex and a face, or of two edges, at one instant (paper, section 6), with a proven bracket.
+#pragma once
+
+#include <array>
+
+#include "kernel/types.h"
+
+namespace selvage {
+
+/// The bracket is proved a posteriori, so it holds however the weights were found (docs/guarantee.md):
+///   distance_upper  evaluates the witness point of `weights`, rounding included;
+///   distance_lower  comes from a separating direction, rounding included; 0 when none was found.
+struct Proximity {
+  double distance = 0;        ///< the computed Euclidean distance, in [distance_lower, distance_upper]
+  double distance_lower = 0;  ///< PROVED: the exact distance is at least this
+  double distance_upper = 0;  ///< PROVED: the exact distance is at most this
+  /// vf: of p, a, b, c with weights[0] = 1 and the others >= 0, sum 1. ee: of a, b (first edge), c, d (second edge),
+  /// each pair >= 0 with sum 1. Up to rounding; point_error_bound says how good they are.
+  std::array<double, 4> weights = {};
+  /// Unit vector from the second feature (face; second edge) to the first, up to rounding. Zero where distance_upper is
+  /// 0.
+  Vec3 normal = Vec3::Zero();
+  /// PROVED: |(x - y) - (x* - y*)| <= this, with x, y the points of `weights` and x*, y* the exact closest points:
+  /// sqrt(upper^2 - lower^2) by the projection theorem. Bounds the normal too: sin(angle) <= point_error_bound / upper.
+  double point_error_bound = 0;
+};
+
+/// x = {p, a, b, c}: point p against triangle (a, b, c), which may have zero area. REQUIRES |coordinate| <=
+/// kMaxCoordinate.
+[[nodiscard]] Proximity vf_proximity(const std::array<Vec3, 4>& x);
+/// x = {a, b, c, d}: edge (a, b) against edge (c, d), parallel and zero-length ones included.
+[[nodiscard]] Proximity ee_proximity(const std::array<Vec3, 4>& x);
+
+}  // namespace selvage

@@ -1,0 +1,30 @@
+// The types that cross the kernel's border, with their shapes.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "selvage: fast-math breaks every proven bound; compile without -ffast-math, -Ofast and -ffinite-math-only"
+#endif
+
+namespace selvage {
+
+using VertexId = std::int32_t;
+using EdgeId = std::int32_t;
+using FaceId = std::int32_t;
+using Vec3 = Eigen::Vector3d;
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< #V by 3
+using Faces = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< #F by 3
+using PositionsRef = Eigen::Ref<const Positions>;                               ///< #V by 3
+using FacesRef = Eigen::Ref<const Faces>;                                       ///< #F by 3
+
+/// Largest |coordinate| in the domain. A difference of two such, squared norms after scaling, and every box stay
+/// finite.
+inline constexpr double kMaxCoordinate = 0x1p+1000;
+
+/// The two kinds of pairs, and the third event of the guarantee: a vertex and the opposite edge of its own face.
+enum class PairKind : std::uint8_t { kVf, kEe, kSelf };
+
+}  // namespace selvage

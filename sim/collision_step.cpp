@@ -1,0 +1,1 @@
+#include "sim/collision_step.h"

@@ -1,0 +1,90 @@
+// The collision step as one function for any simulator: an intersection-free state, candidate positions, and masses go
+// in; positions come out whose straight motion from the state is certified free of touching (S1). Paper, section 7.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kernel/kernel.h"
+
+namespace selvage::sim {
+
+/// Defaults are the paper's numbers.
+struct CollisionOptions {
+  double thickness_m = 1e-3;             ///< cloth thickness h: repulsions act below it (paper, 7.2)
+  double tolerance_m = 1e-6;             ///< distance kept at the end of every step (paper, section 6)
+  double repulsion_stiffness_n_m = 0;    ///< spring constant k of the overlap repulsion; 0: the inelastic part alone
+  double overlap_fraction = 0.1;         ///< of the overlap removed a step at most (paper, 7.2), dimensionless
+  double relaxation = 0.25;              ///< of parallel inelastic impulses (paper, 7.2), dimensionless
+  double friction_static = 0;            ///< Coulomb coefficient, dimensionless
+  double friction_kinetic = 0;           ///< <= friction_static
+  bool repulsion = true;                 ///< section 7.2 and 7.3 at all
+  std::int32_t impulse_iterations = 10;  ///< rounds of section 7.4 before impact zones
+  std::int32_t zone_iterations = 20;     ///< rounds of section 7.5 before the fail-safe
+  enum class Precision { kFloat64, kFloat32 } precision = Precision::kFloat64;  ///< lattice that the result lies on
+  std::int32_t max_intervals = 4096;                                            ///< CcdOptions::max_intervals
+};
+
+/// What to do where cloth cannot avoid scripted bodies (S4).
+enum class SqueezePolicy : std::uint8_t {
+  kStop,   ///< return kStopped with a witness; nothing is advanced
+  kYield,  ///< the bodies involved wait: their vertices keep their positions for this step
+};
+
+struct CollisionBodies {
+  /// #V: inverse masses in 1/kg; 0 for scripted vertices, which follow their candidate positions exactly.
+  std::span<const double> inverse_mass;
+  /// #V: body that a scripted vertex belongs to, -1 for cloth. A body moves, or waits, as a whole. Empty: no bodies.
+  std::span<const std::int32_t> body;
+  SqueezePolicy policy = SqueezePolicy::kStop;
+};
+
+enum class StepStatus : std::uint8_t {
+  kSafe,         ///< S1 holds for the returned positions
+  kStopped,      ///< no safe positions exist under the policy; the returned positions are V_t0
+  kInvalidInput  ///< NaN, sizes, domain: nothing was done
+};
+
+struct CollisionStepReport {
+  StepStatus status = StepStatus::kInvalidInput;
+  InputError input_error = InputError::kNone;
+  std::int64_t proximities = 0, repulsions = 0, frictions = 0;
+  std::int64_t first_collisions = 0;  ///< found on the candidate motion, before any impulse
+  std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
+  std::int32_t largest_zone = 0;        ///< vertices
+  std::int64_t fail_safe_vertices = 0;  ///< 0 in ordinary scenes
+  std::vector<std::int32_t> waiting_bodies;
+  std::vector<Collision> below_tolerance;  ///< free of touch, but not proved farther than tolerance at the end (S2)
+  std::optional<Collision> witness;        ///< for kStopped
+  CollisionReport certificate;             ///< of the final check: counts of the certified queries
+};
+
+struct CollisionStepResult {
+  Positions x;         ///< #V by 3: certified; exactly the doubles to store
+  Positions velocity;  ///< #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x
+  CollisionStepReport report;
+};
+
+/// Holds what persists between steps (connectivity, hierarchy, scratch), so that a step allocates little.
+class CollisionStep {
+ public:
+  CollisionStep(const Mesh& mesh, const CollisionOptions& options);  ///< the mesh must outlive it
+  ~CollisionStep();
+  CollisionStep(CollisionStep&&) noexcept;
+
+  /// PRE: V_t0 is free of intersections (exactly). V_candidate: any finite positions; scripted vertices' are their
+  /// script. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than tolerance is
+  /// named. Terminates: every fail-safe round limits or freezes at least one more vertex. Deterministic for any thread
+  /// count.
+  [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
+                                               const CollisionBodies& bodies, double dt_s);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace selvage::sim

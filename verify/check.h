@@ -1,0 +1,89 @@
+// Checks of a frame, of the motion between two frames, and of a whole sequence: what was examined, what was violated.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/sequence.h"
+#include "verify/exact_motion.h"
+
+namespace selvage::verify {
+
+enum class EventKind : std::uint8_t { kVf, kEe, kOverlap, kSelf };
+
+struct Violation {
+  std::int64_t frame = 0;  ///< the frame; for motions the frame that the motion starts from
+  bool motion = false;
+  EventKind event = EventKind::kOverlap;
+  std::string kind;                        ///< touch, cross, overlap, fold, degenerate, near, ...
+  std::array<std::int32_t, 2> features{};  ///< vertex, face | edge, edge | face, face | vertex, its face
+  std::array<std::int32_t, 6> vertices{};  ///< their vertices, -1 where there are fewer than six
+  ExactTime t;                             ///< motions only
+};
+
+struct PairCounts {
+  std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;  ///< examined (boxes overlap)
+  std::int64_t exact = 0;                              ///< needed exact arithmetic
+};
+struct ViolationCounts {
+  std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;
+  [[nodiscard]] std::int64_t total() const { return vf + ee + overlap + self; }
+};
+
+struct CheckResult {
+  PairCounts pairs;
+  ViolationCounts violations_total;
+  std::vector<Violation> violations;  ///< the first max_violations in (event, features) order
+};
+
+struct CheckOptions {
+  std::size_t max_violations = 100;
+  std::optional<double> min_distance;  ///< frames: all non-incident features at least this far apart, exactly
+  bool check_bodies = false;           ///< also pairs of faces that both belong to bodies
+};
+
+/// The surface: triangles and, per face, whether it belongs to a scripted body (empty: none does).
+struct Surface {
+  std::span<const std::array<std::int32_t, 3>> triangles;
+  std::span<const std::uint8_t> is_body;
+};
+
+/// One instant: all triangle pairs, shared vertices and edges included, and zero-area faces. In parallel,
+/// deterministic.
+[[nodiscard]] CheckResult check_frame(const Surface& surface, std::span<const Point> V, const CheckOptions& options);
+/// The straight motion over closed [0,1]: vertex-face, edge-edge, and each vertex against its own opposite edge.
+[[nodiscard]] CheckResult check_motion(const Surface& surface, std::span<const Point> V_t0, std::span<const Point> V_t1,
+                                       const CheckOptions& options);
+
+enum class Verdict : std::uint8_t { kClean, kViolated, kUnknown };
+
+struct SequenceOptions {
+  CheckOptions check;
+  bool frames = true, motions = true;
+  /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown.
+  std::function<bool(std::size_t, std::size_t)> progress;
+};
+
+struct SequenceReport {
+  Verdict verdict = Verdict::kUnknown;
+  struct Counted {
+    std::int64_t checked = 0, violated = 0;
+  } frames, motions;
+  std::int64_t frames_expected = 0, motions_expected = 0;  ///< clean needs checked == expected (V3)
+  PairCounts pairs;
+  ViolationCounts violations_total;
+  std::vector<Violation> violations;
+  std::int64_t unreferenced_vertices = 0;  ///< no part of any face: not checked, and said so
+  std::int64_t body_faces = 0;
+  double seconds = 0;
+};
+
+/// Throws io::Error on unreadable input: never a verdict on part of it.
+[[nodiscard]] SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options);
+
+}  // namespace selvage::verify
