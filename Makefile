@@ -1,0 +1,61 @@
+# A thin face on the CMake presets. Every target sets up what it needs: on a bare Debian 12, `make demo` is enough.
+SELVAGE := build/release/cli/selvage
+DEMO    := demo
+
+.PHONY: help setup build demo test asan tsan clang coverage fuzz bench format tidy clean
+
+help:  ## this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
+
+setup:  ## install the Debian packages that are missing
+	@cmake/setup packages.txt
+
+build: setup  ## build everything, optimised, in build/release
+	cmake --preset release --log-level=WARNING
+	cmake --build --preset release
+
+demo: build  ## simulate a curtain over a moving ball, check every frame and step exactly, draw it
+	rm -rf $(DEMO)
+	$(SELVAGE) sim sim/scenes/demo.toml -o $(DEMO)/curtain --record steps
+	$(SELVAGE) render $(DEMO)/curtain -o $(DEMO)/sheet.png
+	$(SELVAGE) verify $(DEMO)/curtain --json $(DEMO)/report.json
+	@echo "The report is $(DEMO)/report.json, the picture is $(DEMO)/sheet.png."
+
+test: build  ## run all tests
+	ctest --preset release
+
+asan: setup  ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	cmake --preset asan-ubsan --log-level=WARNING
+	cmake --build --preset asan-ubsan
+	ctest --preset asan-ubsan
+
+tsan: setup  ## run the tests under ThreadSanitizer
+	cmake --preset tsan --log-level=WARNING
+	cmake --build --preset tsan
+	ctest --preset tsan
+
+clang: setup  ## build and test with clang++: the same bits are asserted
+	@cmake/setup packages-clang.txt
+	cmake --preset clang --log-level=WARNING
+	cmake --build --preset clang
+	ctest --preset clang
+
+coverage: setup  ## line and branch coverage of the kernel and the checker
+	@cmake/setup packages-clang.txt
+	cmake --preset coverage --log-level=WARNING
+	cmake --build --preset coverage
+	cmake -DBUILD=build/coverage -P cmake/coverage.cmake
+
+fuzz: build  ## a minute of fuzzing against the exact checker
+	$(SELVAGE) fuzz --time 60s --artifacts build/artifacts
+
+format:  ## rewrite the sources in the house style
+	@cmake/setup packages-clang.txt
+	git ls-files '*.h' '*.cpp' | xargs clang-format-14 -i
+
+tidy: build  ## clang-tidy over every source
+	@cmake/setup packages-clang.txt
+	git ls-files '*.cpp' | grep -v -e ^tests -e ^examples | xargs -P 2 -n 1 clang-tidy-14 --quiet -p build/release
+
+clean:  ## remove everything that was built
+	rm -rf build $(DEMO)
