@@ -1,0 +1,20 @@
+// What every subcommand shares: help that starts with an example, and a job that runs after parsing.
+// A subcommand is one file, NAME_command.cpp, and one line in main.cpp.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/exit_code.h"
+
+namespace selvage::cli {
+
+/// The help of `app` starts with "Example: `example`".
+void show_example_first(CLI::App& app, const std::string& example);
+
+/// Adds the subcommand `name`. Its file then adds options and sets the callback to `job = [options] { ... }`.
+CLI::App& add_command(CLI::App& program, const std::string& name, const std::string& description,
+                      const std::string& example);
+
+}  // namespace selvage::cli

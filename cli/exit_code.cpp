@@ -1,0 +1,41 @@
+#include "cli/exit_code.h"
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "io/error.h"
+
+namespace selvage::cli {
+namespace {
+
+ExitCode failed(ExitCode code, const char* what) {
+  std::fprintf(stderr, "selvage: %s\n", what);
+  return code;
+}
+
+}  // namespace
+
+ExitCode run_guarded(const Job& job) {
+  try {
+    const ExitCode code = job();
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      return failed(ExitCode::kFile, "cannot write the result to standard output");
+    }
+    return code;
+  } catch (const UsageError& error) {
+    return failed(ExitCode::kUsage, error.what());
+  } catch (const io::Error& error) {
+    return failed(error.kind() == io::ErrorKind::kBadInput ? ExitCode::kBadInput : ExitCode::kFile, error.what());
+  } catch (const FpEnvironmentError& error) {
+    return failed(ExitCode::kFpEnvironment, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(ExitCode::kLimit, "out of memory: nothing is known about the rest");
+  } catch (const std::exception& error) {
+    return failed(ExitCode::kInternal, error.what());
+  }
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,30 @@
+// The program: one line per subcommand. What each does is in NAME_command.cpp.
+#include <CLI/CLI.hpp>
+
+#include "cli/command.h"
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/version.h"
+
+int main(int argc, char** argv) {
+  using namespace selvage::cli;
+  CLI::App program{"Cloth collisions that never let a surface pass through itself, and the instruments that prove it.",
+                   "selvage"};
+  show_example_first(program, "selvage --version");
+  program.set_version_flag("--version", version_text, "Version of the program and of the libraries in it");
+  program.require_subcommand(0, 1);  // one is required, but an unknown name shall be named: see below
+
+  Job job;
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // CLI11 numbers its errors from 100 up; --help and --version arrive here with 0.
+    return static_cast<int>(program.exit(error) == 0 ? ExitCode::kClean : ExitCode::kUsage);
+  }
+  if (program.get_subcommands().empty()) {
+    job = []() -> ExitCode { throw UsageError("a subcommand is required; run with --help for more information"); };
+  }
+  catch_interrupts();
+  return static_cast<int>(run_guarded(job));
+}

@@ -1,0 +1,31 @@
+// Progress on stderr, only where a person watches.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace selvage::cli {
+
+/// Whether `descriptor` (1 stdout, 2 stderr) is a terminal that understands control sequences.
+[[nodiscard]] bool is_terminal(int descriptor);
+/// Whether to colour text on `descriptor`: a terminal, and NO_COLOR is unset or empty.
+[[nodiscard]] bool use_colour(int descriptor);
+
+/// One line on stderr that overwrites itself, at most ten times a second; nothing at all if stderr is no terminal.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string label);
+  ~ProgressBar();  ///< clears the line
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  void update(std::size_t done, std::size_t total);
+
+ private:
+  std::string label_;
+  bool enabled_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace selvage::cli

@@ -1,0 +1,86 @@
+// Runs the program as a child process and collects what it leaves behind.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace selvage::testing {
+
+struct ProgramResult {
+  int exit_code = -1;  ///< -1: killed by a signal
+  std::string out, err;
+};
+
+/// A folder for one test, named after it and this process (tests run in parallel), gone when the test ends.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() /
+            (std::string("selvage_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(getpid()));
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string slurp(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+inline void spit(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// Starts the program with stdout and stderr in files of `folder`; the caller waits for it.
+inline pid_t start_program(const std::filesystem::path& folder, std::vector<std::string> arguments) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  const auto redirect = [](const std::filesystem::path& file, int descriptor) {
+    const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
+  };
+  redirect(folder / "stdout.txt", STDOUT_FILENO);
+  redirect(folder / "stderr.txt", STDERR_FILENO);
+  arguments.insert(arguments.begin(), SELVAGE_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  execv(SELVAGE_PROGRAM, argv.data());
+  _exit(127);
+}
+
+inline ProgramResult wait_for_program(const std::filesystem::path& folder, pid_t child) {
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder / "stdout.txt"), slurp(folder / "stderr.txt")};
+}
+
+inline ProgramResult run_program(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  return wait_for_program(folder.path(), start_program(folder.path(), std::move(arguments)));
+}
+inline ProgramResult run_program(std::vector<std::string> arguments) {
+  return run_program(TemporaryFolder{}, std::move(arguments));
+}
+
+}  // namespace selvage::testing
