@@ -10,24 +10,28 @@ namespace selvage::verify {
 
 using Point = std::array<double, 3>;
 
-/// An exact time: the only root of an integer polynomial in [lower, upper], or lower == upper.
-/// Ends are rationals in text, "numerator/denominator".
+/// An exact time in [0,1]: lower == upper, or the only root of an integer polynomial in the open interval between them.
+/// Ends are rationals in text, in lowest terms: "0", "1", "5/8".
 struct ExactTime {
   std::string lower = "0", upper = "0";
   double lower_approx = 0;  ///< largest double <= lower
   double upper_approx = 0;  ///< smallest double >= upper
 };
 
+/// What happens at the first touch.
 enum class MotionKind : std::uint8_t {
   kNone,   ///< no touch for any t in [0,1]
-  kTouch,  ///< touches at single times without passing through, or stays in touch
-  kCross,  ///< transversal: the coplanarity cubic changes sign at a touch in the relative interiors
+  kTouch,  ///< a touch that is no kCross: at a boundary, at t = 0 or 1, without passing through, or along coplanar
+           ///< motion
+  /// Transversal: inside (0,1), at a point in the interiors of both features (of the triangle, or of both edges), which
+  /// span a plane there, and the coplanarity cubic changes sign. Right after it the features have passed through.
+  kCross,
 };
 
 struct MotionAnswer {
   bool touches = false;
   MotionKind kind = MotionKind::kNone;
-  ExactTime first;          ///< the first touch; width at most 2^-60 of the step; meaningful if touches
+  ExactTime first;          ///< the first touch; width at most 2^-60 of the step; set if touches and kFirstTime
   bool exact_used = false;  ///< the filter did not decide
 };
 
@@ -40,12 +44,12 @@ enum class Detail : std::uint8_t { kDecision, kFirstTime };
 /// x = {a, b, c, d}: closed edge (a, b) against closed edge (c, d).
 [[nodiscard]] MotionAnswer exact_ee_motion(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1,
                                            Detail detail);
-/// x = {p, a, b}: point p against the closed edge (a, b) of its own face: the extra event.
+/// x = {p, a, b}: point p against the closed edge (a, b) of its own face: the extra event. Its kind is kTouch.
 [[nodiscard]] MotionAnswer exact_self_motion(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1,
                                              Detail detail);
 
-/// -1, 0, 1: the exact first touch of `answer` (from one of the three above, with kFirstTime) against the double t;
-/// used to check toi_lower. Decides exactly by refining the isolating interval of the same query.
+/// -1, 0, 1: the first touch of the vertex-face or edge-edge motion is before, at, or after t; exact for every double t
+/// that is not NaN. Motions that do not touch answer 1. Used to check a kernel's toi_lower.
 [[nodiscard]] int compare_first_touch(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, bool is_vf,
                                       double t);
 
