@@ -1,13 +1,126 @@
 #include "kernel/mesh.h"
 
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
 #include <gtest/gtest.h>
 
+#include "tests/property.h"
+
 namespace selvage {
+
+namespace {
+
+Faces faces_of(const std::vector<std::array<VertexId, 3>>& list) {
+  Faces F(static_cast<Eigen::Index>(list.size()), 3);
+  for (std::size_t f = 0; f < list.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) F(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = list[f][k];
+  }
+  return F;
+}
+
+}  // namespace
 
 TEST(InputErrorText, EveryErrorSaysWhatToDo) {
   for (int i = 0; i <= static_cast<int>(InputError::kBadTolerance); ++i) {
     EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error");
   }
+}
+
+TEST(ValidateFaces, NamesTheDefect) {
+  EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 2}})), InputError::kNone);
+  EXPECT_EQ(validate_faces(0, faces_of({})), InputError::kNone);
+  EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 3}})), InputError::kIndexOutOfRange);
+  EXPECT_EQ(validate_faces(3, faces_of({{0, -1, 2}})), InputError::kIndexOutOfRange);
+  EXPECT_EQ(validate_faces(0, faces_of({{0, 1, 2}})), InputError::kIndexOutOfRange);
+  EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 2}, {0, 0, 1}})), InputError::kRepeatedVertex);
+  EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 1}})), InputError::kRepeatedVertex);
+  EXPECT_EQ(validate_faces(3, faces_of({{1, 0, 1}})), InputError::kRepeatedVertex);
+}
+
+TEST(ValidateFaces, RefusesMoreFacesThanEdgeNumbersWithoutReadingThem) {
+  const Eigen::Map<const Faces> unreadable(nullptr, std::numeric_limits<EdgeId>::max() / 3 + 1, 3);
+  EXPECT_EQ(validate_faces(3, unreadable), InputError::kTooManyFaces);
+}
+
+TEST(ValidatePositions, NamesTheDefect) {
+  const Mesh mesh = make_mesh(2, faces_of({}));
+  const Positions good = Positions::Constant(2, 3, -kMaxCoordinate);
+  EXPECT_EQ(validate(mesh, good, good), InputError::kNone);
+  EXPECT_EQ(validate(mesh, good, Positions::Zero(3, 3)), InputError::kSizeMismatch);
+  EXPECT_EQ(validate(mesh, Positions::Zero(1, 3), good), InputError::kSizeMismatch);
+  const std::pair<double, InputError> bad_values[] = {
+      {std::numeric_limits<double>::quiet_NaN(), InputError::kNotFinite},
+      {-std::numeric_limits<double>::infinity(), InputError::kNotFinite},
+      {-0x1.0000000000001p+1000, InputError::kTooLarge}};
+  for (const auto& [value, error] : bad_values) {
+    for (Eigen::Index entry = 0; entry < 6; ++entry) {
+      Positions bad = good;
+      bad(entry / 3, entry % 3) = value;
+      EXPECT_EQ(validate(mesh, bad, good), error) << value << " at " << entry;
+      EXPECT_EQ(validate(mesh, good, bad), error) << value << " at " << entry;
+    }
+  }
+}
+
+TEST(MakeMesh, TwoTrianglesShareAnEdge) {
+  const Mesh mesh = make_mesh(5, faces_of({{0, 1, 2}, {2, 1, 3}}));
+  const std::vector<std::array<VertexId, 2>> edges = {{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}};
+  EXPECT_EQ(mesh.edges, edges);
+  const std::vector<std::array<EdgeId, 3>> face_edges = {{2, 1, 0}, {3, 4, 2}};
+  EXPECT_EQ(mesh.face_edges, face_edges);
+  EXPECT_EQ(mesh.edge_owner, (std::vector<FaceId>{0, 0, 0, 1, 1}));
+  EXPECT_EQ(mesh.vertex_owner, (std::vector<FaceId>{0, 0, 0, 1, -1}));
+}
+
+TEST(MakeMesh, NonManifoldEdgesAndDuplicateFacesAreKept) {
+  const Mesh mesh = make_mesh(5, faces_of({{0, 1, 4}, {0, 1, 2}, {1, 0, 3}, {2, 1, 0}}));
+  EXPECT_EQ(mesh.faces.size(), 4U);
+  EXPECT_EQ(mesh.edges.size(), 7U);  // the shared one, and two more for each of three wings
+  EXPECT_EQ(mesh.edges.front(), (std::array<VertexId, 2>{0, 1}));
+  EXPECT_EQ(mesh.edge_owner.front(), 0);
+}
+
+/// Any index triples, as valid faces: the definition of every array, written the slow way.
+TEST(MakeMesh, PropArraysMatchTheirDefinition) {
+  testing::check_property(500, 1, [] {
+    const auto vertex_count = *rc::gen::inRange<VertexId>(3, 12);
+    const auto triples = *rc::gen::container<std::vector<std::array<VertexId, 3>>>(
+        rc::gen::suchThat(rc::gen::container<std::array<VertexId, 3>>(rc::gen::inRange<VertexId>(0, vertex_count)),
+                          [](const auto& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }));
+    const Mesh mesh = make_mesh(vertex_count, faces_of(triples));
+    RC_ASSERT(mesh.vertex_count == vertex_count);
+    RC_ASSERT(mesh.faces == triples);
+
+    std::map<std::pair<VertexId, VertexId>, FaceId> owner;  // (larger, smaller) -> lowest face
+    std::vector<FaceId> vertex_owner(static_cast<std::size_t>(vertex_count), -1);
+    for (std::size_t f = triples.size(); f-- > 0;) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexId a = triples[f][k], b = triples[f][(k + 1) % 3];
+        owner[{std::max(a, b), std::min(a, b)}] = static_cast<FaceId>(f);
+        vertex_owner[static_cast<std::size_t>(a)] = static_cast<FaceId>(f);
+      }
+    }
+    RC_ASSERT(mesh.vertex_owner == vertex_owner);
+    RC_ASSERT(mesh.edges.size() == owner.size());
+    RC_ASSERT(mesh.edge_owner.size() == owner.size());
+    std::size_t e = 0;
+    for (const auto& [key, face] : owner) {
+      RC_ASSERT(mesh.edges[e] == (std::array<VertexId, 2>{key.second, key.first}));
+      RC_ASSERT(mesh.edge_owner[e] == face);
+      ++e;
+    }
+    for (std::size_t f = 0; f < triples.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& edge = mesh.edges[static_cast<std::size_t>(mesh.face_edges[f][k])];
+        const std::set<VertexId> all = {triples[f][k], edge[0], edge[1]};
+        RC_ASSERT(all == std::set<VertexId>(triples[f].begin(), triples[f].end()));
+        RC_ASSERT(edge[0] != triples[f][k] && edge[1] != triples[f][k]);
+      }
+    }
+  });
 }
 
 }  // namespace selvage

@@ -1,0 +1,57 @@
+// Axis-aligned boxes of moving features: the one definition of "boxes overlap" that every broad phase shares (K6).
+//   The box of a vertex holds its two end positions, hence its straight path; it is grown by reach / 2. The box of an
+//   edge or a face is the union of its vertices' boxes, hence holds the feature at every t in [0, 1].
+//   Two features nearer than `reach` at one t differ by at most `reach` along each axis, so their boxes overlap.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "kernel/types.h"
+
+namespace selvage {
+
+struct Box {  ///< closed; empty until merged with something
+  std::array<double, 3> lower{kInfinity, kInfinity, kInfinity};
+  std::array<double, 3> upper{-kInfinity, -kInfinity, -kInfinity};
+
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  void merge(const Box& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], other.lower[axis]);
+      upper[axis] = std::max(upper[axis], other.upper[axis]);
+    }
+  }
+  friend Box united(Box a, const Box& b) {
+    a.merge(b);
+    return a;
+  }
+  /// Closed: boxes that share one face, edge or corner overlap.
+  friend bool overlap(const Box& a, const Box& b) {
+    return a.lower[0] <= b.upper[0] && b.lower[0] <= a.upper[0] &&  //
+           a.lower[1] <= b.upper[1] && b.lower[1] <= a.upper[1] &&  //
+           a.lower[2] <= b.upper[2] && b.lower[2] <= a.upper[2];
+  }
+};
+
+/// A vertex on its way from row v of V_t0 to row v of V_t1, grown by reach / 2. With reach = 0 the box is exact. Else
+/// each bound is rounded outward: subtracting rounds by at most half a unit in the last place and halving `reach` by at
+/// most 2^-1075; the one step of nextafter is at least both together (a quarter, not a half, is lost below a power of
+/// two, where the step is half as long). Growth is monotone, so growing before uniting equals growing after it.
+/// REQUIRES reach >= 0, |coordinate| <= kMaxCoordinate: then no bound overflows for any finite reach.
+inline Box vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v, double reach) {
+  Box box;
+  const double growth = 0.5 * reach;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto column = static_cast<Eigen::Index>(axis);
+    const auto [lower, upper] = std::minmax({V_t0(v, column), V_t1(v, column)});
+    box.lower[axis] = reach == 0 ? lower : std::nextafter(lower - growth, -Box::kInfinity);
+    box.upper[axis] = reach == 0 ? upper : std::nextafter(upper + growth, Box::kInfinity);
+  }
+  return box;
+}
+
+}  // namespace selvage
