@@ -66,6 +66,14 @@ const char* describe(InputError error) {
       return "three times the face count exceeds 2^31 - 1; split the mesh";
     case InputError::kBadTolerance:
       return "the tolerance is negative, NaN or infinite; pass a length of at least 0";
+    case InputError::kBadOption:
+      return "a collision option is NaN or outside its range; the ranges stand beside the options";
+    case InputError::kBadMass:
+      return "an inverse mass is negative, NaN or infinite, or not 0 on a body; pass 0 for every scripted vertex";
+    case InputError::kBadTimeStep:
+      return "the time step is not a positive finite number of seconds; choose the step from the frame rate";
+    case InputError::kOffLattice:
+      return "a starting position is no float32 number; round the first state before the first float32 step";
   }
   return "unknown error";
 }

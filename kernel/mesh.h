@@ -29,7 +29,12 @@ enum class InputError : std::uint8_t {
   kIndexOutOfRange,
   kRepeatedVertex,
   kTooManyFaces,
-  kBadTolerance
+  kBadTolerance,
+  // of a collision step:
+  kBadOption,
+  kBadMass,
+  kBadTimeStep,
+  kOffLattice
 };
 
 /// One sentence for a person, with the remedy.

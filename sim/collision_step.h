@@ -12,20 +12,23 @@
 
 namespace selvage::sim {
 
-/// Defaults are the paper's numbers.
+/// Defaults are the paper's numbers, except for `relaxation`.
 struct CollisionOptions {
-  double thickness_m = 1e-3;             ///< cloth thickness h: repulsions act below it (paper, 7.2)
-  double tolerance_m = 1e-6;             ///< distance kept at the end of every step (paper, section 6)
-  double repulsion_stiffness_n_m = 0;    ///< spring constant k of the overlap repulsion; 0: the inelastic part alone
-  double overlap_fraction = 0.1;         ///< of the overlap removed a step at most (paper, 7.2), dimensionless
-  double relaxation = 0.25;              ///< of parallel inelastic impulses (paper, 7.2), dimensionless
-  double friction_static = 0;            ///< Coulomb coefficient, dimensionless
-  double friction_kinetic = 0;           ///< <= friction_static
+  double thickness_m = 1e-3;           ///< cloth thickness h: repulsions act below it (paper, 7.2); >= 0
+  double tolerance_m = 1e-6;           ///< distance kept at the end of every step (paper, section 6); >= 0
+  double repulsion_stiffness_n_m = 0;  ///< spring constant k of the overlap repulsion; 0: the inelastic part alone
+  double overlap_fraction = 0.1;       ///< of the overlap removed a step at most (paper, 7.2), in [0, 1]
+  /// A repulsion gives at most this share of its impulse in one parallel update, in (0, 1]; never more than 1 / number
+  /// of interactions, which is what keeps energy from growing. The paper names both remedies and 0.25 (7.2); at 0.25 a
+  /// lone node at rest keeps 3/4 of its approach and sinks until section 7.4, which has no friction, stops it.
+  double relaxation = 1;
+  double friction_static = 0;            ///< Coulomb coefficient, dimensionless, >= friction_kinetic
+  double friction_kinetic = 0;           ///< Coulomb coefficient, dimensionless, >= 0
   bool repulsion = true;                 ///< section 7.2 and 7.3 at all
-  std::int32_t impulse_iterations = 10;  ///< rounds of section 7.4 before impact zones
-  std::int32_t zone_iterations = 20;     ///< rounds of section 7.5 before the fail-safe
+  std::int32_t impulse_iterations = 10;  ///< rounds of section 7.4 before impact zones, >= 0
+  std::int32_t zone_iterations = 20;     ///< rounds of section 7.5 before the fail-safe, >= 0
   enum class Precision { kFloat64, kFloat32 } precision = Precision::kFloat64;  ///< lattice that the result lies on
-  std::int32_t max_intervals = 4096;                                            ///< CcdOptions::max_intervals
+  std::int32_t max_intervals = 4096;                                            ///< CcdOptions::max_intervals, >= 1
 };
 
 /// What to do where cloth cannot avoid scripted bodies (S4).

@@ -24,7 +24,7 @@ Faces faces_of(const std::vector<std::array<VertexId, 3>>& list) {
 }  // namespace
 
 TEST(InputErrorText, EveryErrorSaysWhatToDo) {
-  for (int i = 0; i <= static_cast<int>(InputError::kBadTolerance); ++i) {
+  for (int i = 0; i <= static_cast<int>(InputError::kOffLattice); ++i) {
     EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error");
   }
 }
