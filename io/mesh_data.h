@@ -19,6 +19,8 @@ struct Group {
   std::string name;
   Role role = Role::kCloth;
   std::int32_t face_begin = 0, face_end = 0;
+
+  friend bool operator==(const Group&, const Group&) = default;
 };
 
 struct MeshData {

@@ -24,12 +24,14 @@ class SequenceReader {
   [[nodiscard]] virtual std::size_t frame_count() const = 0;
   [[nodiscard]] virtual SequenceKind kind() const = 0;
   [[nodiscard]] virtual Precision precision() const = 0;
+  /// Of the first frame, where faces may change: frame(i).groups are those of frame i.
   [[nodiscard]] virtual const std::vector<Group>& groups() const = 0;
   /// A name a person can find again: the file of frame i, or "FILE[i]".
   [[nodiscard]] virtual std::string frame_name(std::size_t frame) const = 0;
   /// Time of frame i in seconds, or i where the source has no times.
   [[nodiscard]] virtual double time(std::size_t frame) const = 0;
   /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
+  /// True for frame 0.
   [[nodiscard]] virtual bool same_faces_as_previous(std::size_t frame) const = 0;
   /// Throws Error. Checks shape, finiteness and, where the format has hashes, the hash.
   [[nodiscard]] virtual MeshData frame(std::size_t frame) const = 0;
@@ -46,17 +48,20 @@ struct SequenceHeader {
   std::string producer;  ///< program and version
 };
 
-/// Writes the folder format. Every file appears by atomic rename, so a killed run leaves a valid, shorter sequence.
-/// sequence.json is rewritten (atomically) after each frame: what it lists is complete and on disk.
+/// Writes the folder format (docs/formats.md). A frame appears by atomic rename and is listed, by one line appended to
+/// frames.jsonl, when it is on disk: a killed run leaves a valid, shorter sequence. O(frame) work and three fsyncs a
+/// frame, however many there are. A failed call throws Error, what was listed stays listed, and the next call may work.
 class SequenceWriter {
  public:
-  /// Creates the folder. Throws Error if it holds a sequence already, unless `resume`, which then continues behind the
-  /// frames it lists (and checks that header and faces are the same).
+  /// Creates the folder. Throws Error if another process writes to it, or if it holds a sequence already, unless
+  /// `resume`, which then continues behind the frames it lists (and checks that header and faces are the same).
   SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume = false);
   ~SequenceWriter();
+  /// Times increase; all frames have as many vertices as the first. With kFloat32 every value must be a float32.
   void append(double time_s, const Points& points);
   [[nodiscard]] std::size_t frame_count() const;
-  /// Forgets all frames from `count` on: a resumed run continues behind its checkpoint.
+  /// Forgets all frames from `count` on: a resumed run continues behind its checkpoint. Throws Error if fewer are
+  /// listed.
   void truncate(std::size_t count);
 
  private:

@@ -1,0 +1,154 @@
+// OBJ: what of it is a surface. Texture coordinates, normals and materials are skipped; lines, points and free-form
+// surfaces are refused, because a mesh without them would be checked in the name of one with them.
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "io/fail.h"
+#include "io/mesh_reader.h"
+#include "io/polygon.h"
+#include "io/text.h"
+
+namespace selvage::io {
+namespace {
+
+constexpr std::array<std::string_view, 7> kSkipped = {"vt", "vn", "s", "usemtl", "mtllib", "usemap", "maplib"};
+constexpr std::array<std::string_view, 4> kOfNumbers = {"v", "vt", "vn", "f"};
+
+bool is_one_of(std::string_view keyword, std::span<const std::string_view> keywords) {
+  return std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
+}
+
+/// A backslash ends a comment, a name or a path too, where it must not swallow the vertex on the next line.
+bool continues(std::string_view line) { return line.ends_with('\\') && is_one_of(next_token(line), kOfNumbers); }
+
+class ObjParser {
+ public:
+  ObjParser(std::string_view bytes, const std::string& name) : lines_(bytes, name), name_(name) {}
+
+  MeshData parse() {
+    while (const std::optional<std::string_view> line = next_statement()) parse_statement(*line);
+    if (mesh_.points.empty()) bad_input(name_, "no vertex; is this an OBJ file?");
+    if (mesh_.triangles.empty()) bad_input(name_, "no face; the file is cut short or holds no surface");
+    if (highest_corner_ > static_cast<std::int64_t>(mesh_.points.size())) {
+      bad_input_at_line(name_, highest_line_, out_of_range(std::to_string(highest_corner_)));
+    }
+    end_group();
+    return std::move(mesh_);
+  }
+
+ private:
+  /// A line; of numbers, joined with the next while it ends in a backslash.
+  std::optional<std::string_view> next_statement() {
+    std::optional<std::string_view> line = lines_.next();
+    if (!line || !continues(*line)) return line;
+    joined_.clear();
+    while (line && line->ends_with('\\')) {
+      joined_.append(line->substr(0, line->size() - 1)).push_back(' ');
+      if (joined_.size() > kLongestLine) lines_.fail("statement longer than a line may be; split it");
+      line = lines_.next();
+    }
+    if (!line) lines_.fail("the file ends behind a backslash; complete the line");
+    return joined_.append(*line);
+  }
+
+  void parse_statement(std::string_view rest) {
+    const std::string_view keyword = next_token(rest);
+    if (keyword.empty() || keyword[0] == '#') return;
+    if (keyword == "v") return parse_vertex(rest);
+    if (keyword == "f") return parse_face(rest);
+    if (keyword == "o" || keyword == "g") return begin_group(trimmed(rest));
+    if (is_one_of(keyword, kSkipped)) return;
+    lines_.fail(in_quotes(keyword) + " is not part of a surface; remove the line or export triangles");
+  }
+
+  /// x y z, x y z w with w = 1, or x y z and a colour.
+  void parse_vertex(std::string_view rest) {
+    std::array<double, 6> numbers = {};
+    std::size_t count = 0;
+    for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
+      if (count == numbers.size()) lines_.fail("a vertex has more than six numbers; give three");
+      const NumberFault fault = parse_number(token, numbers[count++]);
+      if (fault != NumberFault::kNone) lines_.fail(describe(fault, token));
+    }
+    if (count != 3 && count != 6 && !(count == 4 && numbers[3] == 1)) {
+      lines_.fail("a vertex has " + std::to_string(count) + " numbers; give three");
+    }
+    if (mesh_.points.size() == kMostElements) lines_.fail("more than 2^31 vertices; split the mesh");
+    mesh_.points.push_back({numbers[0], numbers[1], numbers[2]});
+  }
+
+  void parse_face(std::string_view rest) {
+    corners_.clear();
+    for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
+      corners_.push_back(parse_corner(token));
+    }
+    const std::string fault = append_fan(corners_, mesh_.triangles);
+    if (!fault.empty()) lines_.fail(fault);
+  }
+
+  /// v, v/vt, v//vn or v/vt/vn; the vertex counted from 1, or backwards from -1.
+  std::int32_t parse_corner(std::string_view token) {
+    const std::size_t slash = token.find('/');
+    const std::optional<std::int64_t> index = parse_integer(token.substr(0, slash));
+    if (!index || !attributes_are_integers(slash == token.npos ? "" : token.substr(slash + 1))) {
+      lines_.fail(in_quotes(token) + " is not v, v/vt, v//vn or v/vt/vn; correct the corner");
+    }
+    const auto count = static_cast<std::int64_t>(mesh_.points.size());
+    const bool backwards = *index < 0;
+    if (*index == 0 || *index < -count || *index > static_cast<std::int64_t>(kMostElements)) {
+      lines_.fail(out_of_range(in_quotes(token)));
+    }
+    if (*index > highest_corner_) {  // it may be defined further down
+      highest_corner_ = *index;
+      highest_line_ = lines_.line();
+    }
+    return static_cast<std::int32_t>(backwards ? count + *index : *index - 1);
+  }
+
+  /// "", "vt", "/vn" or "vt/vn".
+  static bool attributes_are_integers(std::string_view text) {
+    const std::size_t slash = text.find('/');
+    const std::string_view texture = text.substr(0, slash);
+    if (!texture.empty() && !parse_integer(texture)) return false;
+    return slash == text.npos || parse_integer(text.substr(slash + 1)).has_value();
+  }
+
+  std::string out_of_range(const std::string& index) const {
+    return "vertex " + index + " of " + std::to_string(mesh_.points.size()) + "; correct the index";
+  }
+
+  void begin_group(std::string_view group_name) {
+    if (!is_utf8(group_name)) lines_.fail("the name is not UTF-8; save the file as UTF-8");
+    if (mesh_.groups.empty() && !mesh_.triangles.empty()) {
+      mesh_.groups.push_back({.name = "default"});  // OBJ's own name for what precedes the first group
+    }
+    end_group();
+    const auto begin = static_cast<std::int32_t>(mesh_.triangles.size());
+    mesh_.groups.push_back({.name = std::string(group_name), .face_begin = begin});
+  }
+
+  /// Ends the open group here; an empty one ("o" followed by "g") is dropped.
+  void end_group() {
+    if (mesh_.groups.empty()) return;
+    mesh_.groups.back().face_end = static_cast<std::int32_t>(mesh_.triangles.size());
+    if (mesh_.groups.back().face_begin == mesh_.groups.back().face_end) mesh_.groups.pop_back();
+  }
+
+  LineReader lines_;
+  std::string name_;
+  std::string joined_;
+  std::vector<std::int32_t> corners_;
+  std::int64_t highest_corner_ = 0;  ///< counted from 1
+  std::size_t highest_line_ = 0;
+  MeshData mesh_;
+};
+
+}  // namespace
+
+MeshData parse_obj(std::string_view bytes, const std::string& name) { return ObjParser(bytes, name).parse(); }
+
+}  // namespace selvage::io

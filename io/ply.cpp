@@ -1,0 +1,279 @@
+// PLY: the elements "vertex" (x, y, z) and "face" (vertex_indices); other properties and elements are skipped.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "io/byte_order.h"
+#include "io/fail.h"
+#include "io/mesh_reader.h"
+#include "io/ply_header.h"
+#include "io/polygon.h"
+#include "io/text.h"
+
+namespace selvage::io {
+namespace {
+
+/// Values written as text, one record a line.
+class AsciiRecords {
+ public:
+  explicit AsciiRecords(LineReader& lines) : lines_(lines) {}
+
+  void begin_record() {
+    do {
+      const std::optional<std::string_view> line = lines_.next();
+      if (!line) fail("records are missing; the file is cut short");
+      record_ = trimmed(*line);
+    } while (record_.empty());
+  }
+  void end_record() {
+    if (!trimmed(record_).empty()) fail("the record has more values than properties; correct it");
+  }
+  void end_data() {
+    while (const std::optional<std::string_view> line = lines_.next()) {
+      if (!trimmed(*line).empty()) fail("more records than the header announces; correct the count");
+    }
+  }
+
+  double real(PlyType type) {
+    if (is_integer(type)) return static_cast<double>(integer(type));
+    const std::string_view token = next_value();
+    double value = 0;
+    float single = 0;
+    const NumberFault fault = type == PlyType::kFloat32 ? parse_number(token, single) : parse_number(token, value);
+    if (fault != NumberFault::kNone) fail(describe(fault, token));
+    return type == PlyType::kFloat32 ? double{single} : value;
+  }
+  std::int64_t integer(PlyType type) {
+    const std::string_view token = next_value();
+    const std::optional<std::int64_t> value = parse_integer(token);
+    const unsigned bits = static_cast<unsigned>(8 * size_of(type));
+    const bool is_signed = type == PlyType::kInt8 || type == PlyType::kInt16 || type == PlyType::kInt32;
+    const std::int64_t high = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
+    const std::int64_t low = is_signed ? -high - 1 : 0;
+    if (!value || *value < low || *value > high) fail(in_quotes(token) + " is no integer of its type; correct it");
+    return *value;
+  }
+  void skip(PlyType, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) next_value();
+  }
+  /// Most items that a list of this record can still have.
+  [[nodiscard]] std::size_t most_items(PlyType) const { return record_.size(); }
+
+  [[noreturn]] void fail(std::string_view what) const { lines_.fail(what); }
+
+ private:
+  std::string_view next_value() {
+    const std::string_view token = next_token(record_);
+    if (token.empty()) fail("the record has fewer values than properties; correct it");
+    return token;
+  }
+
+  LineReader& lines_;
+  std::string_view record_;
+};
+
+/// Values in binary, without separators.
+class BinaryRecords {
+ public:
+  BinaryRecords(std::string_view bytes, std::size_t offset, std::string_view name, std::endian order)
+      : bytes_(bytes), offset_(offset), name_(name), order_(order) {}
+
+  void begin_record() {}
+  void end_record() {}
+  void end_data() {
+    if (offset_ != bytes_.size()) fail("bytes follow the last record; correct the counts");
+  }
+
+  double real(PlyType type) {
+    if (is_integer(type)) return static_cast<double>(integer(type));
+    const double value = type == PlyType::kFloat32 ? double{take<float>()} : take<double>();
+    if (!std::isfinite(value)) fail("a coordinate is not finite; repair the export");
+    return value;
+  }
+  std::int64_t integer(PlyType type) {
+    switch (type) {
+      case PlyType::kInt8:
+        return take<std::int8_t>();
+      case PlyType::kUint8:
+        return take<std::uint8_t>();
+      case PlyType::kInt16:
+        return take<std::int16_t>();
+      case PlyType::kUint16:
+        return take<std::uint16_t>();
+      case PlyType::kInt32:
+        return take<std::int32_t>();
+      default:
+        return take<std::uint32_t>();
+    }
+  }
+  void skip(PlyType type, std::int64_t count) {
+    const auto needed = static_cast<std::uint64_t>(count) * size_of(type);  // below 2^32 times 8
+    require(needed);
+    offset_ += needed;
+  }
+  [[nodiscard]] std::size_t most_items(PlyType type) const { return (bytes_.size() - offset_) / size_of(type); }
+
+  [[noreturn]] void fail(std::string_view what) const { bad_input_at_byte(name_, offset_, what); }
+
+ private:
+  template <typename T>
+  T take() {
+    require(sizeof(T));
+    const T value = load<T>(bytes_.data() + offset_, order_);
+    offset_ += sizeof(T);
+    return value;
+  }
+  void require(std::uint64_t count) const {
+    if (count > bytes_.size() - offset_) fail("records are missing; the file is cut short");
+  }
+
+  std::string_view bytes_;
+  std::size_t offset_;
+  std::string_view name_;
+  std::endian order_;
+};
+
+template <typename Records>
+void skip_property(Records& records, const PlyProperty& property) {
+  std::int64_t count = 1;
+  if (property.list_count) count = records.integer(*property.list_count);
+  if (count < 0) records.fail("a list has a negative count; correct it");
+  records.skip(property.type, count);
+}
+
+template <typename Records>
+void read_vertices(Records& records, const PlyElement& element, const std::array<std::size_t, 3>& axes,
+                   MeshData& mesh) {
+  mesh.points.reserve(element.count);  // believable: the header was checked against the bytes
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    std::array<double, 3> point = {};
+    records.begin_record();
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const auto axis = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), p) - axes.begin());
+      if (axis < 3) {
+        point[axis] = records.real(element.properties[p].type);
+      } else {
+        skip_property(records, element.properties[p]);
+      }
+    }
+    records.end_record();
+    mesh.points.push_back(point);
+  }
+}
+
+template <typename Records>
+void read_faces(Records& records, const PlyElement& element, std::size_t list, std::uint64_t vertex_count,
+                MeshData& mesh) {
+  std::vector<std::int32_t> corners;
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    records.begin_record();
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      if (p != list) {
+        skip_property(records, property);
+        continue;
+      }
+      const std::int64_t count = records.integer(*property.list_count);
+      if (count < 0) records.fail("a face has a negative number of corners; correct it");
+      if (static_cast<std::uint64_t>(count) > records.most_items(property.type)) {
+        records.fail("a face has fewer corners than it announces; the file is cut short");
+      }
+      corners.clear();
+      for (std::int64_t k = 0; k < count; ++k) {
+        const std::int64_t index = records.integer(property.type);
+        if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count) {
+          records.fail("vertex " + std::to_string(index) + " of " + std::to_string(vertex_count) +
+                       " (counted from 0); correct the index");
+        }
+        corners.push_back(static_cast<std::int32_t>(index));
+      }
+      const std::string fault = append_fan(corners, mesh.triangles);
+      if (!fault.empty()) records.fail(fault);
+    }
+    records.end_record();
+  }
+}
+
+/// What to read of the elements, found in the header.
+struct PlyLayout {
+  const PlyElement* vertex = nullptr;
+  const PlyElement* face = nullptr;
+  std::array<std::size_t, 3> axes = {};
+  std::size_t corner_list = 0;
+};
+
+const PlyElement* find_element(const LineReader& lines, const PlyHeader& header, std::string_view name) {
+  const PlyElement* found = nullptr;
+  for (const PlyElement& element : header.elements) {
+    if (element.name != name) continue;
+    if (found != nullptr) lines.fail_at(element.line, "a second element " + in_quotes(name) + "; remove it");
+    found = &element;
+  }
+  return found;
+}
+
+PlyLayout find_layout(const LineReader& lines, const PlyHeader& header) {
+  for (const std::string_view unread : {"tristrips", "edge"}) {
+    const PlyElement* element = find_element(lines, header, unread);
+    if (element != nullptr && element->count > 0) {
+      lines.fail_at(element->line, in_quotes(unread) + " is not supported; export polygons only");
+    }
+  }
+  PlyLayout layout;
+  layout.vertex = find_element(lines, header, "vertex");
+  layout.face = find_element(lines, header, "face");
+  if (layout.vertex == nullptr) lines.fail("no element \"vertex\"; is this a mesh?");
+  if (layout.face == nullptr) lines.fail("no element \"face\"; export the surface, not the points");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::optional<std::size_t> property = layout.vertex->find({std::string_view("xyz").substr(axis, 1)});
+    if (!property || layout.vertex->properties[*property].list_count) {
+      lines.fail_at(layout.vertex->line, "the vertices have no numbers x, y, z; add them");
+    }
+    layout.axes[axis] = *property;
+  }
+  const std::optional<std::size_t> list = layout.face->find({"vertex_indices", "vertex_index"});
+  if (!list || !layout.face->properties[*list].list_count || !is_integer(layout.face->properties[*list].type)) {
+    lines.fail_at(layout.face->line, "the faces have no list of integers \"vertex_indices\"; add it");
+  }
+  layout.corner_list = *list;
+  return layout;
+}
+
+template <typename Records>
+MeshData read_elements(Records records, const PlyHeader& header, const PlyLayout& layout) {
+  MeshData mesh;
+  for (const PlyElement& element : header.elements) {
+    if (&element == layout.vertex) {
+      read_vertices(records, element, layout.axes, mesh);
+    } else if (&element == layout.face) {
+      read_faces(records, element, layout.corner_list, layout.vertex->count, mesh);
+    } else {
+      for (std::uint64_t i = 0; i < element.count; ++i) {
+        records.begin_record();
+        for (const PlyProperty& property : element.properties) skip_property(records, property);
+        records.end_record();
+      }
+    }
+  }
+  records.end_data();
+  const auto is_single = [&](std::size_t p) { return layout.vertex->properties[p].type == PlyType::kFloat32; };
+  const bool all_single = std::all_of(layout.axes.begin(), layout.axes.end(), is_single);
+  mesh.precision = all_single ? Precision::kFloat32 : Precision::kFloat64;
+  return mesh;
+}
+
+}  // namespace
+
+MeshData parse_ply(std::string_view bytes, const std::string& name) {
+  LineReader lines(bytes, name);
+  const PlyHeader header = parse_ply_header(lines);
+  const PlyLayout layout = find_layout(lines, header);
+  if (header.format == PlyFormat::kAscii) return read_elements(AsciiRecords(lines), header, layout);
+  const std::endian order = header.format == PlyFormat::kBigEndian ? std::endian::big : std::endian::little;
+  return read_elements(BinaryRecords(bytes, bytes.size() - lines.rest().size(), name, order), header, layout);
+}
+
+}  // namespace selvage::io

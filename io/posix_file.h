@@ -1,0 +1,44 @@
+// A POSIX file that is always closed, with every return value checked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "io/error.h"
+
+namespace selvage::io {
+
+/// Owns a descriptor. Every function throws Error(kFile) with the path when the system call fails.
+class PosixFile {
+ public:
+  /// `flags` and `mode` as for open(2); O_CLOEXEC is added.
+  PosixFile(std::filesystem::path path, int flags, unsigned mode = 0666);
+  PosixFile(PosixFile&& other) noexcept;
+  PosixFile& operator=(PosixFile&& other) noexcept;
+  ~PosixFile();
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Bytes in it now; 0 for a pipe.
+  [[nodiscard]] std::uint64_t size() const;
+  /// Up to `count` bytes from the current position; less only at the end of the file.
+  [[nodiscard]] std::size_t read_some(char* bytes, std::size_t count) const;
+  /// Exactly `count` bytes from `offset`; may be called from several threads.
+  void read_at(std::uint64_t offset, char* bytes, std::size_t count) const;
+  void write(std::string_view bytes) const;
+  /// On disk when it returns: fsync.
+  void sync() const;
+  /// Reports what close(2) says; the destructor cannot.
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+/// Makes the names in `folder` durable: a rename is on disk only after this.
+void sync_folder(const std::filesystem::path& folder);
+
+}  // namespace selvage::io

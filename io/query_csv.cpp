@@ -1,0 +1,74 @@
+#include "io/query_csv.h"
+
+#include <optional>
+#include <string>
+
+#include "io/atomic_file.h"
+#include "io/fail.h"
+#include "io/rational.h"
+#include "io/text.h"
+
+namespace selvage::io {
+namespace {
+
+constexpr std::size_t kRowsPerQuery = 8;
+
+/// The columns of one line; at most 8, which is one too many.
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> columns;
+  while (columns.size() < 8) {
+    const std::size_t comma = line.find(',');
+    columns.push_back(trimmed(line.substr(0, comma)));
+    if (comma == line.npos) break;
+    line.remove_prefix(comma + 1);
+  }
+  return columns;
+}
+
+double parse_coordinate(const LineReader& lines, std::string_view numerator, std::string_view denominator) {
+  double value = 0;
+  const RationalFault fault = parse_rational(numerator, denominator, value);
+  if (fault == RationalFault::kNone) return value;
+  const std::string rational = in_quotes(numerator) + " / " + in_quotes(denominator);
+  if (fault == RationalFault::kZeroDenominator) lines.fail(rational + " has the denominator zero; correct it");
+  if (fault == RationalFault::kSyntax) lines.fail(rational + " is no integer over a positive integer; correct it");
+  lines.fail(rational + " is not exactly a double; write the rational of the stored double");
+}
+
+std::optional<bool> parse_truth(const LineReader& lines, const std::vector<std::string_view>& columns) {
+  if (columns.size() == 6) return std::nullopt;
+  if (columns[6] != "0" && columns[6] != "1") lines.fail("the truth is " + in_quotes(columns[6]) + "; write 0 or 1");
+  return columns[6] == "1";
+}
+
+}  // namespace
+
+std::vector<CcdQuery> parse_query_csv(std::string_view bytes, const std::string& name) {
+  std::vector<CcdQuery> queries;
+  std::size_t row = 0, column_count = 0;
+  LineReader lines(bytes, name);
+  while (const std::optional<std::string_view> line = lines.next()) {
+    const std::vector<std::string_view> columns = split(*line);
+    if (column_count == 0) column_count = columns.size();
+    if (columns.size() != column_count || column_count < 6 || column_count > 7) {
+      lines.fail("a row has three rationals (six columns) and maybe the truth, the same in all rows; correct it");
+    }
+    const std::optional<bool> truth = parse_truth(lines, columns);
+    if (row == 0) queries.push_back({.points = {}, .truth = truth});
+    if (queries.back().truth != truth)
+      lines.fail("the truth differs from the one above it in the same query; correct it");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      queries.back().points[row][axis] = parse_coordinate(lines, columns[2 * axis], columns[2 * axis + 1]);
+    }
+    row = (row + 1) % kRowsPerQuery;
+  }
+  if (queries.empty()) bad_input(name, "no query; is this a query file?");
+  if (row != 0) lines.fail("the last query has " + std::to_string(row) + " of its 8 rows; the file is cut short");
+  return queries;
+}
+
+std::vector<CcdQuery> read_query_csv(const std::filesystem::path& file) {
+  return parse_query_csv(read_file(file), file.string());
+}
+
+}  // namespace selvage::io

@@ -1,0 +1,22 @@
+// The readers behind open_sequence(), one a source.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "io/sequence.h"
+
+namespace selvage::io {
+
+/// A folder with sequence.json: docs/formats.md.
+[[nodiscard]] std::unique_ptr<SequenceReader> open_folder_sequence(const std::filesystem::path& folder);
+/// Mesh files, one a frame. All are read once here: a damaged frame is found before work starts on the first.
+[[nodiscard]] std::unique_ptr<SequenceReader> open_mesh_files(std::vector<std::filesystem::path> files);
+
+/// Throws Error if a triangle names a vertex that is not there.
+void check_indices(const Triangles& triangles, std::size_t vertex_count, const std::string& name);
+/// Throws Error unless the groups lie within the faces.
+void check_groups(const std::vector<Group>& groups, std::size_t face_count, const std::string& name);
+
+}  // namespace selvage::io

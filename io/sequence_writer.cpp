@@ -1,0 +1,187 @@
+// Writes the sequence folder. Order on disk: a frame's file is renamed and synced before its line is appended and
+// synced, and the header appears last, so that whatever is listed is there at any instant of a kill.
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include "io/atomic_file.h"
+#include "io/checksum.h"
+#include "io/fail.h"
+#include "io/npy.h"
+#include "io/posix_file.h"
+#include "io/sequence.h"
+#include "io/sequence_json.h"
+#include "io/sequence_readers.h"
+#include "io/text.h"
+
+namespace selvage::io {
+namespace fs = std::filesystem;
+namespace {
+
+std::string frame_file(std::size_t index) {
+  const std::string number = std::to_string(index);
+  return "frame_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".npy";
+}
+
+void check_header(const SequenceHeader& header, const std::string& name) {
+  for (const auto& corners : header.triangles) {
+    const bool repeated = corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+    if (repeated || *std::min_element(corners.begin(), corners.end()) < 0) {
+      bad_input(name, "a face repeats a vertex or has a negative index; correct the faces");
+    }
+  }
+  check_groups(header.groups, header.triangles.size(), name);
+  bool is_text = is_utf8(header.producer);
+  for (const Group& group : header.groups) is_text = is_text && is_utf8(group.name);
+  if (!is_text) bad_input(name, "a group's name or the producer is not UTF-8; rename it");
+}
+
+/// One writer a folder: the lock goes with the process, however it ends.
+PosixFile lock_folder(const fs::path& folder) {
+  PosixFile handle(folder, O_RDONLY | O_DIRECTORY);
+  if (::flock(handle.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    throw Error(ErrorKind::kFile, folder.string() + ": another run writes to this folder; choose another");
+  }
+  return handle;
+}
+
+fs::path create_folder(const fs::path& folder) {
+  std::error_code status;
+  fs::create_directories(folder, status);
+  if (status) file_error(folder.string(), "create", status.value());
+  return folder;
+}
+
+/// What killed runs left of this folder's own files, and of nobody else's.
+void remove_temporaries(const fs::path& folder) {
+  std::error_code status;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
+    const std::string file = entry.path().filename().string();
+    const bool is_ours = file.starts_with("frame_") || file.starts_with(kHeaderFile) || file.starts_with(kFacesFile) ||
+                         file.starts_with(kFramesFile);
+    if (is_ours && is_temporary_name(file)) fs::remove(entry.path(), status);
+  }
+}
+
+SequenceDescription describe(const SequenceHeader& header, std::uint32_t faces_crc32) {
+  return {header.producer, header.kind, header.precision, header.groups, std::string(kFacesFile), faces_crc32};
+}
+
+}  // namespace
+
+struct SequenceWriter::Impl {
+  Impl(const fs::path& where, const SequenceHeader& header, bool resume)
+      : folder(create_folder(where)), lock(lock_folder(folder)), precision(header.precision) {
+    check_header(header, folder.string());
+    for (const auto& corners : header.triangles) {
+      for (const std::int32_t vertex : corners) {
+        fewest_vertices = std::max(fewest_vertices, static_cast<std::size_t>(vertex) + 1);
+      }
+    }
+    remove_temporaries(folder);
+    std::error_code status;
+    if (!fs::exists(folder / kHeaderFile, status)) {
+      begin(header);
+    } else if (resume) {
+      continue_from(header);
+    } else {
+      throw Error(ErrorKind::kFile, folder.string() + ": holds a sequence already; remove it, or resume it");
+    }
+  }
+
+  void begin(const SequenceHeader& header) {
+    const std::string faces = npy_bytes(header.triangles);
+    write_atomically(folder / kFacesFile, faces);
+    rewrite_list();
+    write_atomically(folder / kHeaderFile, to_json(describe(header, crc32(faces))));
+  }
+
+  void continue_from(const SequenceHeader& header) {
+    const fs::path header_file = folder / kHeaderFile, faces_file = folder / kFacesFile,
+                   list_file = folder / kFramesFile;
+    const std::string faces = npy_bytes(header.triangles);
+    if (read_file(header_file) != to_json(describe(header, crc32(faces))) || read_file(faces_file) != faces) {
+      bad_input(folder.string(), "was recorded with other faces, groups or settings; resume what was started here");
+    }
+    frames = parse_frame_list(read_file(list_file), list_file.string());
+    if (!frames.empty()) {
+      const fs::path first = folder / frames.front().file;
+      vertex_count = parse_npy_points(read_file(first), first.string()).points.size();
+    }
+    rewrite_list();
+  }
+
+  /// Atomically; drops the torn line that a kill or a failed append has left, and the frames that were truncated.
+  void rewrite_list() {
+    std::string text;
+    for (const FrameRecord& frame : frames) text += to_json(frame);
+    write_atomically(folder / kFramesFile, text);
+    list.emplace(folder / kFramesFile, O_WRONLY | O_APPEND);
+  }
+
+  void append(double time_s, const Points& points) {
+    const fs::path file = folder / frame_file(frames.size());
+    check_frame(time_s, points, file.string());
+    if (!list) rewrite_list();
+    const std::string bytes = npy_bytes(points, precision, file.string());
+    write_atomically(file, bytes);
+    FrameRecord record = {file.filename().string(), time_s, crc32(bytes)};
+    PosixFile open_list = *std::exchange(list, std::nullopt);  // comes back only if the line is whole and on disk
+    open_list.write(to_json(record));
+    open_list.sync();
+    list = std::move(open_list);
+    frames.push_back(std::move(record));
+    vertex_count = points.size();
+  }
+
+  void check_frame(double time_s, const Points& points, const std::string& name) const {
+    if (!std::isfinite(time_s) || (!frames.empty() && !(time_s > frames.back().time_s))) {
+      bad_input(name, "the frame is not later than the one before; append frames in order");
+    }
+    if (points.size() < fewest_vertices || (vertex_count && points.size() != *vertex_count)) {
+      bad_input(name, std::to_string(points.size()) +
+                          " vertices do not match the faces or the frames before; append one mesh");
+    }
+    for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
+      const auto is_finite = [](double x) { return std::isfinite(x); };
+      if (std::all_of(points[vertex].begin(), points[vertex].end(), is_finite)) continue;
+      bad_input(name, "vertex " + std::to_string(vertex) + " is not finite; the run has failed");
+    }
+  }
+
+  void truncate(std::size_t count) {
+    if (count > frames.size()) {
+      bad_input(folder.string(), "lists " + std::to_string(frames.size()) + " frames, " + std::to_string(count) +
+                                     " are needed; start again");
+    }
+    std::vector<FrameRecord> dropped(frames.begin() + static_cast<std::ptrdiff_t>(count), frames.end());
+    frames.resize(count);
+    if (frames.empty()) vertex_count.reset();
+    rewrite_list();
+    std::error_code status;
+    for (const FrameRecord& frame : dropped) fs::remove(folder / frame.file, status);
+  }
+
+  fs::path folder;
+  PosixFile lock;
+  Precision precision;
+  std::size_t fewest_vertices = 0;  ///< that the faces need
+  std::optional<std::size_t> vertex_count;
+  std::vector<FrameRecord> frames;
+  std::optional<PosixFile> list;  ///< open for appending; absent after a failure
+};
+
+SequenceWriter::SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume)
+    : impl_(std::make_unique<Impl>(folder, header, resume)) {}
+SequenceWriter::~SequenceWriter() = default;
+void SequenceWriter::append(double time_s, const Points& points) { impl_->append(time_s, points); }
+std::size_t SequenceWriter::frame_count() const { return impl_->frames.size(); }
+void SequenceWriter::truncate(std::size_t count) { impl_->truncate(count); }
+
+}  // namespace selvage::io

@@ -1,0 +1,109 @@
+#include "io/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include "io/fail.h"
+
+namespace selvage::io {
+namespace {
+
+constexpr std::string_view kBlanks = " \t";
+
+/// std::from_chars takes no leading '+'.
+std::string_view without_plus(std::string_view token) {
+  if (token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+') token.remove_prefix(1);
+  return token;
+}
+
+template <typename Real>
+NumberFault parse_real(std::string_view token, Real& value) {
+  token = without_plus(token);
+  const char* end = token.data() + token.size();
+  const std::from_chars_result result = std::from_chars(token.data(), end, value);
+  if (result.ec == std::errc::invalid_argument || result.ptr != end) return NumberFault::kSyntax;
+  if (result.ec == std::errc::result_out_of_range) return NumberFault::kOutOfRange;
+  return std::isfinite(value) ? NumberFault::kNone : NumberFault::kNotFinite;
+}
+
+}  // namespace
+
+std::optional<std::string_view> LineReader::next() {
+  if (rest_.empty()) return std::nullopt;
+  ++next_line_;
+  const std::size_t length = rest_.substr(0, kLongestLine + 1).find('\n');
+  if (length == std::string_view::npos && rest_.size() > kLongestLine) {
+    fail("line longer than " + std::to_string(kLongestLine) + " bytes; is this a text file?");
+  }
+  std::string_view line = rest_.substr(0, length);
+  rest_.remove_prefix(length == std::string_view::npos ? rest_.size() : length + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+void LineReader::fail_at(std::size_t line, std::string_view what) const { bad_input_at_line(name_, line, what); }
+
+std::string_view next_token(std::string_view& text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return text = {};
+  const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+  const std::string_view token = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return token;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+NumberFault parse_number(std::string_view token, double& value) { return parse_real(token, value); }
+NumberFault parse_number(std::string_view token, float& value) { return parse_real(token, value); }
+
+std::string describe(NumberFault fault, std::string_view token) {
+  switch (fault) {
+    case NumberFault::kNotFinite:
+      return in_quotes(token) + " is not finite; repair the export";
+    case NumberFault::kOutOfRange:
+      return in_quotes(token) + " is outside the range of the number type; rescale it";
+    default:
+      return in_quotes(token) + " is not a decimal number; correct it";
+  }
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view token) {
+  token = without_plus(token);
+  std::int64_t value = 0;
+  const char* end = token.data() + token.size();
+  const std::from_chars_result result = std::from_chars(token.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    if (lead < 0x80) continue;
+    const int following = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
+    if (lead < 0xc2 || lead > 0xf4) return false;  // continuation, overlong, or beyond U+10FFFF
+    for (int k = 0; k < following; ++k, ++i) {
+      if (i == text.size()) return false;
+      const auto byte = static_cast<unsigned char>(text[i]);
+      unsigned low = 0x80, high = 0xbf;
+      if (k == 0) {  // the second byte excludes overlong forms, surrogates and numbers beyond U+10FFFF
+        if (lead == 0xe0) low = 0xa0;
+        if (lead == 0xed) high = 0x9f;
+        if (lead == 0xf0) low = 0x90;
+        if (lead == 0xf4) high = 0x8f;
+      }
+      if (byte < low || byte > high) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace selvage::io

@@ -1,0 +1,56 @@
+// Lines, tokens and numbers of text files: locale-free, correctly rounded, bounded.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace selvage::io {
+
+/// Longest line any text format may hold: a polygon of some 100,000 corners.
+inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+
+/// Walks through `bytes` line by line; LF and CRLF end a line, the last may have no end.
+class LineReader {
+ public:
+  /// `bytes` must outlive the reader. `name` appears in errors.
+  LineReader(std::string_view bytes, std::string_view name, std::size_t first_line = 1)
+      : rest_(bytes), name_(name), next_line_(first_line) {}
+
+  /// The next line without its end; nothing behind the last. Throws Error above kLongestLine.
+  std::optional<std::string_view> next();
+  /// Number of the line that next() gave last.
+  [[nodiscard]] std::size_t line() const { return next_line_ - 1; }
+  /// What no next() has given yet.
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+  /// Throws Error at this line, or at `line`.
+  [[noreturn]] void fail(std::string_view what) const { fail_at(line(), what); }
+  [[noreturn]] void fail_at(std::size_t line, std::string_view what) const;
+
+ private:
+  std::string_view rest_, name_;
+  std::size_t next_line_;
+};
+
+/// Cuts the next token (separated by blanks and tabs) off `text`; empty at the end.
+std::string_view next_token(std::string_view& text);
+/// `text` without blanks and tabs at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+enum class NumberFault { kNone, kSyntax, kNotFinite, kOutOfRange };
+/// The double nearest to a decimal number ("1", "+.5", "-1e-3"); no hexadecimal, no locale. Where the nearest is
+/// infinity, or zero for a number that is not, that is kOutOfRange.
+NumberFault parse_number(std::string_view token, double& value);
+/// The same for float: rounded once, not through double.
+NumberFault parse_number(std::string_view token, float& value);
+/// What to tell the user about `fault` in `token`.
+[[nodiscard]] std::string describe(NumberFault fault, std::string_view token);
+
+/// A decimal integer with an optional sign; nothing if it is none or does not fit.
+[[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view token);
+
+[[nodiscard]] bool is_utf8(std::string_view text);
+
+}  // namespace selvage::io

@@ -1,0 +1,117 @@
+#include "io/atomic_file.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include "tests/io/support.h"
+
+namespace selvage::io {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::expect_error;
+using testing::read_plainly;
+using testing::TemporaryFolder;
+using testing::write_plainly;
+
+std::size_t entries(const TemporaryFolder& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
+}
+
+TEST(AtomicFile, BytesComeBack) {
+  const TemporaryFolder folder;
+  std::string bytes;
+  for (int i = 0; i < 300'000; ++i) bytes += static_cast<char>(i * 7 + i / 256);
+  write_atomically(folder / "a", bytes);
+  EXPECT_EQ(read_file(folder / "a"), bytes);
+  write_atomically(folder / "a", "");
+  EXPECT_EQ(read_file(folder / "a"), "");
+  EXPECT_EQ(entries(folder), 1u) << "a temporary file is left";
+}
+
+TEST(AtomicFile, LinkIsFollowed) {
+  const TemporaryFolder folder;
+  write_plainly(folder / "target", "old");
+  fs::create_symlink(folder / "target", folder / "link");
+  write_atomically(folder / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(read_plainly(folder / "target"), "new");
+}
+
+TEST(AtomicFile, FailureLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  expect_error(ErrorKind::kFile, "No such file", [&] { write_atomically(folder / "missing/a", "x"); });
+  // The folder "taken" is in the way of the rename.
+  fs::create_directories(folder / "taken/inside");
+  expect_error(ErrorKind::kFile, "taken", [&] { write_atomically(folder / "taken", "x"); });
+  EXPECT_TRUE(fs::is_directory(folder / "taken/inside"));
+  EXPECT_EQ(entries(folder), 1u) << "a temporary file is left";
+}
+
+/// Runs `action` in a child that is not root: root may write everywhere.
+void run_as_nobody(const std::function<void()>& action) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && ::setuid(kNobody) != 0) ::_exit(2);
+    action();
+    ::_exit(::testing::Test::HasFailure() ? 1 : 0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+}
+
+TEST(AtomicFile, UnwritableFolderLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  write_plainly(folder / "a", "old");
+  fs::permissions(folder.path(),
+                  fs::perms::others_read | fs::perms::others_exec | fs::perms::owner_read | fs::perms::owner_exec);
+  run_as_nobody([&] {
+    expect_error(ErrorKind::kFile, "Permission denied; check the permissions",
+                 [&] { write_atomically(folder / "a", "new"); });
+  });
+  fs::permissions(folder.path(), fs::perms::owner_all);
+  EXPECT_EQ(read_plainly(folder / "a"), "old");
+}
+
+TEST(AtomicFile, FullDeviceIsAnErrorAndTheDeviceStays) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  expect_error(ErrorKind::kFile, "No space left", [] { write_atomically("/dev/full", "x"); });
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(AtomicFile, ReadRefusesWhatHasNoEnd) {
+  const TemporaryFolder folder;
+  write_plainly(folder / "a", "12345");
+  EXPECT_EQ(read_file(folder / "a", 5), "12345");
+  expect_error(ErrorKind::kBadInput, "larger than 4", [&] { (void)read_file(folder / "a", 4); });
+  expect_error(ErrorKind::kFile, "directory", [&] { (void)read_file(folder.path()); });
+  expect_error(ErrorKind::kFile, "device", [] { (void)read_file("/dev/zero"); });
+  expect_error(ErrorKind::kFile, "No such file", [&] { (void)read_file(folder / "b"); });
+}
+
+TEST(AtomicFile, ReadTakesAPipe) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string bytes(200'000, 'p');
+  std::thread writer([&] { write_atomically(pipe, bytes); });
+  EXPECT_EQ(read_file(pipe), bytes);
+  writer.join();
+}
+
+TEST(AtomicFile, TemporaryNamesAreKnown) {
+  EXPECT_TRUE(is_temporary_name("frame_000000.npy.tmp-123"));
+  EXPECT_FALSE(is_temporary_name("frame_000000.npy"));
+  EXPECT_FALSE(is_temporary_name("frame.tmp-"));
+  EXPECT_FALSE(is_temporary_name("frame.tmp-12a"));
+  EXPECT_FALSE(is_temporary_name(".tmp-12"));
+}
+
+}  // namespace
+}  // namespace selvage::io

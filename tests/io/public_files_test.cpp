@@ -1,0 +1,80 @@
+// The public files, read whole: figures as published with them.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "io/mesh_reader.h"
+#include "io/query_csv.h"
+#include "io/sequence.h"
+#include "tests/public_data.h"
+
+namespace selvage::io {
+namespace {
+
+class PublicFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto folder = selvage::testing::public_data();
+    if (!folder) GTEST_SKIP() << "no public data";
+    data_ = *folder;
+  }
+  std::filesystem::path data_;
+};
+
+TEST_F(PublicFiles, BigEndianFloatFramesOfClothBall) {
+  const std::filesystem::path frames = data_ / "ccd/scalable-ccd/cloth-ball/frames";
+  const auto reader = open_sequence({frames / "cloth_ball92.ply", frames / "cloth_ball93.ply"});
+  EXPECT_TRUE(reader->same_faces_as_previous(1));
+  EXPECT_EQ(reader->precision(), Precision::kFloat32);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const MeshData mesh = reader->frame(i);
+    EXPECT_EQ(mesh.points.size(), 46'598u);
+    EXPECT_EQ(mesh.triangles.size(), 92'230u);
+    for (const auto& point : mesh.points) {
+      // Metres; a byte order mixed up would give values all over the range of float.
+      for (const double x : point) EXPECT_LT(std::abs(x), 10.0);
+    }
+  }
+}
+
+TEST_F(PublicFiles, LittleEndianDoubleFramesOfRodTwist) {
+  const std::filesystem::path frames = data_ / "ccd/scalable-ccd/rod-twist/frames";
+  const auto reader = open_sequence({frames / "3036.ply", frames / "3037.ply"});
+  EXPECT_TRUE(reader->same_faces_as_previous(1));
+  EXPECT_EQ(reader->precision(), Precision::kFloat64);
+  EXPECT_EQ(reader->frame(1).points.size(), 39'940u);
+  EXPECT_EQ(reader->frame(1).triangles.size(), 79'864u);
+}
+
+TEST_F(PublicFiles, HandcraftedQueriesAreExactlyDoubles) {
+  std::size_t queries = 0, true_answers = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(data_ / "ccd/sample-queries")) {
+    if (entry.path().extension() != ".csv") continue;
+    for (const CcdQuery& query : read_query_csv(entry.path())) {
+      ASSERT_TRUE(query.truth.has_value());
+      ++queries;
+      true_answers += *query.truth ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(queries, 2500u);
+  EXPECT_GT(true_answers, 0u);
+  EXPECT_LT(true_answers, queries);
+}
+
+TEST_F(PublicFiles, RodTwistQueriesAreVerticesOfItsFrames) {
+  const std::filesystem::path rod = data_ / "ccd/scalable-ccd/rod-twist";
+  const std::vector<CcdQuery> queries = read_query_csv(rod / "queries/3036vf.csv");
+  ASSERT_GT(queries.size(), 765u) << "at least the true collisions";
+  Points ends[2] = {read_mesh(rod / "frames/3036.ply").points, read_mesh(rod / "frames/3037.ply").points};
+  for (Points& points : ends) std::sort(points.begin(), points.end());
+  for (const CcdQuery& query : queries) {
+    EXPECT_FALSE(query.truth.has_value());
+    for (std::size_t row = 0; row < 8; ++row) {
+      ASSERT_TRUE(std::binary_search(ends[row / 4].begin(), ends[row / 4].end(), query.points[row]))
+          << "the rational and the binary file must give the same double";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace selvage::io

@@ -1,0 +1,214 @@
+#include "io/sequence.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "io/atomic_file.h"
+#include "tests/io/support.h"
+
+namespace selvage::io {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::expect_error;
+using testing::read_plainly;
+using testing::same_bits;
+using testing::TemporaryFolder;
+using testing::write_plainly;
+
+SequenceHeader square_header() {
+  return {.triangles = {{0, 1, 2}, {0, 2, 3}},
+          .groups = {{"shirt", Group::Role::kCloth, 0, 1}, {"ball \xc3\xa9", Group::Role::kBody, 1, 2}},
+          .kind = SequenceKind::kSteps,
+          .precision = Precision::kFloat64,
+          .producer = "test 1"};
+}
+
+Points square(double height) {
+  return {{0, 0, height}, {1, -0.0, height}, {1, 1, 0x1p-1074}, {std::numeric_limits<double>::max(), 1, 0.1}};
+}
+
+TEST(SequenceFolder, WhatIsWrittenIsRead) {
+  const TemporaryFolder folder;
+  const fs::path sequence = folder / "run/deep";
+  {
+    SequenceWriter writer(sequence, square_header());
+    for (int i = 0; i < 3; ++i) writer.append(0.1 * i, square(i));
+    EXPECT_EQ(writer.frame_count(), 3u);
+  }
+  const auto reader = open_sequence({sequence});
+  ASSERT_EQ(reader->frame_count(), 3u);
+  EXPECT_EQ(reader->kind(), SequenceKind::kSteps);
+  EXPECT_EQ(reader->precision(), Precision::kFloat64);
+  EXPECT_EQ(reader->groups(), square_header().groups);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MeshData mesh = reader->frame(i);
+    EXPECT_TRUE(same_bits(mesh.points, square(static_cast<double>(i))));
+    EXPECT_EQ(mesh.triangles, square_header().triangles);
+    EXPECT_EQ(mesh.groups, square_header().groups);
+    EXPECT_EQ(reader->time(i), 0.1 * static_cast<double>(i));
+    EXPECT_TRUE(reader->same_faces_as_previous(i));
+  }
+  EXPECT_EQ(reader->frame_name(2), (sequence / "frame_000002.npy").string());
+}
+
+TEST(SequenceFolder, Float32IsStoredAsFloat32AndNeverRounded) {
+  const TemporaryFolder folder;
+  SequenceHeader header = square_header();
+  header.precision = Precision::kFloat32;
+  SequenceWriter writer(folder.path(), header);
+  const Points lattice = {{0.5, -0.0, 0x1p-149}, {double{0.1f}, 1, 2}, {3, 4, 0x1.fffffep127}, {5, 6, 7}};
+  writer.append(0, lattice);
+  EXPECT_TRUE(same_bits(open_sequence({folder.path()})->frame(0).points, lattice));
+  for (const double between : {0.1, 1e300, 0x1p-150}) {
+    Points points = lattice;
+    points[2][1] = between;
+    expect_error(ErrorKind::kBadInput, "vertex 2 is not on the float32 lattice", [&] { writer.append(1, points); });
+  }
+  EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 1u);
+}
+
+TEST(SequenceFolder, EmptyRunIsAValidSequenceOfNoFrames) {
+  const TemporaryFolder folder;
+  const SequenceWriter writer(folder.path(), square_header());
+  EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 0u);
+}
+
+TEST(SequenceFolder, ResumeContinuesWithTheSameBytes) {
+  const TemporaryFolder whole, resumed;
+  {
+    SequenceWriter writer(whole.path(), square_header());
+    for (int i = 0; i < 4; ++i) writer.append(i, square(i));
+  }
+  {
+    SequenceWriter writer(resumed.path(), square_header());
+    for (int i = 0; i < 3; ++i) writer.append(i, square(i == 2 ? 77 : i));
+  }
+  write_plainly(resumed / "frame_000003.npy.tmp-42", "torn");
+  write_plainly(resumed / "report.json.tmp-42", "not ours");
+  {
+    SequenceWriter writer(resumed.path(), square_header(), true);
+    EXPECT_EQ(writer.frame_count(), 3u);
+    writer.truncate(2);
+    EXPECT_EQ(writer.frame_count(), 2u);
+    EXPECT_FALSE(fs::exists(resumed / "frame_000002.npy"));
+    for (int i = 2; i < 4; ++i) writer.append(i, square(i));
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(whole.path())) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(read_plainly(whole / name), read_plainly(resumed / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(resumed / "frame_000003.npy.tmp-42"));
+  EXPECT_TRUE(fs::exists(resumed / "report.json.tmp-42"));
+}
+
+TEST(SequenceFolder, ResumeRefusesAnotherRun) {
+  const TemporaryFolder folder;
+  {
+    SequenceWriter writer(folder.path(), square_header());
+    writer.append(0, square(0));
+  }
+  expect_error(ErrorKind::kFile, "holds a sequence already", [&] { SequenceWriter(folder.path(), square_header()); });
+  const auto resume_with = [&](const auto& change) {
+    SequenceHeader header = square_header();
+    change(header);
+    expect_error(ErrorKind::kBadInput, "other faces, groups or settings",
+                 [&] { SequenceWriter(folder.path(), header, true); });
+  };
+  resume_with([](SequenceHeader& header) { header.triangles[1] = {0, 3, 2}; });
+  resume_with([](SequenceHeader& header) { header.groups[0].name = "skirt"; });
+  resume_with([](SequenceHeader& header) { header.kind = SequenceKind::kFrames; });
+  resume_with([](SequenceHeader& header) { header.precision = Precision::kFloat32; });
+  resume_with([](SequenceHeader& header) { header.producer = "test 2"; });
+  SequenceWriter writer(folder.path(), square_header(), true);
+  expect_error(ErrorKind::kBadInput, "lists 1 frames, 2 are needed", [&] { writer.truncate(2); });
+}
+
+TEST(SequenceFolder, OneWriterAFolder) {
+  const TemporaryFolder folder;
+  const SequenceWriter writer(folder.path(), square_header());
+  expect_error(ErrorKind::kFile, "another run", [&] { SequenceWriter(folder.path(), square_header(), true); });
+}
+
+TEST(SequenceFolder, AppendRefusesBadFrames) {
+  const TemporaryFolder folder;
+  SequenceWriter writer(folder.path(), square_header());
+  expect_error(ErrorKind::kBadInput, "3 vertices", [&] { writer.append(0, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}); });
+  writer.append(1, square(0));
+  Points five = square(1);
+  five.push_back({0, 0, 0});
+  expect_error(ErrorKind::kBadInput, "5 vertices", [&] { writer.append(2, five); });
+  expect_error(ErrorKind::kBadInput, "not later", [&] { writer.append(1, square(1)); });
+  Points nan = square(1);
+  nan[3][2] = std::numeric_limits<double>::quiet_NaN();
+  expect_error(ErrorKind::kBadInput, "vertex 3 is not finite", [&] { writer.append(2, nan); });
+  writer.append(2, square(1));
+  EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 2u);
+}
+
+TEST(SequenceFolder, AFailedAppendLosesNothingAndTheNextMayWork) {
+  const TemporaryFolder folder;
+  SequenceWriter writer(folder.path(), square_header());
+  writer.append(0, square(0));
+  fs::create_directories(folder / "frame_000001.npy/in the way");
+  expect_error(ErrorKind::kFile, "frame_000001.npy", [&] { writer.append(1, square(1)); });
+  EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 1u);
+  fs::remove_all(folder / "frame_000001.npy");
+  writer.append(1, square(1));
+  EXPECT_TRUE(same_bits(open_sequence({folder.path()})->frame(1).points, square(1)));
+}
+
+TEST(SequenceFolder, TornLastLineIsNotPartOfTheList) {
+  const TemporaryFolder folder;
+  {
+    SequenceWriter writer(folder.path(), square_header());
+    for (int i = 0; i < 2; ++i) writer.append(i, square(i));
+  }
+  const std::string list = read_plainly(folder / "frames.jsonl");
+  const std::size_t second = list.find('\n') + 1;
+  for (std::size_t length = 0; length <= list.size(); ++length) {
+    write_plainly(folder / "frames.jsonl", std::string_view(list).substr(0, length));
+    // A line counts from its closing brace on.
+    const std::size_t listed = (length + 1 >= second) + (length + 1 >= list.size());
+    EXPECT_EQ(open_sequence({folder.path()})->frame_count(), listed) << length;
+  }
+  write_plainly(folder / "frames.jsonl", list.substr(0, list.size() - 5));
+  SequenceWriter writer(folder.path(), square_header(), true);
+  writer.append(1, square(1));
+  EXPECT_EQ(read_plainly(folder / "frames.jsonl"), list);
+}
+
+TEST(MeshFiles, ChangedFacesAreReported) {
+  const TemporaryFolder folder;
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  write_plainly(folder / "a.obj", points + "f 1 2 3\nf 1 3 4\n");
+  write_plainly(folder / "b.obj", points + "f 1 2 3 4\n");
+  write_plainly(folder / "c.obj", points + "g left\nf 1 2 4\ng right\nf 2 3 4\n");
+  const auto reader = open_sequence({folder / "a.obj", folder / "b.obj", folder / "c.obj"});
+  ASSERT_EQ(reader->frame_count(), 3u);
+  EXPECT_TRUE(reader->same_faces_as_previous(0));
+  EXPECT_TRUE(reader->same_faces_as_previous(1)) << "the fan of the quadrangle is the two triangles";
+  EXPECT_FALSE(reader->same_faces_as_previous(2));
+  EXPECT_EQ(reader->frame(2).groups.size(), 2u);
+  EXPECT_EQ(reader->frame_name(1), (folder / "b.obj").string());
+  EXPECT_EQ(reader->time(2), 2.0);
+  EXPECT_EQ(reader->kind(), SequenceKind::kFrames);
+  write_plainly(folder / "d.obj", points);
+  expect_error(ErrorKind::kBadInput, "d.obj: no face", [&] {
+    (void)open_sequence({folder / "a.obj", folder / "d.obj"});
+  });
+}
+
+TEST(OpenSequence, WrongSourcesAreNamed) {
+  const TemporaryFolder folder;
+  expect_error(ErrorKind::kBadInput, "no file", [] { (void)open_sequence({}); });
+  expect_error(ErrorKind::kFile, "sequence.json", [&] { (void)open_sequence({folder.path()}); });
+  expect_error(ErrorKind::kFile, "missing.obj", [&] { (void)open_sequence({folder / "missing.obj"}); });
+  write_plainly(folder / "a.stl", "solid");
+  expect_error(ErrorKind::kBadInput, "neither .obj nor .ply", [&] { (void)open_sequence({folder / "a.stl"}); });
+  expect_error(ErrorKind::kBadInput, "name it alone", [&] { (void)open_sequence({folder.path(), folder / "a.obj"}); });
+}
+
+}  // namespace
+}  // namespace selvage::io
