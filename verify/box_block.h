@@ -1,0 +1,87 @@
+// Boxes, and eight of them side by side for one test against a ninth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "verify/exact_motion.h"
+
+namespace selvage::verify {
+
+/// Closed; min and max of coordinates do not round.
+struct Box {
+  Point min, max;
+
+  [[nodiscard]] bool overlaps(const Box& other) const {
+    bool apart = false;  // without branches: which of the six fails first cannot be predicted
+    for (std::size_t k = 0; k < 3; ++k) apart |= (min[k] > other.max[k]) | (other.min[k] > max[k]);
+    return !apart;
+  }
+};
+
+/// The smallest box that holds `points`. REQUIRES at least one.
+[[nodiscard]] Box bounding_box(std::span<const Point> points);
+/// At least `distance` larger on every side; rounds outward.
+[[nodiscard]] Box grown(const Box& box, double distance);
+
+/// Coordinates of boxes as 32-bit integers by one non-decreasing map for all, so boxes that overlap still do.
+struct Lattice {
+  Point origin_half{};
+  double scale = 1;
+
+  [[nodiscard]] std::int32_t operator()(std::size_t axis, double x) const;
+  /// The finest lattice that holds `bounds`.
+  static Lattice over(const Box& bounds);
+};
+
+struct LatticeBox {
+  std::array<std::int32_t, 3> min, max;
+};
+
+/// Eight boxes side by side; places that are not used overlap nothing.
+struct alignas(64) BoxBlock {
+  static constexpr std::size_t kWidth = 8;
+  std::array<std::array<std::int32_t, kWidth>, 3> min, max;
+
+  BoxBlock();
+  void set(std::size_t place, const LatticeBox& box);
+  [[nodiscard]] LatticeBox get(std::size_t place) const;
+  [[nodiscard]] LatticeBox bounds() const;
+  /// Bit i: the box at place i overlaps `box`.
+  [[nodiscard]] unsigned overlap_mask(const LatticeBox& box) const;
+};
+
+#if defined(__SSE2__)
+inline unsigned BoxBlock::overlap_mask(const LatticeBox& box) const {
+  unsigned apart = 0;
+  for (std::size_t half = 0; half < kWidth; half += 4) {
+    __m128i any = _mm_setzero_si128();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const __m128i low = _mm_load_si128(reinterpret_cast<const __m128i*>(&min[k][half]));
+      const __m128i high = _mm_load_si128(reinterpret_cast<const __m128i*>(&max[k][half]));
+      any = _mm_or_si128(any, _mm_cmpgt_epi32(low, _mm_set1_epi32(box.max[k])));
+      any = _mm_or_si128(any, _mm_cmpgt_epi32(_mm_set1_epi32(box.min[k]), high));
+    }
+    apart |= static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(any))) << half;
+  }
+  return ~apart & 0xffU;
+}
+#else
+inline unsigned BoxBlock::overlap_mask(const LatticeBox& box) const {
+  unsigned mask = 0;
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    bool apart = false;
+    for (std::size_t k = 0; k < 3; ++k) apart |= (min[k][i] > box.max[k]) | (box.min[k] > max[k][i]);
+    mask |= (apart ? 0U : 1U) << i;
+  }
+  return mask;
+}
+#endif
+
+}  // namespace selvage::verify
