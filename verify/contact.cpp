@@ -105,8 +105,6 @@ std::optional<FirstTouch> first_touch(const Pair& pair) {
   return std::nullopt;
 }
 
-bool has_no_root(const Form& f) { return sign_changes(f) == 0 && f.c[0] != 0 && f.c[f.degree] != 0; }
-
 }  // namespace
 
 std::optional<FirstTouch> first_vf_touch(std::span<const MovingPoint, 4> x) {
@@ -115,7 +113,7 @@ std::optional<FirstTouch> first_vf_touch(std::span<const MovingPoint, 4> x) {
   Pair pair;
   pair.n = cross(e1, e2);
   pair.f = dot(pair.n, r);
-  if (has_no_root(pair.f)) return std::nullopt;
+  if (pair.f.is_definite()) return std::nullopt;
   const FormVector c2 = cross(e1, r), c1 = cross(r, e2);
   pair.c = {pair.n - c1 - c2, c1, c2};
   pair.boundary = {on_segment(q, v0, v1), on_segment(q, v0, v2), on_segment(q, v1, v2)};
@@ -128,7 +126,7 @@ std::optional<FirstTouch> first_ee_touch(std::span<const MovingPoint, 4> x) {
   Pair pair;
   pair.n = cross(u, v);
   pair.f = dot(pair.n, w);
-  if (has_no_root(pair.f)) return std::nullopt;
+  if (pair.f.is_definite()) return std::nullopt;
   const FormVector along_a = cross(w, v), along_b = cross(w, u);
   pair.c = {along_a, pair.n - along_a, along_b, pair.n - along_b};
   pair.boundary = {on_segment(a0, b0, b1), on_segment(a1, b0, b1), on_segment(b0, a0, a1), on_segment(b1, a0, a1)};

@@ -11,6 +11,14 @@ bool Form::is_zero() const {
   return true;
 }
 
+bool Form::is_definite() const {
+  const int sign = sgn(c[0]);
+  for (std::size_t i = 1; i <= degree; ++i) {
+    if (sgn(c[i]) != sign) return false;
+  }
+  return sign != 0;
+}
+
 Form operator+(const Form& a, const Form& b) {
   Form sum{a.degree, {}};
   for (std::size_t i = 0; i <= a.degree; ++i) sum.c[i] = a.c[i] + b.c[i];
@@ -95,10 +103,26 @@ Form substitute(const Form& form, const Substitution& by) {
 
 }  // namespace
 
-// On [0, 1/2]: t = t'/2, s = s' + t'/2.
-Form left_half(const Form& form) { return substitute(form, {2, 1, 0, 1}); }
-// On [1/2, 1]: t = s'/2 + t', s = s'/2.
-Form right_half(const Form& form) { return substitute(form, {1, 0, 1, 2}); }
+// On [0, 1/2]: t = t'/2 and s = s' + t'/2; doubled, s = 2s' + t': first s -> s + t by additions, then s -> 2s by
+// shifts.
+Form left_half(Form form) {
+  auto& c = form.c;
+  for (std::size_t last = form.degree; last > 0; --last) {
+    for (std::size_t i = 1; i <= last; ++i) c[i] += c[i - 1];
+  }
+  for (std::size_t i = 0; i < form.degree; ++i) c[i] <<= form.degree - i;
+  return form;
+}
+
+// The mirror image.
+Form right_half(Form form) {
+  auto& c = form.c;
+  for (std::size_t first = 0; first < form.degree; ++first) {
+    for (std::size_t i = form.degree; i-- > first;) c[i] += c[i + 1];
+  }
+  for (std::size_t i = 1; i <= form.degree; ++i) c[i] <<= i;
+  return form;
+}
 
 Form restrict_to(const Form& form, const mpz_class& numerator, unsigned long log2_denominator) {
   const mpz_class denominator = mpz_class(1) << log2_denominator;

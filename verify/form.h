@@ -19,6 +19,7 @@ struct Form {
   std::array<mpz_class, kMaxDegree + 1> c;  ///< those above the degree are zero
 
   [[nodiscard]] bool is_zero() const;
+  [[nodiscard]] bool is_definite() const;  ///< all coefficients have the same sign, not zero
 };
 
 /// REQUIRES equal degrees.
@@ -42,8 +43,8 @@ using FormVector = std::array<Form, 3>;
 [[nodiscard]] int sign_at(const Form& form, const mpz_class& numerator, unsigned long log2_denominator);
 
 /// The form on [0, 1/2] and on [1/2, 1], each as a form on [0,1], times a positive constant.
-[[nodiscard]] Form left_half(const Form& form);
-[[nodiscard]] Form right_half(const Form& form);
+[[nodiscard]] Form left_half(Form form);
+[[nodiscard]] Form right_half(Form form);
 /// The form on [numerator, numerator + 1] / 2^log2_denominator as a form on [0,1], times a positive constant.
 [[nodiscard]] Form restrict_to(const Form& form, const mpz_class& numerator, unsigned long log2_denominator);
 

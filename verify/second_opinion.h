@@ -1,0 +1,24 @@
+// A second exact decider for moving features, built differently on purpose, to check the first one (exact_motion.h).
+//
+// Monomials instead of Bernstein forms, CGAL's algebraic kernel instead of own root isolation, weights as quotients of
+// quartics, lengths of cross products instead of components, and no theorem on where coplanar motion first touches: it
+// tries every time at which a sign that decides changes. About ten times slower.
+#pragma once
+
+#include <array>
+
+#include "verify/exact_motion.h"
+
+namespace selvage::verify {
+
+struct SecondOpinion {
+  bool touches = false;
+  double first_lower = 0, first_upper = 0;  ///< doubles around the exact first touch, within 2^-50; if touches
+};
+
+/// The same questions, argument orders and domain as exact_vf_motion, exact_ee_motion and exact_self_motion.
+[[nodiscard]] SecondOpinion second_opinion_vf(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1);
+[[nodiscard]] SecondOpinion second_opinion_ee(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1);
+[[nodiscard]] SecondOpinion second_opinion_self(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1);
+
+}  // namespace selvage::verify
