@@ -10,9 +10,11 @@ namespace selvage::io {
 std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources) {
   if (sources.empty()) bad_input("sequence", "no file is named; name a folder, an .npz or mesh files");
   std::error_code status;
-  if (!std::filesystem::is_directory(sources.front(), status)) return open_mesh_files(sources);
-  if (sources.size() > 1) bad_input(sources[1].string(), "a folder is a sequence by itself; name it alone");
-  return open_folder_sequence(sources.front());
+  const std::filesystem::path& first = sources.front();
+  const bool is_folder = std::filesystem::is_directory(first, status);
+  if (!is_folder && first.extension() != ".npz") return open_mesh_files(sources);
+  if (sources.size() > 1) bad_input(sources[1].string(), "a folder or an .npz is a sequence by itself; name it alone");
+  return is_folder ? open_folder_sequence(first) : open_npz_sequence(open_file(first), first.string());
 }
 
 void check_indices(const Triangles& triangles, std::size_t vertex_count, const std::string& name) {

@@ -3,14 +3,19 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "io/byte_source.h"
 #include "io/sequence.h"
 
 namespace selvage::io {
 
 /// A folder with sequence.json: docs/formats.md.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_folder_sequence(const std::filesystem::path& folder);
+/// An .npz with V, F and maybe group; `name` appears in errors.
+[[nodiscard]] std::unique_ptr<SequenceReader> open_npz_sequence(std::shared_ptr<const ByteSource> source,
+                                                                std::string name);
 /// Mesh files, one a frame. All are read once here: a damaged frame is found before work starts on the first.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_mesh_files(std::vector<std::filesystem::path> files);
 

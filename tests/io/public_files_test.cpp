@@ -77,5 +77,35 @@ TEST_F(PublicFiles, RodTwistQueriesAreVerticesOfItsFrames) {
   }
 }
 
+struct PublicSequence {
+  const char* file;
+  std::size_t frames, vertices, faces, bodies;  // as numpy reads them
+  Precision precision;
+};
+
+class PublicSequences : public PublicFiles, public ::testing::WithParamInterface<PublicSequence> {};
+
+TEST_P(PublicSequences, AreReadWhole) {
+  const auto reader = open_sequence({data_ / "sequences" / GetParam().file});
+  EXPECT_EQ(reader->frame_count(), GetParam().frames);
+  EXPECT_EQ(reader->precision(), GetParam().precision);
+  std::size_t bodies = 0;
+  for (const Group& group : reader->groups()) {
+    if (group.role == Group::Role::kBody) bodies += static_cast<std::size_t>(group.face_end - group.face_begin);
+  }
+  EXPECT_EQ(bodies, GetParam().bodies);
+  for (std::size_t i = 0; i < reader->frame_count(); ++i) {
+    const MeshData mesh = reader->frame(i);
+    EXPECT_EQ(mesh.points.size(), GetParam().vertices);
+    EXPECT_EQ(mesh.triangles.size(), GetParam().faces);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, PublicSequences,
+    ::testing::Values(PublicSequence{"blender-table-50.npz", 15, 5'399, 10'546, 5'744, Precision::kFloat64},
+                      PublicSequence{"blender-curtain-150.npz", 10, 27'705, 54'770, 10'368, Precision::kFloat64},
+                      PublicSequence{"eltopo-curtain-50.npz", 20, 3'865, 7'490, 2'688, Precision::kFloat64}));
+
 }  // namespace
 }  // namespace selvage::io
