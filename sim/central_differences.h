@@ -1,0 +1,49 @@
+// The paper's dynamics: springs, gravity and drag by central differencing, with limits on strain (sections 3 to 5).
+#pragma once
+
+#include <vector>
+
+#include "sim/dynamics.h"
+#include "sim/spring.h"
+#include "sim/strain.h"
+
+namespace selvage::sim {
+
+struct CentralDifferencesOptions {
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  double drag_1_s = 0;  ///< acceleration -drag v: still air, proportional to mass
+  StrainLimits strain;
+  double step_s = 0;  ///< longest internal step; REQUIRES > 0 and below stable_step_s()
+};
+
+/// Explicit in the elastic forces, implicit in damping in the second half step (paper, sections 5 and 7.6):
+///   v(n+1/2) = v(n) + h/2 a(x(n), v(n));  x(n+1) = x(n) + h v(n+1/2);  v(n+1) = v(n+1/2) + h/2 a(x(n+1), v(n+1)).
+/// Between the first two lines the limits of section 4 act on v(n+1/2).
+class CentralDifferences : public Dynamics {
+ public:
+  CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options);  ///< springs outlive it
+
+  /// As many equal internal steps as options.step_s asks for.
+  void advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
+               double dt_s) override;
+
+  /// v(n+1) of the line above with h = dt_s. A collision step is longer than what is stable for explicit springs, so
+  /// here they act where the velocity carries the ends in half a step: (dt/2)^2 k n n^T is added to the matrix. For
+  /// dt_s within the stable step this is a correction of second order; for longer ones it is what keeps it bounded.
+  void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
+
+ private:
+  void find_forces(const Positions& x);
+  void explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h);
+  void implicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h, double stiffness_share);
+
+  const SpringSystem& springs_;
+  CentralDifferencesOptions options_;
+  std::vector<double> damping_;            ///< per spring, N s / m
+  std::vector<double> half_step_damping_;  ///< per spring: impulse per rate of elongation over half a step
+  Positions force_, direction_;            ///< at the positions last given to find_forces
+  Positions damping_force_;
+  std::vector<double> scratch_;
+};
+
+}  // namespace selvage::sim

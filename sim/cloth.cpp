@@ -1,0 +1,111 @@
+#include "sim/cloth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Geometry>
+
+namespace selvage::sim {
+namespace {
+
+class SpringBuilder {
+ public:
+  SpringBuilder(const ClothSpec& spec, const Shape& rest, const std::vector<double>& mass_kg)
+      : spec_(spec), rest_(rest), mass_kg_(mass_kg) {}
+
+  void add(SpringKind kind, VertexId a, VertexId b) {
+    Spring spring{a, b, kind, (rest_.x.row(b) - rest_.x.row(a)).norm(), stiffness(kind), 0};
+    if (spring.stiffness_n_m == 0) return;
+    const double mass_a = mass_kg_[static_cast<std::size_t>(a)], mass_b = mass_kg_[static_cast<std::size_t>(b)];
+    const double reduced_mass = mass_a * mass_b / (mass_a + mass_b);
+    spring.damping_n_s_m = spec_.damping_ratio * 2 * std::sqrt(spring.stiffness_n_m * reduced_mass);
+    springs_.push_back(spring);
+  }
+  std::vector<Spring> take() { return std::move(springs_); }
+
+ private:
+  [[nodiscard]] double stiffness(SpringKind kind) const {
+    switch (kind) {
+      case SpringKind::kStructural:
+        return spec_.stretch_n_m;
+      case SpringKind::kShear:
+        return spec_.shear_n_m;
+      case SpringKind::kBending:
+        return spec_.bend_n_m;
+    }
+    return 0;
+  }
+
+  const ClothSpec& spec_;
+  const Shape& rest_;
+  const std::vector<double>& mass_kg_;
+  std::vector<Spring> springs_;
+};
+
+void add_sheet_springs(const SheetSpec& sheet, SpringBuilder& builder) {
+  const std::int32_t nx = sheet.nx, ny = sheet.ny;
+  for (std::int32_t j = 0; j < ny; ++j) {
+    for (std::int32_t i = 0; i < nx; ++i) {
+      const VertexId a = j * nx + i;
+      if (i + 1 < nx) builder.add(SpringKind::kStructural, a, a + 1);
+      if (j + 1 < ny) builder.add(SpringKind::kStructural, a, a + nx);
+      if (i + 1 < nx && j + 1 < ny) {
+        builder.add(SpringKind::kShear, a, a + nx + 1);
+        builder.add(SpringKind::kShear, a + 1, a + nx);
+      }
+      if (i + 2 < nx) builder.add(SpringKind::kBending, a, a + 2);
+      if (j + 2 < ny) builder.add(SpringKind::kBending, a, a + 2 * nx);
+    }
+  }
+}
+
+void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
+  std::map<std::array<VertexId, 2>, std::vector<VertexId>> opposite_of;  // edge to the third vertices of its faces
+  for (const auto& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = t[(k + 1) % 3], b = t[(k + 2) % 3];
+      opposite_of[{std::min(a, b), std::max(a, b)}].push_back(t[k]);
+    }
+  }
+  for (const auto& [edge, opposite] : opposite_of) {
+    builder.add(SpringKind::kStructural, edge[0], edge[1]);
+    if (opposite.size() == 2 && opposite[0] != opposite[1]) {
+      builder.add(SpringKind::kBending, opposite[0], opposite[1]);
+    }
+  }
+}
+
+double area_m2(const Positions& x, const std::array<VertexId, 3>& t) {
+  const Vec3 a = x.row(t[0]), b = x.row(t[1]), c = x.row(t[2]);
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+}  // namespace
+
+std::vector<Spring> make_springs(const ClothSpec& spec, const Shape& rest, const std::vector<double>& mass_kg) {
+  SpringBuilder builder(spec, rest, mass_kg);
+  if (const auto* sheet = std::get_if<SheetSpec>(&spec.surface)) {
+    add_sheet_springs(*sheet, builder);
+  } else {
+    add_mesh_springs(rest.triangles, builder);
+  }
+  return builder.take();
+}
+
+std::vector<double> cloth_masses(const ClothSpec& spec, const Shape& rest) {
+  std::vector<double> mass_kg(static_cast<std::size_t>(rest.x.rows()));
+  double total_area_m2 = 0;
+  for (const auto& t : rest.triangles) {
+    const double area = area_m2(rest.x, t);
+    total_area_m2 += area;
+    for (const VertexId corner : t) mass_kg[static_cast<std::size_t>(corner)] += spec.density_kg_m2 * area / 3;
+  }
+  if (spec.masses == ClothSpec::Masses::kEqual) {
+    std::fill(mass_kg.begin(), mass_kg.end(), spec.density_kg_m2 * total_area_m2 / double(mass_kg.size()));
+  }
+  return mass_kg;
+}
+
+}  // namespace selvage::sim

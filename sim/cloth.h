@@ -1,0 +1,24 @@
+// The springs and masses of one cloth, from the shape that it has at rest (paper, section 3).
+#pragma once
+
+#include <vector>
+
+#include "sim/scene.h"
+#include "sim/shapes.h"
+#include "sim/spring.h"
+
+namespace selvage::sim {
+
+/// Springs between the vertices of `rest`, numbered from 0. A sheet gets structural springs along the grid, shear
+/// springs along both diagonals and bending springs to every other node; a general mesh gets structural springs along
+/// its edges and bending springs between the two vertices opposite an edge that two faces share. Springs of stiffness
+/// zero are not made. Damping is damping_ratio times each spring's critical damping 2 sqrt(k m), m the reduced mass.
+/// `mass_kg` is that of cloth_masses.
+[[nodiscard]] std::vector<Spring> make_springs(const ClothSpec& spec, const Shape& rest,
+                                               const std::vector<double>& mass_kg);
+
+/// density times area in all, shared equally (section 3: "giving all particles the same mass") or by a third of the
+/// adjacent faces' areas. Vertices of no face get a mass in the first case alone.
+[[nodiscard]] std::vector<double> cloth_masses(const ClothSpec& spec, const Shape& rest);
+
+}  // namespace selvage::sim

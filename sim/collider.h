@@ -1,0 +1,32 @@
+// Vertices that follow a script instead of the dynamics: rigid bodies, and pins of cloth.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sim/rigid_path.h"
+
+namespace selvage::sim {
+
+class Collider {
+ public:
+  /// Vertex vertices[i] is at place(path.at(t))[i] of `local` until release_s.
+  Collider(std::string name, std::vector<VertexId> vertices, Positions local, RigidPath path,
+           double release_s = std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
+  [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
+  /// Writes the rows of the collider's vertices at the time: the script exactly, rounded to the precision of the state.
+  void place_at(double time_s, bool round_to_float32, Positions& x) const;
+
+ private:
+  std::string name_;
+  std::vector<VertexId> vertices_;
+  Positions local_;
+  RigidPath path_;
+  double release_s_;
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,99 @@
+#include "sim/recorder.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+
+namespace selvage::sim {
+namespace {
+
+io::SequenceHeader header_of(const Simulation& simulation, io::SequenceKind kind, const std::string& producer) {
+  const bool float32 = simulation.scene().collision.precision == CollisionOptions::Precision::kFloat32;
+  io::SequenceHeader header;
+  header.triangles = simulation.world().triangles;
+  header.groups = simulation.world().groups;
+  header.kind = kind;
+  header.precision = float32 ? io::Precision::kFloat32 : io::Precision::kFloat64;
+  header.producer = producer;
+  return header;
+}
+
+const char* name_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::kComplete:
+      return "complete";
+    case RunEnd::kInterrupted:
+      return "interrupted";
+    case RunEnd::kStopped:
+      return "stopped";
+  }
+  return "";
+}
+
+}  // namespace
+
+Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
+                   std::string producer)
+    : folder_(std::move(folder)),
+      producer_(std::move(producer)),
+      simulation_(simulation),
+      kind_(kind),
+      writer_(folder_, header_of(simulation, kind, producer_), resume),
+      fingerprint_(scene_fingerprint(simulation.scene(), simulation.world())) {
+  const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / "checkpoint.bin") : std::nullopt;
+  if (!checkpoint) {
+    writer_.truncate(0);
+    append();
+    save_checkpoint();
+    return;
+  }
+  if (checkpoint->scene_fingerprint != fingerprint_) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    fmt::format("{}: the checkpoint belongs to another scene; resume with the scene that wrote it",
+                                (folder_ / "checkpoint.bin").string()));
+  }
+  writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
+  simulation_.restore(checkpoint->state);
+  totals_ = checkpoint->totals;
+  resumed_ = true;
+}
+
+void Recorder::record(const StepResult& step) {
+  const auto start = std::chrono::steady_clock::now();
+  totals_.add(step);
+  const bool at_frame = simulation_.clock().at_frame();
+  if (at_frame) ++totals_.frames;
+  if (at_frame || kind_ == io::SequenceKind::kSteps) append();
+  if (at_frame) save_checkpoint();
+  totals_.record_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Recorder::finish(RunEnd end) {
+  save_checkpoint();
+  std::string json = fmt::format("{{\n  \"schema\": \"selvage.run/1\",\n  \"producer\": \"{}\",\n  \"end\": \"{}\",\n",
+                                 producer_, name_of(end));
+  json += fmt::format("  \"time_s\": {},\n", simulation_.clock().time_s());
+  for_each_total(totals_,
+                 [&](const char* name, const auto& field) { json += fmt::format("  \"{}\": {},\n", name, field); });
+  json += fmt::format("  \"scene_fingerprint\": \"{:016x}\"\n}}\n", fingerprint_);
+  io::write_atomically(folder_ / "run.json", json);
+}
+
+void Recorder::append() {
+  const Positions& x = simulation_.x();
+  io::Points points(static_cast<std::size_t>(x.rows()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    points[i] = {x(row, 0), x(row, 1), x(row, 2)};
+  }
+  writer_.append(simulation_.clock().time_s(), points);
+}
+
+void Recorder::save_checkpoint() {
+  write_checkpoint(folder_ / "checkpoint.bin",
+                   {fingerprint_, static_cast<std::int64_t>(writer_.frame_count()), simulation_.state(), totals_});
+}
+
+}  // namespace selvage::sim

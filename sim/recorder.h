@@ -1,0 +1,45 @@
+// Records a run: the sequence, the checkpoint and run.json in one folder, each replaced atomically.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "io/sequence.h"
+#include "sim/checkpoint.h"
+
+namespace selvage::sim {
+
+/// How a run ended, in run.json.
+enum class RunEnd { kComplete, kInterrupted, kStopped };
+
+class Recorder {
+ public:
+  /// kSteps records the end of every collision step, kFrames the frames alone; both begin with the initial state.
+  /// Throws io::Error if the folder holds a sequence already and `resume` is not set. With `resume` the simulation is
+  /// put back to the folder's checkpoint and the sequence is cut to it; a folder without one starts from the beginning.
+  /// `producer` is the program and its version, for the files.
+  Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
+           std::string producer);
+
+  /// After every safe step. Writes the checkpoint at frames.
+  void record(const StepResult& step);
+  /// Writes the checkpoint where the run is now, and run.json.
+  void finish(RunEnd end);
+  [[nodiscard]] const RunTotals& totals() const { return totals_; }
+  [[nodiscard]] bool resumed() const { return resumed_; }
+
+ private:
+  void append();
+  void save_checkpoint();
+
+  std::filesystem::path folder_;
+  std::string producer_;
+  Simulation& simulation_;
+  io::SequenceKind kind_;
+  io::SequenceWriter writer_;
+  std::uint64_t fingerprint_;
+  RunTotals totals_;
+  bool resumed_ = false;
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,45 @@
+// A rigid motion given by keys: where a scripted body is at any time.
+#pragma once
+
+#include <vector>
+
+#include "kernel/types.h"
+
+namespace selvage::sim {
+
+/// x_world = R x_local + position, with R the rotation by |rotation| degrees about the direction of `rotation`.
+struct Pose {
+  Vec3 position_m = Vec3::Zero();
+  Vec3 rotation_deg = Vec3::Zero();  ///< rotation vector: axis times angle; (0, 0, 720) is two turns about z
+};
+
+struct PoseKey {
+  double time_s = 0;
+  Pose pose;
+};
+
+enum class Interpolation {
+  kLinear,  ///< constant velocity between keys
+  kSmooth,  ///< at rest at every key: s = u^2 (3 - 2u), the lowest-degree polynomial with zero end slopes
+};
+
+/// The rotation matrix of a rotation vector in degrees; exactly the identity for the zero vector.
+[[nodiscard]] Eigen::Matrix3d rotation_matrix(const Vec3& rotation_deg);
+
+class RigidPath {
+ public:
+  /// REQUIRES at least one key, times strictly increasing.
+  RigidPath(std::vector<PoseKey> keys, Interpolation interpolation);
+  /// Between keys position and rotation vector are interpolated per coordinate, so every intermediate motion is rigid.
+  /// At a key's time the pose is the key's, bit for bit; before the first and after the last key it stands still.
+  [[nodiscard]] Pose at(double time_s) const;
+
+ private:
+  std::vector<PoseKey> keys_;
+  Interpolation interpolation_;
+};
+
+/// Row i is R local_i + position. The bits depend on the libm's sin and cos.
+[[nodiscard]] Positions place(const Pose& pose, const PositionsRef& local);
+
+}  // namespace selvage::sim

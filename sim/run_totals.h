@@ -1,0 +1,47 @@
+// What the steps of a run did, summed up: the numbers of run.json.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "sim/step.h"
+
+namespace selvage::sim {
+
+struct RunTotals {
+  std::int64_t frames = 0, steps = 0, halvings = 0;
+  std::int64_t proximities = 0, repulsions = 0, frictions = 0;
+  std::int64_t steps_with_collisions = 0, first_collisions = 0;
+  std::int64_t impulse_rounds = 0, zone_rounds = 0, largest_zone_vertices = 0;
+  std::int64_t fail_safe_rounds = 0, fail_safe_vertices = 0;
+  std::int64_t pairs_below_tolerance = 0, waiting_bodies = 0;
+  double dynamics_s = 0, collision_s = 0, velocity_s = 0, record_s = 0;
+
+  void add(const StepResult& step);
+};
+
+/// Calls visit(name, field) for every field, in the order above: one list for run.json and for checkpoints.
+template <class Totals, class Visit>
+void for_each_total(Totals& totals, Visit visit) {
+  visit("frames", totals.frames);
+  visit("steps", totals.steps);
+  visit("halvings", totals.halvings);
+  visit("proximities", totals.proximities);
+  visit("repulsions", totals.repulsions);
+  visit("frictions", totals.frictions);
+  visit("steps_with_collisions", totals.steps_with_collisions);
+  visit("first_collisions", totals.first_collisions);
+  visit("impulse_rounds", totals.impulse_rounds);
+  visit("zone_rounds", totals.zone_rounds);
+  visit("largest_zone_vertices", totals.largest_zone_vertices);
+  visit("fail_safe_rounds", totals.fail_safe_rounds);
+  visit("fail_safe_vertices", totals.fail_safe_vertices);
+  visit("pairs_below_tolerance", totals.pairs_below_tolerance);
+  visit("waiting_bodies", totals.waiting_bodies);
+  visit("dynamics_s", totals.dynamics_s);
+  visit("collision_s", totals.collision_s);
+  visit("velocity_s", totals.velocity_s);
+  visit("record_s", totals.record_s);
+}
+
+}  // namespace selvage::sim

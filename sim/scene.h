@@ -1,0 +1,85 @@
+// What a scene file asks for, as plain data in SI units. The schema with every default is docs/scenes.md.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/collision_step.h"
+#include "sim/rigid_path.h"
+#include "sim/strain.h"
+
+namespace selvage::sim {
+
+struct SheetSpec {
+  std::int32_t nx = 0, ny = 0;  ///< vertices
+  double width_m = 0, height_m = 0;
+};
+struct SphereSpec {
+  double radius_m = 0;
+  std::int32_t subdivisions = 3;
+};
+struct BoxSpec {
+  Vec3 size_m = Vec3::Zero();
+  std::int32_t cells = 1;
+};
+struct MeshSpec {
+  std::filesystem::path file;
+  double scale = 1;  ///< m per unit of the file
+};
+using Surface = std::variant<SheetSpec, SphereSpec, BoxSpec, MeshSpec>;
+
+struct ScriptSpec {
+  std::vector<PoseKey> keys;  ///< at least one
+  Interpolation interpolation = Interpolation::kLinear;
+};
+
+/// Vertices of a cloth that a script holds instead of the dynamics.
+struct PinSpec {
+  std::vector<VertexId> vertices;  ///< of the cloth, sorted, unique
+  ScriptSpec script;               ///< relative to where the vertices start, turning about their mean
+  double release_s = std::numeric_limits<double>::infinity();
+};
+
+struct ClothSpec {
+  std::string name;
+  Surface surface;  ///< a sheet or a mesh file
+  Pose placement;
+  Vec3 velocity_m_s = Vec3::Zero();  ///< at the start
+  double density_kg_m2 = 0;
+  enum class Masses { kEqual, kArea } masses = Masses::kEqual;
+  double stretch_n_m = 0, shear_n_m = 0, bend_n_m = 0;  ///< 0: no such springs
+  double damping_ratio = 0;                             ///< of each spring's critical damping
+  std::vector<PinSpec> pins;
+};
+
+struct BodySpec {
+  std::string name;
+  Surface surface;
+  ScriptSpec script;
+};
+
+struct TimeSpec {
+  double frames_per_s = 30;
+  std::int64_t frame_count = 0;           ///< after the initial one
+  std::optional<double> dynamics_step_s;  ///< none: from the springs' stability limit
+  std::optional<double> min_step_s;       ///< none: the dynamics' step
+  std::optional<double> max_step_s;       ///< none: one frame
+};
+
+struct Scene {
+  std::filesystem::path file;
+  TimeSpec time;
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  double drag_1_s = 0;
+  StrainLimits strain;
+  CollisionOptions collision;
+  SqueezePolicy squeeze = SqueezePolicy::kStop;
+  std::vector<ClothSpec> cloths;
+  std::vector<BodySpec> bodies;
+};
+
+}  // namespace selvage::sim

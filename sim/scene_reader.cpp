@@ -1,0 +1,286 @@
+#include "sim/scene_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "io/atomic_file.h"
+#include "sim/toml_table.h"
+
+namespace selvage::sim {
+namespace {
+
+constexpr std::size_t kSceneByteLimit = std::size_t{1} << 24;  // a scene of 16 MB is a mesh in the wrong format
+constexpr std::int64_t kMaxSide = 10'000;                      // 10^8 vertices: more than memory holds
+constexpr std::int64_t kMaxFrames = 1'000'000;                 // the six digits of frame_000000.npy
+constexpr Range kDegrees{-1e6, 1e6};
+
+SheetSpec read_sheet(TomlTable table) {
+  SheetSpec sheet;
+  sheet.nx = static_cast<std::int32_t>(table.integer("nx", 2, kMaxSide));
+  sheet.ny = static_cast<std::int32_t>(table.integer("ny", 2, kMaxSide));
+  sheet.width_m = table.number("width_m", kPositive);
+  sheet.height_m = table.number("height_m", kPositive);
+  table.finish();
+  return sheet;
+}
+
+SphereSpec read_sphere(TomlTable table) {
+  SphereSpec sphere;
+  sphere.radius_m = table.number("radius_m", kPositive);
+  sphere.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, sphere.subdivisions));
+  table.finish();
+  return sphere;
+}
+
+BoxSpec read_box(TomlTable table) {
+  BoxSpec box;
+  box.size_m = table.vector("size_m", kPositive);
+  box.cells = static_cast<std::int32_t>(table.integer("cells", 1, 1000, box.cells));
+  table.finish();
+  return box;
+}
+
+MeshSpec read_mesh_spec(TomlTable table) {
+  MeshSpec mesh;
+  mesh.file = table.text("file");
+  mesh.scale = table.number("scale", kPositive, mesh.scale);
+  table.finish();
+  return mesh;
+}
+
+// Exactly one of the tables that name a surface.
+Surface read_surface(TomlTable& owner, bool cloth) {
+  std::optional<Surface> surface;
+  const auto take = [&](std::string_view key, auto read) {
+    std::optional<TomlTable> table = owner.table(key);
+    if (!table) return;
+    if (surface) owner.fail(key, fmt::format("{} is a second surface; keep one", key));
+    surface = read(std::move(*table));
+  };
+  take("sheet", read_sheet);
+  take("mesh", read_mesh_spec);
+  if (!cloth) {
+    take("sphere", read_sphere);
+    take("box", read_box);
+  }
+  if (!surface)
+    owner.fail(cloth ? "no surface; add a table sheet or mesh" : "no surface; add sheet, sphere, box or mesh");
+  return *surface;
+}
+
+Pose read_pose(TomlTable& table) {
+  return {table.vector("position_m", kCoordinate, Vec3::Zero()), table.vector("rotation_deg", kDegrees, Vec3::Zero())};
+}
+
+// Either one pose that holds for ever, or keys.
+ScriptSpec read_script(TomlTable& owner) {
+  ScriptSpec script;
+  std::vector<TomlTable> keys = owner.tables("key");
+  script.interpolation =
+      owner.choice("interpolation", {"linear", "smooth"}) == 0 ? Interpolation::kLinear : Interpolation::kSmooth;
+  if (keys.empty()) {
+    script.keys.push_back({0, read_pose(owner)});
+    return script;
+  }
+  for (TomlTable& key : keys) {
+    PoseKey read;
+    read.time_s = key.number("time_s", kNotNegative);
+    read.pose = read_pose(key);
+    key.finish();
+    if (!script.keys.empty() && read.time_s <= script.keys.back().time_s) {
+      key.fail("time_s", "time_s must grow from key to key; sort the keys");
+    }
+    script.keys.push_back(read);
+  }
+  return script;
+}
+
+std::vector<VertexId> sheet_edge(const SheetSpec& sheet, std::size_t edge) {
+  std::vector<VertexId> vertices;
+  const std::int32_t nx = sheet.nx, ny = sheet.ny;
+  switch (edge) {
+    case 0:
+      for (std::int32_t i = 0; i < nx; ++i) vertices.push_back((ny - 1) * nx + i);
+      break;
+    case 1:
+      for (std::int32_t i = 0; i < nx; ++i) vertices.push_back(i);
+      break;
+    case 2:
+      for (std::int32_t j = 0; j < ny; ++j) vertices.push_back(j * nx);
+      break;
+    default:
+      for (std::int32_t j = 0; j < ny; ++j) vertices.push_back(j * nx + nx - 1);
+  }
+  return vertices;
+}
+
+PinSpec read_pin(TomlTable table, const Surface& surface) {
+  PinSpec pin;
+  const auto* sheet = std::get_if<SheetSpec>(&surface);
+  if (table.has("edge")) {
+    if (sheet == nullptr) table.fail("edge", "only sheets have edges; list the vertices instead");
+    if (table.has("vertices")) table.fail("edge", "edge and vertices exclude each other; keep one");
+    pin.vertices = sheet_edge(*sheet, table.choice("edge", {"top", "bottom", "left", "right"}));
+  } else {
+    const std::int64_t last = sheet != nullptr ? std::int64_t{sheet->nx} * sheet->ny - 1 : INT32_MAX;
+    for (const std::int64_t vertex : table.integers("vertices", 0, last)) {
+      pin.vertices.push_back(static_cast<VertexId>(vertex));
+    }
+    std::sort(pin.vertices.begin(), pin.vertices.end());
+    if (std::adjacent_find(pin.vertices.begin(), pin.vertices.end()) != pin.vertices.end()) {
+      table.fail("vertices", "a vertex is listed twice; remove one");
+    }
+  }
+  pin.script = read_script(table);
+  const PoseKey& first = pin.script.keys.front();
+  if (first.time_s != 0 || first.pose.position_m != Vec3::Zero() || first.pose.rotation_deg != Vec3::Zero()) {
+    table.fail("a pin starts where its vertices are; give it a first key with time_s = 0 alone");
+  }
+  pin.release_s = table.number("release_s", kNotNegative, pin.release_s);
+  table.finish();
+  return pin;
+}
+
+std::string read_name(TomlTable& table, const std::string& fallback, std::set<std::string>& names) {
+  const std::string name = table.text("name", fallback);
+  if (!names.insert(name).second)
+    table.fail("name", fmt::format("a second \"{}\"; give every part its own name", name));
+  table.rename(fmt::format("\"{}\"", name));
+  return name;
+}
+
+ClothSpec read_cloth(TomlTable table, std::set<std::string>& names) {
+  ClothSpec cloth;
+  cloth.name = read_name(table, "cloth", names);
+  cloth.surface = read_surface(table, true);
+  cloth.placement = read_pose(table);
+  cloth.velocity_m_s = table.vector("velocity_m_s", {-1e6, 1e6}, Vec3::Zero());
+  cloth.density_kg_m2 = table.number("density_kg_m2", kPositive);
+  cloth.masses = table.choice("masses", {"equal", "area"}) == 0 ? ClothSpec::Masses::kEqual : ClothSpec::Masses::kArea;
+  cloth.stretch_n_m = table.number("stretch_n_m", kPositive);
+  cloth.shear_n_m = table.number("shear_n_m", kNotNegative, 0);
+  if (cloth.shear_n_m > 0 && !std::holds_alternative<SheetSpec>(cloth.surface)) {
+    table.fail("shear_n_m", "only sheets have shear springs; the edges of a mesh resist shear by themselves");
+  }
+  cloth.bend_n_m = table.number("bend_n_m", kNotNegative, 0);
+  cloth.damping_ratio = table.number("damping_ratio", {0, 10}, 0);
+  std::set<VertexId> pinned;
+  for (TomlTable& pin_table : table.tables("pin")) {
+    cloth.pins.push_back(read_pin(pin_table, cloth.surface));
+    for (const VertexId vertex : cloth.pins.back().vertices) {
+      if (!pinned.insert(vertex).second) {
+        pin_table.fail(fmt::format("vertex {} is pinned already; a vertex has one pin", vertex));
+      }
+    }
+  }
+  table.finish();
+  return cloth;
+}
+
+BodySpec read_body(TomlTable table, std::set<std::string>& names) {
+  BodySpec body;
+  body.name = read_name(table, "body", names);
+  body.surface = read_surface(table, false);
+  body.script = read_script(table);
+  table.finish();
+  return body;
+}
+
+TimeSpec read_time(TomlTable table) {
+  TimeSpec time;
+  time.frames_per_s = table.number("frames_per_s", {0, 1e6, true}, time.frames_per_s);
+  if (table.has("frames") == table.has("duration_s")) table.fail("give frames or duration_s, and not both");
+  if (table.has("frames")) {
+    time.frame_count = table.integer("frames", 1, kMaxFrames - 1);
+  } else {
+    const double frames = table.number("duration_s", kPositive) * time.frames_per_s;
+    if (frames > kMaxFrames - 1) table.fail("duration_s", "more than a million frames; shorten it");
+    time.frame_count = std::max<std::int64_t>(1, std::llround(frames));
+  }
+  const double frame_s = 1 / time.frames_per_s;
+  const auto step = [&](std::string_view key, double longest_s) -> std::optional<double> {
+    if (!table.has(key)) return std::nullopt;
+    return table.number(key, {frame_s * 1e-6, longest_s});
+  };
+  time.dynamics_step_s = step("dynamics_step_s", frame_s);
+  time.max_step_s = step("max_step_s", frame_s);
+  time.min_step_s = step("min_step_s", time.max_step_s.value_or(frame_s));
+  table.finish();
+  return time;
+}
+
+CollisionOptions read_collision(TomlTable table) {
+  CollisionOptions options;
+  options.thickness_m = table.number("thickness_m", kPositive, options.thickness_m);
+  options.tolerance_m = table.number("tolerance_m", kNotNegative, options.tolerance_m);
+  if (!(options.tolerance_m < options.thickness_m)) {
+    table.fail("tolerance_m", "tolerance_m must be below thickness_m; repulsions could not keep it otherwise");
+  }
+  options.repulsion = table.boolean("repulsion", options.repulsion);
+  options.repulsion_stiffness_n_m = table.number("repulsion_stiffness_n_m", kNotNegative, 0);
+  options.overlap_fraction = table.number("overlap_fraction", {0, 1}, options.overlap_fraction);
+  options.relaxation = table.number("relaxation", {0, 1, true}, options.relaxation);
+  options.friction_static = table.number("friction_static", kNotNegative, 0);
+  options.friction_kinetic = table.number("friction_kinetic", kNotNegative, options.friction_static);
+  if (options.friction_kinetic > options.friction_static) {
+    table.fail("friction_kinetic", "friction_kinetic must not exceed friction_static");
+  }
+  options.impulse_iterations =
+      static_cast<std::int32_t>(table.integer("impulse_rounds", 0, 1000, options.impulse_iterations));
+  options.zone_iterations = static_cast<std::int32_t>(table.integer("zone_rounds", 0, 1000, options.zone_iterations));
+  options.precision = table.choice("precision", {"float64", "float32"}) == 0 ? CollisionOptions::Precision::kFloat64
+                                                                             : CollisionOptions::Precision::kFloat32;
+  table.finish();
+  return options;
+}
+
+Scene read_root(TomlTable root) {
+  Scene scene;
+  std::optional<TomlTable> time = root.table("time");
+  if (!time) root.fail("the table [time] is missing; add it with frames = ...");
+  scene.time = read_time(std::move(*time));
+  scene.gravity_m_s2 = root.vector("gravity_m_s2", {-1e6, 1e6}, Vec3::Zero());
+  scene.drag_1_s = root.number("drag_1_s", {0, 1e6}, 0);
+  scene.strain.strain = root.number("strain_limit", {0, 0.9}, scene.strain.strain);
+  scene.strain.strain_rate = root.number("strain_rate_limit", {0, 0.9}, scene.strain.strain_rate);
+  scene.squeeze = root.choice("squeeze", {"stop", "yield"}) == 0 ? SqueezePolicy::kStop : SqueezePolicy::kYield;
+  root.choice("solver", {"explicit"});
+  std::optional<TomlTable> collision = root.table("collision");
+  const bool stiffness_given = collision && collision->has("repulsion_stiffness_n_m");
+  if (collision) scene.collision = read_collision(std::move(*collision));
+  std::set<std::string> names;
+  for (TomlTable& cloth : root.tables("cloth")) scene.cloths.push_back(read_cloth(cloth, names));
+  if (scene.cloths.empty()) root.fail("no cloth; add a table [[cloth]]");
+  for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, names));
+  root.finish();
+  if (!stiffness_given) {
+    // Paper, 7.2: "matching the stiffness of the stretch springs in the cloth gave good results".
+    for (const ClothSpec& cloth : scene.cloths) {
+      scene.collision.repulsion_stiffness_n_m = std::max(scene.collision.repulsion_stiffness_n_m, cloth.stretch_n_m);
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name) {
+  try {
+    const toml::table table = toml::parse(text);
+    Scene scene = read_root(TomlTable(table, "scene", name));
+    scene.file = name;
+    return scene;
+  } catch (const toml::parse_error& error) {
+    throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}; correct the TOML syntax", name,
+                                                          error.source().begin.line, error.description()));
+  }
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+  return parse_scene(io::read_file(file, kSceneByteLimit), file.string());
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,61 @@
+// One time step of a scene: reads like the list in section 5 of the paper.
+#pragma once
+
+#include <memory>
+
+#include "sim/collision_step.h"
+#include "sim/dynamics.h"
+#include "sim/scene.h"
+#include "sim/time_step.h"
+#include "sim/world.h"
+
+namespace selvage::sim {
+
+/// Everything that changes while a scene runs: what a checkpoint holds.
+struct SimulationState {
+  Positions x, v;  ///< #V by 3, m and m/s
+  StepClock::State clock;
+};
+
+struct PhaseSeconds {
+  double dynamics = 0, collision = 0, velocity = 0;
+};
+
+struct StepResult {
+  CollisionStepReport report;  ///< of the step that was taken, or that could not be
+  double dt_s = 0;
+  std::int32_t halvings = 0;  ///< tries thrown away because repulsions were not enough
+  PhaseSeconds seconds;
+};
+
+class Simulation {
+ public:
+  /// Builds what the scene asks for. Throws io::Error.
+  explicit Simulation(const Scene& scene);
+
+  /// Advances to the end of one collision step. PRE: the state is free of intersections (build_world does not check it;
+  /// the command does). Where report.status is not kSafe, nothing was advanced.
+  StepResult step();
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const Positions& x() const { return x_; }
+  [[nodiscard]] const StepClock& clock() const { return clock_; }
+  [[nodiscard]] SimulationState state() const { return {x_, v_, clock_.state()}; }
+  void restore(const SimulationState& state);
+
+ private:
+  Positions candidate_positions(double dt_s, Motion& end);
+  void commit(const CollisionStepResult& safe, Motion end, double dt_s);
+
+  Scene scene_;
+  World world_;
+  StepClock clock_;
+  std::unique_ptr<Dynamics> dynamics_;
+  CollisionStep collision_step_;
+  Positions x_, v_;
+  std::vector<double> inverse_mass_;  ///< #V, now: pins that hold have 0
+  std::vector<std::int32_t> body_;    ///< #V, now: the collider that holds the vertex, or -1
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,150 @@
+#include "sim/toml_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace selvage::sim {
+namespace {
+
+std::string describe(const Range& range) {
+  const bool bounded_below = range.lower > -1e300, bounded_above = range.upper < 1e300;
+  if (bounded_below && bounded_above) {
+    return fmt::format("a number {} {} and at most {}", range.lower_open ? "above" : "of at least", range.lower,
+                       range.upper);
+  }
+  if (bounded_below) return fmt::format("a number {} {}", range.lower_open ? "above" : "of at least", range.lower);
+  return "a finite number";
+}
+
+bool inside(double value, const Range& range) {
+  return std::isfinite(value) && (range.lower_open ? value > range.lower : value >= range.lower) &&
+         value <= range.upper;
+}
+
+// Integers are numbers too: "duration_s = 4".
+std::optional<double> as_number(const toml::node& node) {
+  return node.is_number() ? node.value<double>() : std::nullopt;
+}
+
+}  // namespace
+
+void TomlTable::fail_at(const toml::node& node, const std::string& message) const {
+  throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}", file_, node.source().begin.line, message));
+}
+
+void TomlTable::fail(std::string_view key, const std::string& message) const {
+  const toml::node* node = table_.get(key);
+  fail_at(node != nullptr ? *node : static_cast<const toml::node&>(table_), fmt::format("{}: {}", name_, message));
+}
+
+void TomlTable::fail(const std::string& message) const { fail_at(table_, fmt::format("{}: {}", name_, message)); }
+
+const toml::node* TomlTable::find(std::string_view key, bool required, std::string_view what) {
+  asked_.emplace_back(key);
+  const toml::node* node = table_.get(key);
+  if (node == nullptr && required) fail(fmt::format("{} is missing; add {} = {}", key, key, what));
+  return node;
+}
+
+double TomlTable::number(std::string_view key, const Range& range, std::optional<double> fallback) {
+  const toml::node* node = find(key, !fallback, describe(range));
+  if (node == nullptr) return *fallback;
+  const std::optional<double> value = as_number(*node);
+  if (!value || !inside(*value, range)) fail(key, fmt::format("{} must be {}", key, describe(range)));
+  return *value;
+}
+
+std::int64_t TomlTable::integer(std::string_view key, std::int64_t lower, std::int64_t upper,
+                                std::optional<std::int64_t> fallback) {
+  const std::string what = fmt::format("an integer from {} to {}", lower, upper);
+  const toml::node* node = find(key, !fallback, what);
+  if (node == nullptr) return *fallback;
+  const std::optional<std::int64_t> value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+  if (!value || *value < lower || *value > upper) fail(key, fmt::format("{} must be {}", key, what));
+  return *value;
+}
+
+bool TomlTable::boolean(std::string_view key, bool fallback) {
+  const toml::node* node = find(key, false, "");
+  if (node == nullptr) return fallback;
+  if (!node->is_boolean()) fail(key, fmt::format("{} must be true or false", key));
+  return *node->value<bool>();
+}
+
+std::string TomlTable::text(std::string_view key, std::optional<std::string> fallback) {
+  const toml::node* node = find(key, !fallback, "\"...\"");
+  if (node == nullptr) return *fallback;
+  if (!node->is_string()) fail(key, fmt::format("{} must be a string in quotes", key));
+  return *node->value<std::string>();
+}
+
+std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string_view>& choices) {
+  const std::string value = text(key, std::string(choices.front()));
+  const auto found = std::find(choices.begin(), choices.end(), value);
+  if (found == choices.end()) {
+    fail(key, fmt::format("{} is \"{}\"; choose one of \"{}\"", key, value, fmt::join(choices, "\", \"")));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+Vec3 TomlTable::vector(std::string_view key, const Range& range, std::optional<Vec3> fallback) {
+  const toml::node* node = find(key, !fallback, "[x, y, z]");
+  if (node == nullptr) return *fallback;
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->size() != 3) fail(key, fmt::format("{} must be three numbers [x, y, z]", key));
+  Vec3 value;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::optional<double> number = as_number((*array)[k]);
+    if (!number || !inside(*number, range)) {
+      fail(key, fmt::format("{}[{}] must be {}", key, k, describe(range)));
+    }
+    value[static_cast<Eigen::Index>(k)] = *number;
+  }
+  return value;
+}
+
+std::vector<std::int64_t> TomlTable::integers(std::string_view key, std::int64_t lower, std::int64_t upper) {
+  const toml::node* node = find(key, true, "[...]");
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->empty()) fail(key, fmt::format("{} must be a list of integers", key));
+  std::vector<std::int64_t> values;
+  for (const toml::node& item : *array) {
+    const std::optional<std::int64_t> value = item.is_integer() ? item.value<std::int64_t>() : std::nullopt;
+    if (!value || *value < lower || *value > upper) {
+      fail_at(item, fmt::format("{}: {} must hold integers from {} to {}", name_, key, lower, upper));
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<TomlTable> TomlTable::table(std::string_view key) {
+  const toml::node* node = find(key, false, "");
+  if (node == nullptr) return std::nullopt;
+  if (!node->is_table()) fail(key, fmt::format("{} must be a table", key));
+  return TomlTable(*node->as_table(), std::string(key), file_);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  const toml::node* node = find(key, false, "");
+  std::vector<TomlTable> found;
+  if (node == nullptr) return found;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) fail(key, fmt::format("{} must be a list of tables: [[{}]]", key, key));
+  for (const toml::node& item : *array) {
+    if (!item.is_table()) fail_at(item, fmt::format("{}: {} must hold tables only", name_, key));
+    found.emplace_back(*item.as_table(), std::string(key), file_);
+  }
+  return found;
+}
+
+void TomlTable::finish() const {
+  for (const auto& [key, node] : table_) {
+    if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
+    fail_at(node, fmt::format("{}: unknown key \"{}\"; known here: {}", name_, key.str(), fmt::join(asked_, ", ")));
+  }
+}
+
+}  // namespace selvage::sim

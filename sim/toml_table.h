@@ -1,0 +1,67 @@
+// One table of a TOML file that is read key by key; what was not asked for is an unknown key. Every error names file
+// and line. Internal to the scene reader: keeps toml++ out of the public headers.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "io/error.h"
+#include "kernel/types.h"
+
+namespace selvage::sim {
+
+/// Admissible values: lower <= x <= upper, or lower < x where the lower end is open.
+struct Range {
+  double lower = -std::numeric_limits<double>::max(), upper = std::numeric_limits<double>::max();
+  bool lower_open = false;
+};
+inline constexpr Range kPositive{0, 1e300, true};
+inline constexpr Range kNotNegative{0, 1e300};
+/// Scripted and initial coordinates: beyond it 1e-6 m is below the spacing of doubles, and no tolerance means anything.
+inline constexpr Range kCoordinate{-1e9, 1e9};
+
+class TomlTable {
+ public:
+  /// `name` is how errors call the table: "cloth 'curtain'". Both references outlive it.
+  TomlTable(const toml::table& table, std::string name, const std::string& file)
+      : table_(table), name_(std::move(name)), file_(file) {}
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+  /// The functions below throw io::Error(kBadInput) if the key is absent, of another type, or outside its range; with
+  /// `fallback` an absent key is that.
+  double number(std::string_view key, const Range& range, std::optional<double> fallback = std::nullopt);
+  std::int64_t integer(std::string_view key, std::int64_t lower, std::int64_t upper,
+                       std::optional<std::int64_t> fallback = std::nullopt);
+  bool boolean(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::optional<std::string> fallback = std::nullopt);
+  /// The index of the value in `choices`; the first is the fallback.
+  std::size_t choice(std::string_view key, const std::vector<std::string_view>& choices);
+  Vec3 vector(std::string_view key, const Range& range, std::optional<Vec3> fallback = std::nullopt);
+  std::vector<std::int64_t> integers(std::string_view key, std::int64_t lower, std::int64_t upper);
+  /// The table `key`, or none; the tables of the array `key`, none if absent.
+  std::optional<TomlTable> table(std::string_view key);
+  std::vector<TomlTable> tables(std::string_view key);
+
+  void rename(std::string name) { name_ = std::move(name); }
+  /// Throws at the first key that nothing above asked for.
+  void finish() const;
+  /// Throws "FILE:LINE: NAME: message" with the line of `key`, or of the table.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  const toml::node* find(std::string_view key, bool required, std::string_view what);
+  [[noreturn]] void fail_at(const toml::node& node, const std::string& message) const;
+
+  const toml::table& table_;
+  std::string name_;
+  const std::string& file_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,198 @@
+#include "sim/world.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "io/mesh_reader.h"
+#include "sim/cloth.h"
+
+namespace selvage::sim {
+namespace {
+
+Shape make_shape(const SheetSpec& sheet, const Scene&) {
+  return make_sheet(sheet.nx, sheet.ny, sheet.width_m, sheet.height_m);
+}
+Shape make_shape(const SphereSpec& sphere, const Scene&) { return make_sphere(sphere.radius_m, sphere.subdivisions); }
+Shape make_shape(const BoxSpec& box, const Scene&) { return make_box(box.size_m, box.cells); }
+Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
+  const io::MeshData data = io::read_mesh(scene.file.parent_path() / mesh.file);
+  Shape shape;
+  shape.triangles = data.triangles;
+  shape.x.resize(static_cast<Eigen::Index>(data.points.size()), 3);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      shape.x(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = mesh.scale * data.points[i][k];
+    }
+  }
+  return shape;
+}
+
+// Collects parts into one vertex and one face list.
+class WorldBuilder {
+ public:
+  explicit WorldBuilder(const Scene& scene) : scene_(scene) {}
+
+  void add_cloth(const ClothSpec& spec) {
+    const Shape rest = shape_of(spec.surface);
+    const std::vector<double> mass_kg = cloth_masses(spec, rest);
+    if (std::find(mass_kg.begin(), mass_kg.end(), 0.0) != mass_kg.end()) {
+      throw io::Error(io::ErrorKind::kBadInput,
+                      fmt::format("{}: \"{}\" has a vertex without mass, in no face or only in faces without area; "
+                                  "remove it from the mesh or use masses = \"equal\"",
+                                  scene_.file.string(), spec.name));
+    }
+    const VertexId begin = add_part(spec.name, io::Group::Role::kCloth, rest, place(spec.placement, rest.x));
+    v_.bottomRows(rest.x.rows()).rowwise() = spec.velocity_m_s.transpose();
+    for (const double mass : mass_kg) inverse_mass_.push_back(1 / mass);
+    for (Spring spring : make_springs(spec, rest, mass_kg)) {
+      spring.a += begin;
+      spring.b += begin;
+      springs_.push_back(spring);
+    }
+    for (std::size_t n = 0; n < spec.pins.size(); ++n) {
+      add_pin(fmt::format("{} pin {}", spec.name, n), spec.pins[n], begin, static_cast<VertexId>(rest.x.rows()));
+    }
+  }
+
+  void add_body(const BodySpec& spec) {
+    const Shape shape = shape_of(spec.surface);
+    const RigidPath path(spec.script.keys, spec.script.interpolation);
+    const VertexId begin = add_part(spec.name, io::Group::Role::kBody, shape, place(path.at(0), shape.x));
+    inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
+    std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
+    std::iota(vertices.begin(), vertices.end(), begin);
+    bodies_.emplace_back(spec.name, std::move(vertices), shape.x, path);
+  }
+
+  World take(std::int32_t cloth_vertex_count) {
+    World world{std::move(triangles_),
+                std::move(groups_),
+                {},
+                cloth_vertex_count,
+                std::move(inverse_mass_),
+                SpringSystem(std::move(springs_), cloth_vertex_count),
+                std::move(bodies_),
+                0,
+                0,
+                {},
+                {}};
+    world.body_count = static_cast<std::int32_t>(world.colliders.size());
+    std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
+    Faces faces(static_cast<Eigen::Index>(world.triangles.size()), 3);
+    for (std::size_t f = 0; f < world.triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = world.triangles[f][k];
+      }
+    }
+    world.mesh = make_mesh(vertex_count(), faces);
+    world.stable_step_s = stable_step_s(world.springs, world.inverse_mass);
+    const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
+    world.x_t0 = float32 ? Positions(x_.cast<float>().cast<double>()) : std::move(x_);
+    world.v_t0 = std::move(v_);
+    for (const Collider& collider : world.colliders) collider.place_at(0, float32, world.x_t0);
+    return world;
+  }
+  [[nodiscard]] VertexId vertex_count() const { return static_cast<VertexId>(v_.rows()); }
+
+ private:
+  [[nodiscard]] Shape shape_of(const Surface& surface) const {
+    return std::visit([&](const auto& spec) { return make_shape(spec, scene_); }, surface);
+  }
+
+  VertexId add_part(const std::string& name, io::Group::Role role, const Shape& shape, const Positions& placed) {
+    const auto begin = static_cast<VertexId>(x_.rows());
+    const auto face_begin = static_cast<FaceId>(triangles_.size());
+    for (const auto& t : shape.triangles) triangles_.push_back({t[0] + begin, t[1] + begin, t[2] + begin});
+    groups_.push_back({name, role, face_begin, static_cast<FaceId>(triangles_.size())});
+    x_.conservativeResize(begin + placed.rows(), 3);
+    x_.bottomRows(placed.rows()) = placed;
+    v_.conservativeResize(x_.rows(), 3);
+    v_.bottomRows(placed.rows()).setZero();
+    return begin;
+  }
+
+  void add_pin(const std::string& name, const PinSpec& spec, VertexId begin, VertexId count) {
+    if (spec.vertices.back() >= count) {
+      throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {} holds vertex {}, but the mesh has {}; correct the "
+                                                            "list",
+                                                            scene_.file.string(), name, spec.vertices.back(), count));
+    }
+    std::vector<VertexId> vertices;
+    Vec3 mean = Vec3::Zero();
+    for (const VertexId vertex : spec.vertices) {
+      vertices.push_back(begin + vertex);
+      mean += x_.row(begin + vertex).transpose() / double(spec.vertices.size());
+    }
+    Positions local(static_cast<Eigen::Index>(vertices.size()), 3);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      local.row(static_cast<Eigen::Index>(i)) = x_.row(vertices[i]) - mean.transpose();
+    }
+    std::vector<PoseKey> keys = spec.script.keys;
+    for (PoseKey& key : keys) key.pose.position_m += mean;
+    pins_.emplace_back(name, std::move(vertices), std::move(local),
+                       RigidPath(std::move(keys), spec.script.interpolation), spec.release_s);
+  }
+
+  const Scene& scene_;
+  io::Triangles triangles_;
+  std::vector<io::Group> groups_;
+  Positions x_{0, 3}, v_{0, 3};
+  std::vector<double> inverse_mass_;
+  std::vector<Spring> springs_;
+  std::vector<Collider> bodies_, pins_;
+};
+
+}  // namespace
+
+World build_world(const Scene& scene) {
+  WorldBuilder builder(scene);
+  for (const ClothSpec& cloth : scene.cloths) builder.add_cloth(cloth);
+  const std::int32_t cloth_vertex_count = builder.vertex_count();
+  for (const BodySpec& body : scene.bodies) builder.add_body(body);
+  World world = builder.take(cloth_vertex_count);
+  if (scene.time.dynamics_step_s && !(*scene.time.dynamics_step_s < world.stable_step_s)) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    fmt::format("{}: dynamics_step_s = {} is not stable for these springs; lower it below {:.3g} or "
+                                "leave it out",
+                                scene.file.string(), *scene.time.dynamics_step_s, world.stable_step_s));
+  }
+  return world;
+}
+
+std::string describe(const Scene& scene, const World& world) {
+  std::string text;
+  const auto line = [&](const char* what, const std::string& value) { text += fmt::format("{:<11}{}\n", what, value); };
+  const auto count = [&](SpringKind kind) {
+    return std::count_if(world.springs.springs().begin(), world.springs.springs().end(),
+                         [&](const Spring& spring) { return spring.kind == kind; });
+  };
+  for (const io::Group& group : world.groups) {
+    line(group.role == io::Group::Role::kCloth ? "cloth" : "body",
+         fmt::format("{}, {} faces", group.name, group.face_end - group.face_begin));
+  }
+  line("springs", fmt::format("{} structural", count(SpringKind::kStructural)));
+  if (count(SpringKind::kShear) > 0) line("", fmt::format("{} shear", count(SpringKind::kShear)));
+  if (count(SpringKind::kBending) > 0) line("", fmt::format("{} bending", count(SpringKind::kBending)));
+  if (scene.strain.strain > 0) line("limits", fmt::format("strain {:g}", scene.strain.strain));
+  if (scene.strain.strain_rate > 0) line("limits", fmt::format("strain rate {:g} a step", scene.strain.strain_rate));
+  if (scene.gravity_m_s2 != Vec3::Zero()) {
+    line("gravity", fmt::format("({:g}, {:g}, {:g}) m/s^2", scene.gravity_m_s2.x(), scene.gravity_m_s2.y(),
+                                scene.gravity_m_s2.z()));
+  }
+  if (scene.drag_1_s > 0) line("air", fmt::format("drag {:g} 1/s", scene.drag_1_s));
+  for (std::size_t n = static_cast<std::size_t>(world.body_count); n < world.colliders.size(); ++n) {
+    line("pin", fmt::format("{}, {} vertices", world.colliders[n].name(), world.colliders[n].vertices().size()));
+  }
+  line("contact", fmt::format("tolerance {:g} m", scene.collision.tolerance_m));
+  if (scene.collision.repulsion) line("", fmt::format("repulsion below {:g} m", scene.collision.thickness_m));
+  if (scene.collision.repulsion && scene.collision.friction_static > 0) {
+    line("", fmt::format("friction {:g} static, {:g} kinetic", scene.collision.friction_static,
+                         scene.collision.friction_kinetic));
+  }
+  if (scene.collision.precision == CollisionOptions::Precision::kFloat32) line("state", "on the float32 lattice");
+  return text;
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,35 @@
+// Everything about a scene that does not change while it runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/mesh_data.h"
+#include "kernel/mesh.h"
+#include "sim/collider.h"
+#include "sim/scene.h"
+#include "sim/spring.h"
+
+namespace selvage::sim {
+
+/// Vertices and faces: all cloths in the order of the scene, then all bodies.
+struct World {
+  io::Triangles triangles;
+  std::vector<io::Group> groups;  ///< one per cloth and per body
+  Mesh mesh;
+  std::int32_t cloth_vertex_count = 0;
+  std::vector<double> inverse_mass;  ///< #V, 1/kg; pins do not show here, as they may be released; 0 for bodies
+  SpringSystem springs;              ///< of the cloth vertices
+  std::vector<Collider> colliders;   ///< the bodies, then the pins; the index is the collision step's body id
+  std::int32_t body_count = 0;       ///< of the colliders
+  double stable_step_s = 0;          ///< of the springs
+  Positions x_t0, v_t0;              ///< #V by 3 at time 0, on the lattice of the scene's precision
+};
+
+/// Reads the mesh files and builds. Throws io::Error: a bad mesh, a vertex without mass, a pinned vertex out of range.
+[[nodiscard]] World build_world(const Scene& scene);
+
+/// What the run models, one line each, for a person: what the scene does not ask for is not built and not listed.
+[[nodiscard]] std::string describe(const Scene& scene, const World& world);
+
+}  // namespace selvage::sim

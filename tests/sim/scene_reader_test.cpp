@@ -1,0 +1,168 @@
+#include "sim/scene_reader.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace selvage {
+
+using namespace sim;
+
+namespace {
+
+// Line 1 is [time]; the cloth's table starts at line 4; what a test appends starts at line 9.
+const std::string kScene =
+    "[time]\n"
+    "frames = 10\n"
+    "\n"
+    "[[cloth]]\n"
+    "density_kg_m2 = 0.2\n"
+    "stretch_n_m = 50\n"
+    "sheet = {nx = 5, ny = 4, width_m = 1, height_m = 0.8}\n"
+    "\n";
+
+struct BadScene {
+  const char* why;
+  std::string text;
+  int line;
+  const char* message;  ///< part of the error
+};
+
+const BadScene kBadScenes[] = {
+    {"syntax", kScene + "[[body]\n", 9, "TOML syntax"},
+    {"no time", "gravity_m_s2 = [0, 0, -9.81]\n", 1, "[time] is missing"},
+    {"no cloth", "[time]\nframes = 1\n", 1, "no cloth"},
+    {"unknown root key", "gravty = 1\n" + kScene, 1, "unknown key \"gravty\"; known here: time, gravity_m_s2"},
+    {"unknown key in a part", kScene + "[[body]]\nspher = {radius_m = 1}\nsphere = {radius_m = 1}\n", 10, "\"spher\""},
+    {"unknown key in a surface", kScene + "[[body]]\nsphere = {radius_m = 1, cells = 2}\n", 10, "\"cells\""},
+    {"both ends of a choice", "[time]\nframes = 3\nduration_s = 1\n", 1, "frames or duration_s"},
+    {"a negative density",
+     "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = -1\nstretch_n_m = 1\n"
+     "sheet = {nx = 5, ny = 4, width_m = 1, height_m = 0.8}\n",
+     4, "density_kg_m2 must be a number above 0"},
+    {"a string for a number", "[time]\nframes = \"ten\"\n", 2, "frames must be an integer"},
+    {"a fraction for a count", "[time]\nframes = 2.5\n", 2, "frames must be an integer"},
+    {"infinity", kScene + "drag = 1\n[collision]\nthickness_m = inf\n", 11, "thickness_m must be a number above 0"},
+    {"nan", "drag_1_s = nan\n" + kScene, 1, "drag_1_s"},
+    {"two numbers for a vector", "gravity_m_s2 = [0, 0]\n" + kScene, 1, "three numbers"},
+    {"tolerance above thickness", kScene + "[collision]\nthickness_m = 1e-3\ntolerance_m = 2e-3\n", 11,
+     "below thickness_m"},
+    {"kinetic above static", kScene + "[collision]\nfriction_static = 0.2\nfriction_kinetic = 0.3\n", 11,
+     "must not exceed friction_static"},
+    {"an unknown policy", "squeeze = \"explode\"\n" + kScene, 1, "\"stop\", \"yield\""},
+    {"two surfaces", kScene + "[[body]]\nsphere = {radius_m = 1}\nbox = {size_m = [1, 1, 1]}\n", 11, "second surface"},
+    {"no surface", kScene + "[[body]]\nname = \"air\"\n", 9, "no surface"},
+    {"a name twice", kScene + "[[body]]\nname = \"cloth\"\nsphere = {radius_m = 1}\n", 10, "a second \"cloth\""},
+    {"keys out of order",
+     kScene + "[[body]]\nsphere = {radius_m = 1}\n[[body.key]]\ntime_s = 1\n[[body.key]]\ntime_s = 1\n", 14,
+     "must grow"},
+    {"a pose beside keys",
+     kScene + "[[body]]\nsphere = {radius_m = 1}\nposition_m = [0, 0, 1]\n[[body.key]]\ntime_s = 1\n", 11,
+     "unknown key \"position_m\""},
+    {"a pinned vertex out of range", kScene + "[[cloth.pin]]\nvertices = [0, 20]\n", 10, "from 0 to 19"},
+    {"a vertex pinned twice", kScene + "[[cloth.pin]]\nedge = \"top\"\n[[cloth.pin]]\nedge = \"left\"\n", 11,
+     "pinned already"},
+    {"a pin that starts elsewhere", kScene + "[[cloth.pin]]\nedge = \"top\"\nposition_m = [0, 0, 1]\n", 9,
+     "starts where"},
+    {"a shortest step above the longest", "[time]\nframes = 1\nmax_step_s = 1e-3\nmin_step_s = 2e-3\n", 4,
+     "min_step_s"},
+    {"shear on a mesh",
+     "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 1\nstretch_n_m = 1\nmesh = {file = \"a.obj\"}\n"
+     "shear_n_m = 2\n",
+     7, "only sheets"},
+};
+
+}  // namespace
+
+TEST(SceneReader, EveryErrorNamesItsLineAndARemedy) {
+  for (const BadScene& bad : kBadScenes) {
+    try {
+      (void)parse_scene(bad.text, "bad.toml");
+      ADD_FAILURE() << bad.why << ": no error";
+    } catch (const io::Error& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(error.kind(), io::ErrorKind::kBadInput) << bad.why;
+      EXPECT_TRUE(what.starts_with("bad.toml:" + std::to_string(bad.line) + ": ")) << bad.why << ": " << what;
+      EXPECT_NE(what.find(bad.message), std::string::npos) << bad.why << ": " << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << bad.why << ": " << what;
+    }
+  }
+}
+
+TEST(SceneReader, DefaultsAreThePapers) {
+  const Scene scene = parse_scene(kScene, "scene.toml");
+  EXPECT_EQ(scene.collision.thickness_m, 1e-3);
+  EXPECT_EQ(scene.collision.tolerance_m, 1e-6);
+  EXPECT_EQ(scene.collision.overlap_fraction, 0.1);
+  EXPECT_EQ(scene.collision.repulsion_stiffness_n_m, 50) << "that of the stretch springs (7.2)";
+  EXPECT_EQ(scene.strain.strain, 0.1);
+  EXPECT_EQ(scene.strain.strain_rate, 0.1);
+  EXPECT_EQ(scene.gravity_m_s2, Vec3(Vec3::Zero())) << "what is not asked for is not modelled";
+  EXPECT_EQ(scene.collision.friction_static, 0);
+  EXPECT_EQ(scene.cloths.at(0).bend_n_m, 0);
+  EXPECT_EQ(scene.squeeze, SqueezePolicy::kStop);
+  EXPECT_EQ(scene.time.frames_per_s, 30);
+  EXPECT_EQ(scene.time.frame_count, 10);
+}
+
+TEST(SceneReader, ReadsWhatItIsGiven) {
+  const Scene scene = parse_scene(R"(
+gravity_m_s2 = [0, 0, -9.81]
+drag_1_s = 0.5
+squeeze = "yield"
+[time]
+frames_per_s = 24
+duration_s = 2
+min_step_s = 0.005
+[collision]
+friction_static = 0.6
+precision = "float32"
+[[cloth]]
+name = "curtain"
+sheet = {nx = 3, ny = 2, width_m = 1, height_m = 2}
+position_m = [0, 0, 1]
+rotation_deg = [90, 0, 0]
+density_kg_m2 = 0.15
+stretch_n_m = 40
+shear_n_m = 20
+bend_n_m = 0.1
+masses = "area"
+[[cloth.pin]]
+edge = "top"
+release_s = 0.5
+[[cloth.pin]]
+vertices = [1, 0]
+interpolation = "smooth"
+[[cloth.pin.key]]
+time_s = 0
+[[cloth.pin.key]]
+time_s = 1
+position_m = [1, 0, 0]
+[[body]]
+box = {size_m = [1, 2, 3], cells = 4}
+[[body.key]]
+time_s = 0.25
+rotation_deg = [0, 0, 90]
+)",
+                                  "scene.toml");
+  EXPECT_EQ(scene.time.frame_count, 48);
+  EXPECT_EQ(scene.time.min_step_s, 0.005);
+  EXPECT_EQ(scene.gravity_m_s2, Vec3(0, 0, -9.81));
+  EXPECT_EQ(scene.drag_1_s, 0.5);
+  EXPECT_EQ(scene.squeeze, SqueezePolicy::kYield);
+  EXPECT_EQ(scene.collision.friction_static, 0.6);
+  EXPECT_EQ(scene.collision.friction_kinetic, 0.6) << "one coefficient, as in the paper";
+  EXPECT_EQ(scene.collision.precision, CollisionOptions::Precision::kFloat32);
+  const ClothSpec& cloth = scene.cloths.at(0);
+  EXPECT_EQ(cloth.placement.rotation_deg, Vec3(90, 0, 0));
+  EXPECT_EQ(cloth.masses, ClothSpec::Masses::kArea);
+  EXPECT_EQ(cloth.pins.at(0).vertices, (std::vector<VertexId>{3, 4, 5}));
+  EXPECT_EQ(cloth.pins.at(0).release_s, 0.5);
+  EXPECT_EQ(cloth.pins.at(1).vertices, (std::vector<VertexId>{0, 1}));
+  EXPECT_EQ(cloth.pins.at(1).script.keys.at(1).pose.position_m, Vec3(1, 0, 0));
+  EXPECT_EQ(cloth.pins.at(1).script.interpolation, Interpolation::kSmooth);
+  EXPECT_EQ(std::get<BoxSpec>(scene.bodies.at(0).surface).cells, 4);
+  EXPECT_EQ(scene.bodies.at(0).script.keys.at(0).pose.rotation_deg, Vec3(0, 0, 90));
+}
+
+}  // namespace selvage

@@ -1,0 +1,116 @@
+#include "sim/strain.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/random_cloth.h"
+
+namespace selvage {
+
+using namespace sim;
+using testing::random_cloth;
+
+namespace {
+
+using Limiter = std::int64_t (*)(const SpringSystem&, std::span<const double>, const PositionsRef&, double,
+                                 const StrainLimits&, Positions&);
+
+// A spring of rest length 1 along x between masses of 1 and 3.
+struct Pair {
+  SpringSystem springs{{Spring{0, 1, SpringKind::kStructural, 1.0, 1, 0}}, 2};
+  std::vector<double> inverse_mass = {1, 1.0 / 3};
+  Positions x{2, 3}, v{2, 3};
+
+  Pair(double length, double rate) {
+    x << 0, 0, 0, length, 0, 0;
+    v << -0.75 * rate, 0, 0, 0.25 * rate, 0, 0;  // no linear momentum
+  }
+  [[nodiscard]] double length_after(double dt_s) const { return (x + dt_s * v).row(1)(0) - (x + dt_s * v).row(0)(0); }
+};
+
+double longest_strain(const testing::RandomCloth& cloth, const Positions& v, double dt_s) {
+  double worst = 0;
+  for (const Spring& spring : cloth.springs.springs()) {
+    if (spring.kind == SpringKind::kBending) continue;
+    const Positions end = cloth.x + dt_s * v;
+    worst = std::max(worst, (end.row(spring.b) - end.row(spring.a)).norm() / spring.rest_length_m - 1);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST(Strain, AFastSpringEndsAtItsLimit) {
+  for (const double rate : {5.0, -5.0}) {
+    Pair pair(1.05, rate);
+    EXPECT_EQ(limit_strain(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 1);
+    EXPECT_NEAR(pair.length_after(0.1), rate > 0 ? 1.1 : 0.9, 1e-15);
+  }
+}
+
+TEST(Strain, ASpringBeyondItsLimitDoesNotGetWorseAndIsNotPulledBack) {
+  Pair pair(1.3, 2);
+  EXPECT_EQ(limit_strain(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 1);
+  EXPECT_NEAR(pair.length_after(0.1), 1.3, 1e-15);
+  Pair returning(1.3, -0.5);
+  const Positions before = returning.v;
+  EXPECT_EQ(limit_strain(returning.springs, returning.inverse_mass, returning.x, 0.1, {}, returning.v), 0);
+  EXPECT_EQ(returning.v, before);
+}
+
+TEST(Strain, WithinTheLimitNothingChanges) {
+  Pair pair(1.0, 0.9);
+  const Positions before = pair.v;
+  EXPECT_EQ(limit_strain(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 0);
+  EXPECT_EQ(limit_strain_rate(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 0);
+  EXPECT_EQ(pair.v, before);
+}
+
+TEST(Strain, RateIsOfTheCurrentLength) {
+  Pair pair(2.0, 5);
+  EXPECT_EQ(limit_strain_rate(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 1);
+  EXPECT_NEAR(pair.length_after(0.1), 2.2, 1e-15);
+}
+
+TEST(Strain, BendingSpringsAndHeldVerticesAreLeftAlone) {
+  Pair pair(1.0, 9);
+  pair.springs = SpringSystem({Spring{0, 1, SpringKind::kBending, 1.0, 1, 0}}, 2);
+  EXPECT_EQ(limit_strain(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 0);
+  EXPECT_EQ(limit_strain_rate(pair.springs, pair.inverse_mass, pair.x, 0.1, {}, pair.v), 0);
+  Pair held(1.0, 9);
+  held.inverse_mass[0] = 0;
+  const Vec3 kept = held.v.row(0);
+  EXPECT_EQ(limit_strain(held.springs, held.inverse_mass, held.x, 0.1, {}, held.v), 1);
+  EXPECT_EQ(Vec3(held.v.row(0)), kept);
+  EXPECT_NEAR(held.length_after(0.1), 1.1, 1e-15);
+}
+
+TEST(Strain, LimitsKeepMomentaAndTakeEnergy) {
+  for (const Limiter limiter : {Limiter{limit_strain}, Limiter{limit_strain_rate}}) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+      const auto cloth = random_cloth(seed);
+      const double dt_s = 0.05;
+      const double energy = kinetic_energy(cloth, cloth.v);
+      const double scale = std::sqrt(2 * energy * 0.4);  // of momenta: sqrt(2 E M), M about 0.4 kg
+      Positions v = cloth.v;
+      ASSERT_GT(limiter(cloth.springs, cloth.inverse_mass, cloth.x, dt_s, {}, v), 0);
+      EXPECT_LE((linear_momentum(cloth, v) - linear_momentum(cloth, cloth.v)).norm(), 1e-12 * scale);
+      EXPECT_LE((angular_momentum(cloth, v) - angular_momentum(cloth, cloth.v)).norm(), 1e-12 * scale);
+      EXPECT_LT(kinetic_energy(cloth, v), energy);
+    }
+  }
+}
+
+TEST(Strain, IterationsConverge) {
+  const auto cloth = random_cloth(11);
+  const double dt_s = 0.02, start = longest_strain(cloth, Positions::Zero(cloth.v.rows(), 3), dt_s);
+  StrainLimits limits;
+  limits.strain_iterations = 400;
+  Positions v = cloth.v;
+  limit_strain(cloth.springs, cloth.inverse_mass, cloth.x, dt_s, limits, v);
+  EXPECT_GT(longest_strain(cloth, cloth.v, dt_s), std::max(start, 0.1) * 1.02) << "nothing to limit";
+  EXPECT_LT(longest_strain(cloth, v, dt_s), std::max(start, 0.1) * 1.005);
+}
+
+}  // namespace selvage

@@ -1,0 +1,88 @@
+#include "sim/time_step.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace selvage {
+
+using sim::StepClock;
+
+TEST(StepClock, StartsWithTheLongestStep) {
+  EXPECT_EQ(StepClock(25, 1e-3, 0.04).dt_s(), 1.0 / 25);
+  EXPECT_EQ(StepClock(25, 1e-3, 0.02).dt_s(), 1.0 / 50);
+  EXPECT_EQ(StepClock(30, 1e-3, 0.0166667).dt_s(), 1.0 / 60) << "decimals of a sixtieth";
+  EXPECT_EQ(StepClock(25, 0.015, 0.015).dt_s(), 1.0 / 100) << "never above the longest";
+}
+
+TEST(StepClock, HalvesDownToTheShortest) {
+  StepClock clock(25, 0.0025, 0.04);
+  int halvings = 0;
+  for (; clock.can_halve(); ++halvings) clock.halve();
+  EXPECT_EQ(halvings, 4);
+  EXPECT_EQ(clock.dt_s(), 0.04 / 16);
+}
+
+TEST(StepClock, DoublesAfterThreeGoodStepsInARow) {
+  StepClock clock(25, 0.0025, 0.04);
+  for (int i = 0; i < 3; ++i) clock.halve();
+  const double dt_s = clock.dt_s();
+  clock.advance(true);
+  clock.advance(true);
+  clock.advance(false);  // breaks the row
+  clock.advance(true);
+  clock.advance(true);
+  EXPECT_EQ(clock.dt_s(), dt_s);
+  clock.advance(true);  // the third; six small steps are done, so the doubled step is aligned
+  EXPECT_EQ(clock.dt_s(), 2 * dt_s);
+}
+
+TEST(StepClock, WaitsUntilTheDoubledStepFitsTheFrame) {
+  StepClock clock(25, 0.0025, 0.04);
+  clock.halve();
+  clock.halve();  // quarters
+  const double dt_s = clock.dt_s();
+  for (int i = 0; i < 3; ++i) clock.advance(true);
+  EXPECT_EQ(clock.dt_s(), dt_s) << "three quarters are done: a half would cross the frame";
+  clock.advance(true);
+  EXPECT_TRUE(clock.at_frame());
+  EXPECT_EQ(clock.dt_s(), 2 * dt_s);
+}
+
+TEST(StepClock, MeetsEveryFrameExactlyUnderAnyHistory) {
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    std::mt19937 generator(seed);
+    StepClock clock(30, 5e-4, 1.0 / 30);
+    std::int64_t frames = 0;
+    for (int i = 0; i < 2000; ++i) {
+      if (generator() % 4 == 0 && clock.can_halve()) clock.halve();
+      const double end_s = clock.end_s(), start_s = clock.time_s();
+      EXPECT_NEAR(end_s - start_s, clock.dt_s(), 1e-12);
+      clock.advance(generator() % 3 != 0);
+      EXPECT_EQ(clock.time_s(), end_s);
+      if (clock.at_frame()) {
+        ++frames;
+        EXPECT_EQ(clock.time_s(), double(frames) / 30);
+        EXPECT_EQ(clock.state().frame, frames);
+      } else {
+        EXPECT_LT(clock.time_s(), double(frames + 1) / 30);
+      }
+    }
+    EXPECT_GT(frames, 10);
+  }
+}
+
+TEST(StepClock, GoesOnFromItsStateAlone) {
+  StepClock clock(30, 1e-3, 1.0 / 30), copy(30, 1e-3, 1.0 / 30);
+  clock.halve();
+  clock.halve();
+  clock.advance(true);
+  copy.restore(clock.state());
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_EQ(copy.end_s(), clock.end_s());
+    clock.advance(i % 5 != 0);
+    copy.advance(i % 5 != 0);
+  }
+}
+
+}  // namespace selvage
