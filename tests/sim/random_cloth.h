@@ -16,9 +16,9 @@ struct RandomCloth {
   Positions x, v;
 };
 
-/// A sheet of side 1 m with every vertex moved by up to a third of the spacing, velocities of about 1 m/s, and masses
-/// that differ by up to a factor of 9.
-inline RandomCloth random_cloth(std::uint32_t seed, std::int32_t side = 9) {
+/// A sheet of side 1 m with every vertex moved by up to `crumple` times the spacing, velocities of about 1 m/s, and
+/// masses that differ by up to a factor of 9.
+inline RandomCloth random_cloth(std::uint32_t seed, std::int32_t side = 9, double crumple = 1.0 / 3) {
   std::mt19937 generator(seed);
   const auto uniform = [&](double lower, double upper) {
     return lower + (upper - lower) * (double(generator()) * 0x1p-32);
@@ -35,7 +35,7 @@ inline RandomCloth random_cloth(std::uint32_t seed, std::int32_t side = 9) {
   RandomCloth cloth{{sim::make_springs(spec, rest, mass_kg), static_cast<std::int32_t>(rest.x.rows())}, {}, rest.x, {}};
   for (const double mass : mass_kg) cloth.inverse_mass.push_back(1 / mass);
   cloth.v.resize(rest.x.rows(), 3);
-  const double reach = 1.0 / 3 / (side - 1);
+  const double reach = crumple / (side - 1);
   for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
     for (Eigen::Index k = 0; k < 3; ++k) {
       cloth.x(i, k) += uniform(-reach, reach);
