@@ -94,7 +94,7 @@ class ObjParser {
   std::int32_t parse_corner(std::string_view token) {
     const std::size_t slash = token.find('/');
     const std::optional<std::int64_t> index = parse_integer(token.substr(0, slash));
-    if (!index || !attributes_are_integers(slash == token.npos ? "" : token.substr(slash + 1))) {
+    if (!index || (slash != token.npos && !attributes_are_integers(token.substr(slash + 1)))) {
       lines_.fail(in_quotes(token) + " is not v, v/vt, v//vn or v/vt/vn; correct the corner");
     }
     const auto count = static_cast<std::int64_t>(mesh_.points.size());
@@ -109,11 +109,11 @@ class ObjParser {
     return static_cast<std::int32_t>(backwards ? count + *index : *index - 1);
   }
 
-  /// "", "vt", "/vn" or "vt/vn".
+  /// "vt", "/vn" or "vt/vn".
   static bool attributes_are_integers(std::string_view text) {
     const std::size_t slash = text.find('/');
-    const std::string_view texture = text.substr(0, slash);
-    if (!texture.empty() && !parse_integer(texture)) return false;
+    const bool has_texture = slash != 0;
+    if (has_texture && !parse_integer(text.substr(0, slash))) return false;
     return slash == text.npos || parse_integer(text.substr(slash + 1)).has_value();
   }
 
