@@ -6,68 +6,71 @@ namespace selvage::detail {
 
 namespace {
 
-bool precedes(const Double3& a, const Double3& b, bool if_equal) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  if (a.z != b.z) return a.z < b.z;
-  return if_equal;
+/// -1, 0 or 1; -0 before +0, so that only equal bits compare equal.
+int compare(double a, double b) {
+  if (a != b) return a < b ? -1 : 1;
+  return static_cast<int>(std::signbit(b)) - static_cast<int>(std::signbit(a));
 }
 
-bool point_precedes(const CanonicalPair& pair, std::size_t i, std::size_t j) {
-  return precedes(pair.x_t0[i], pair.x_t0[j], precedes(pair.x_t1[i], pair.x_t1[j], false));
+int compare(const Vec3& a, const Vec3& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const int order = compare(a[axis], b[axis]); order != 0) return order;
+  }
+  return 0;
 }
 
-void swap_points(CanonicalPair& pair, std::size_t i, std::size_t j) {
-  std::swap(pair.x_t0[i], pair.x_t0[j]);
-  std::swap(pair.x_t1[i], pair.x_t1[j]);
-  std::swap(pair.original[i], pair.original[j]);
-}
+struct Sorter {
+  const Vec3* x_t0;
+  const Vec3* x_t1;
+  CanonicalOrder order;
 
-void order_points(CanonicalPair& pair, std::size_t i, std::size_t j) {
-  if (point_precedes(pair, j, i)) swap_points(pair, i, j);
-}
-
-/// Whether edge (2, 3) comes before edge (0, 1), both ordered in themselves.
-bool second_edge_precedes(const CanonicalPair& pair) {
-  if (point_precedes(pair, 2, 0)) return true;
-  if (point_precedes(pair, 0, 2)) return false;
-  return point_precedes(pair, 3, 1);
-}
+  [[nodiscard]] int compare_places(std::size_t i, std::size_t j) const {
+    const std::size_t a = order.original[i], b = order.original[j];
+    if (x_t0[a][0] != x_t0[b][0]) return x_t0[a][0] < x_t0[b][0] ? -1 : 1;  // decides nearly always
+    const int at_t0 = compare(x_t0[a], x_t0[b]);
+    return at_t0 != 0 ? at_t0 : compare(x_t1[a], x_t1[b]);
+  }
+  void sort_places(std::size_t i, std::size_t j) {
+    if (compare_places(j, i) < 0) std::swap(order.original[i], order.original[j]);
+  }
+};
 
 }  // namespace
 
-CanonicalPair canonical_order(PairKind kind, const std::array<Double3, 4>& x_t0, const std::array<Double3, 4>& x_t1) {
-  CanonicalPair pair{x_t0, x_t1, {0, 1, 2, 3}};
+CanonicalOrder canonical_order(PairKind kind, const Vec3* x_t0, const Vec3* x_t1) {
+  Sorter sorter{x_t0, x_t1, {}};
   switch (kind) {
     case PairKind::kVf:
-      order_points(pair, 1, 2);
-      order_points(pair, 2, 3);
-      order_points(pair, 1, 2);
+      sorter.sort_places(1, 2);
+      sorter.sort_places(2, 3);
+      sorter.sort_places(1, 2);
       break;
-    case PairKind::kEe:
-      order_points(pair, 0, 1);
-      order_points(pair, 2, 3);
-      if (second_edge_precedes(pair)) {
-        swap_points(pair, 0, 2);
-        swap_points(pair, 1, 3);
-        pair.features_swapped = true;
+    case PairKind::kEe: {
+      sorter.sort_places(0, 1);
+      sorter.sort_places(2, 3);
+      const int first_ends = sorter.compare_places(2, 0);
+      if (first_ends < 0 || (first_ends == 0 && sorter.compare_places(3, 1) < 0)) {
+        std::swap(sorter.order.original[0], sorter.order.original[2]);
+        std::swap(sorter.order.original[1], sorter.order.original[3]);
+        sorter.order.features_swapped = true;
       }
       break;
+    }
     case PairKind::kSelf:
-      order_points(pair, 1, 2);
+      sorter.sort_places(1, 2);
       break;
   }
-  return pair;
+  return sorter.order;
 }
 
-std::array<double, 4> restore_weights(const CanonicalPair& pair, const std::array<double, 4>& weights) {
+std::array<double, 4> restore_weights(const CanonicalOrder& order, const std::array<double, 4>& weights) {
   std::array<double, 4> result = {};
-  for (std::size_t i = 0; i < 4; ++i) result[static_cast<std::size_t>(pair.original[i])] = weights[i];
+  for (std::size_t i = 0; i < 4; ++i) result[order.original[i]] = weights[i];
   return result;
 }
 
-Double3 restore_normal(const CanonicalPair& pair, const Double3& normal) {
-  return pair.features_swapped ? -normal : normal;
+Vec3 restore_normal(const CanonicalOrder& order, const Double3& normal) {
+  return to_vec3(order.features_swapped ? -normal : normal);
 }
 
 }  // namespace selvage::detail

@@ -3,8 +3,8 @@
 #include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
 
-// The queries proper stand in ccd_search.cpp: a unit of its own, so that no floating-point operation can be moved out
-// of the guard's scope.
+// The queries proper stand in ccd_query.cpp: a unit of its own, so that no floating-point operation can be moved out of
+// the guard's scope.
 namespace selvage {
 
 CcdResult vf_ccd(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1, const CcdOptions& options) {

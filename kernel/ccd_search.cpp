@@ -1,207 +1,221 @@
-// The search in time: intervals from left to right, each certified free of touch or halved.
-#include <bit>
-#include <limits>
+#include "kernel/ccd_search.h"
 
-#include "kernel/canonical_order.h"
-#include "kernel/ccd_detail.h"
 #include "kernel/closest_point.h"
 #include "kernel/coplanarity.h"
+#include "kernel/power_of_two.h"
+#include "kernel/root_intervals.h"
 #include "kernel/rounding.h"
+#include "kernel/separation.h"
 
 namespace selvage::detail {
 
 namespace {
 
-/// Times are counted in ticks of 2^-52, so that t and 1 - t are both exact doubles.
-constexpr std::uint64_t kTicks = std::uint64_t{1} << 52;
-double time_of(std::uint64_t tick) { return static_cast<double>(tick) * 0x1p-52; }
-
 /// An alarm is raised only with a witness this near, relative to the largest difference (in [0.5, 1) after scaling).
-/// An interval of one tick is left uncertified only if the gap in it is of the order of the rounding of one support,
-/// kSupportError * 3, plus the motion in one tick, 2^-51: below 2^-48. The rest is room for directions that are not
-/// optimal, at needles above all.
+/// One tick is left uncertified only if the gap in it is of the order of the rounding of one support, 3 kSupportError,
+/// plus the motion within one tick, 2^-51: below 2^-48. The rest is room for directions that are not optimal.
 constexpr double kAlarmGap = 0x1p-40;
-
-/// Steps of Gilbert's algorithm on the swept corners; the cloth negatives that need them end within four.
-constexpr int kGilbertSteps = 6;
+/// A gap below this is of the order of the rounding of its own evaluation: halving the interval further is no use.
+constexpr double kNoGap = 0x1p-49;
+/// Intervals no wider than this many ticks are worth the cubic in double-double arithmetic.
+constexpr Tick kPreciseWidth = Tick{1} << 32;
+/// A contact with weights above this lies inside both features, so that a sign change of the cubic makes it a real one.
+constexpr double kInnerWeight = 0x1p-20;
 
 class Search {
  public:
-  Search(const PairMotion& motion, const CcdOptions& options) : motion_(motion), options_(options) {
-    if (motion.kind != PairKind::kSelf) cubic_ = coplanarity_cubic(motion);
-  }
+  Search(PairKind kind, const PairPoints& x_t0, const PairPoints& x_t1, const CcdOptions& options)
+      : x_t0_(x_t0), x_t1_(x_t1), options_(options), motion_(make_pair_motion<double>(kind, x_t0, x_t1)) {}
 
   CcdResult run();
 
  private:
-  bool certify(std::uint64_t begin, std::uint64_t end, const DifferencePolygon& at_begin,
-               const DifferencePolygon& at_end);
-  bool separates(const Double3& n, const DifferencePolygon& at_begin, const DifferencePolygon& at_end);
-  bool refine_direction(Double3 point, const DifferencePolygon& at_begin, const DifferencePolygon& at_end);
-  void answer_contact(std::uint64_t begin, std::uint64_t end, const DifferencePolygon& at_begin,
-                      const DifferencePolygon& at_end);
-  void answer_end();
-  double gap_at(std::uint64_t tick, const DifferencePolygon& polygon, const ClosestPoint& closest) const;
+  using Polygon = DifferencePolygon<double>;
 
-  const PairMotion& motion_;
+  [[nodiscard]] bool has_cubic() const { return motion_.kind != PairKind::kSelf; }
+  [[nodiscard]] Polygon polygon(Tick tick) const;
+  [[nodiscard]] double gap_upper(Tick tick, const Polygon& at, const ClosestPoint<double>& closest) const;
+  [[nodiscard]] bool limit_reached() const { return result_.intervals >= options_.max_intervals; }
+
+  bool clear(const TickInterval& interval);
+  bool certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end);
+  void look_precisely();
+  [[nodiscard]] std::optional<double> simple_root(const TickInterval& interval) const;
+  std::optional<Tick> first_contact(const TickInterval& interval, const Polygon& at_begin, std::optional<double> root);
+  void answer_contact(Tick tick);
+  void answer_end();
+  Double3 approach_normal(Tick tick) const;
+
+  const PairPoints& x_t0_;
+  const PairPoints& x_t1_;
   const CcdOptions& options_;
-  CoplanarityCubic cubic_;
-  Double3 separating_;  // the last direction that certified an interval
+  const PairMotion<double> motion_;
+  std::optional<PairMotion<DoubleDouble>> precise_motion_;  // both made when first needed
+  std::optional<CoplanarityCubic<DoubleDouble>> precise_cubic_;
+  Double3 separating_;  // the last direction that certified an interval: the next one often is like it
   CcdResult result_;
 };
 
-bool Search::separates(const Double3& n, const DifferencePolygon& at_begin, const DifferencePolygon& at_end) {
-  const double support =
-      std::min(least_support(motion_.corner_count, at_begin, n), least_support(motion_.corner_count, at_end, n));
-  if (!(support > support_error(n, motion_.extent))) return false;
-  separating_ = n;
+Search::Polygon Search::polygon(Tick tick) const {
+  if (tick == 0) return motion_.t0;
+  if (tick == kTicks) return motion_.t1;
+  return polygon_at(motion_, time_of(kTicks - tick), time_of(tick));
+}
+
+double Search::gap_upper(Tick tick, const Polygon& at, const ClosestPoint<double>& closest) const {
+  return distance_upper(motion_, at, tick != 0 && tick != kTicks, closest.weights);
+}
+
+bool Search::certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end) {
+  if (!is_zero(separating_) && separates(motion_, at_begin, at_end, separating_)) return true;
+  if (precise_cubic_ && is_definite(*precise_cubic_, interval)) return true;
+  const Tick middle = interval.begin + (interval.end - interval.begin) / 2;
+  const auto closest = closest_point(motion_.kind, polygon(middle));
+  if (separates(motion_, at_begin, at_end, closest.direction)) {
+    separating_ = closest.direction;
+    return true;
+  }
+  const auto direction = separating_direction(motion_, at_begin, at_end, closest.point);
+  if (direction) separating_ = *direction;
+  return direction.has_value();
+}
+
+void Search::look_precisely() {
+  if (precise_motion_) return;
+  precise_motion_ = make_pair_motion<DoubleDouble>(motion_.kind, x_t0_, x_t1_);
+  if (!has_cubic()) return;
+  const auto cubic = coplanarity_cubic(*precise_motion_);
+  double largest = 0;
+  for (const DoubleDouble& c : cubic.coefficient) largest = std::max(largest, std::fabs(leading(c)));
+  if (largest > cubic.error_bound) precise_cubic_ = cubic;
+}
+
+/// Where the cubic passes from one sign to the other within the interval, as a fraction of it.
+std::optional<double> Search::simple_root(const TickInterval& interval) const {
+  if (!precise_cubic_) return std::nullopt;
+  const auto local = local_coefficients(*precise_cubic_, interval);
+  const double first = leading(local[0]), last = leading(local[3]), bound = precise_cubic_->error_bound;
+  const bool changes_sign = (first > bound && last < -bound) || (first < -bound && last > bound);
+  if (!changes_sign) return std::nullopt;
+  return root_fraction({first, leading(local[1]), leading(local[2]), last});
+}
+
+/// The first tick of the interval that cannot be proved free of touch by any means; nothing where it is free.
+std::optional<Tick> Search::first_contact(const TickInterval& interval, const Polygon& at_begin,
+                                          std::optional<double> root) {
+  const auto closest = closest_point(motion_.kind, at_begin);
+  if (gap_upper(interval.begin, at_begin, closest) == 0) return interval.begin;
+  const auto& w = closest.weights;
+  const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
+  if (root && interval.end - interval.begin == 1 && least_weight > kInnerWeight) return interval.begin;
+  look_precisely();
+  return first_precise_contact(*precise_motion_, interval, root.value_or(0), result_.intervals);
+}
+
+/// Depth first, from left to right: everything before `begin` is certified at all times.
+bool Search::clear(const TickInterval& interval) {
+  std::array<Tick, 128> ends;
+  std::size_t depth = 1;
+  ends[0] = interval.end;
+  Tick begin = interval.begin;
+  Polygon at_begin = polygon(begin);
+  while (depth > 0) {
+    if (limit_reached()) {
+      result_.toi_lower = time_of(begin);
+      return false;
+    }
+    ++result_.intervals;
+    const TickInterval piece = {begin, ends[depth - 1]};
+    const Tick width = piece.end - piece.begin;
+    const Polygon at_end = polygon(piece.end);
+    if (!certify(piece, at_begin, at_end)) {
+      if (width <= kPreciseWidth) look_precisely();
+      const std::optional<double> root = simple_root(piece);
+      if (root && width > 1) {
+        // One tick for the root alone: the pieces beside it are then free of roots.
+        const auto offset = static_cast<Tick>(*root * static_cast<double>(width));
+        ends[depth++] = begin + std::clamp(offset, Tick{1}, width - 1);
+        continue;
+      }
+      if (width > 1 && gap_upper(begin, at_begin, closest_point(motion_.kind, at_begin)) > kNoGap) {
+        ends[depth++] = begin + width / 2;
+        continue;
+      }
+      if (const auto tick = first_contact(piece, at_begin, root)) {
+        answer_contact(*tick);
+        return false;
+      }
+    }
+    begin = piece.end;
+    at_begin = at_end;
+    --depth;
+  }
   return true;
 }
 
-/// Gilbert's algorithm (1966): walks toward the point of the swept hull nearest to the origin, which is the best
-/// direction there is.
-bool Search::refine_direction(Double3 point, const DifferencePolygon& at_begin, const DifferencePolygon& at_end) {
-  for (int step = 0; step < kGilbertSteps; ++step) {
-    const Double3 n = normalize_exponent(point);
-    if (is_zero(n)) return false;
-    const Double3* support = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (const DifferencePolygon* polygon : {&at_begin, &at_end}) {
-      for (int i = 0; i < motion_.corner_count; ++i) {
-        const Double3& corner = polygon->corner[static_cast<std::size_t>(i)];
-        const double value = dot(n, corner);
-        if (value < least) {
-          least = value;
-          support = &corner;
-        }
-      }
-    }
-    if (least > support_error(n, motion_.extent)) {
-      separating_ = n;
-      return true;
-    }
-    if (support == nullptr) return false;
-    const Double3 toward = *support - point;
-    const double fraction = -dot(point, toward) / dot(toward, toward);
-    if (!(fraction > 0)) return false;
-    point = point + std::min(fraction, 1.0) * toward;
+/// The direction a little before `tick`, where the gap is wide enough that its bracket shows it to be good.
+Double3 Search::approach_normal(Tick tick) const {
+  constexpr double kGoodBracket = 1 - 0x1p-20;  // sin(angle) <= sqrt(1 - kGoodBracket^2) = 2^-9.5
+  for (const int back : {24, 36, 48, 52}) {
+    const Tick earlier = tick > (Tick{1} << back) ? tick - (Tick{1} << back) : 0;
+    const Polygon at = polygon(earlier);
+    const auto closest = closest_point(motion_.kind, at);
+    const double lower = distance_lower(motion_, at, closest.direction);
+    if (earlier == 0 || lower > kGoodBracket * gap_upper(earlier, at, closest)) return closest.direction;
   }
-  return false;
+  return {};
 }
 
-bool Search::certify(std::uint64_t begin, std::uint64_t end, const DifferencePolygon& at_begin,
-                     const DifferencePolygon& at_end) {
-  if (!is_zero(separating_) && separates(separating_, at_begin, at_end)) return true;
-  const DifferencePolygon middle = polygon_at(motion_, time_of(begin + (end - begin) / 2));
-  const ClosestPoint closest = closest_point(motion_.kind, middle);
-  if (!is_zero(closest.direction) && separates(closest.direction, at_begin, at_end)) return true;
-  if (motion_.kind != PairKind::kSelf && is_definite(cubic_, time_of(begin), time_of(end))) {
-    if (!is_zero(closest.direction)) separating_ = closest.direction;
-    return true;
-  }
-  return refine_direction(closest.point, at_begin, at_end);
-}
-
-double Search::gap_at(std::uint64_t tick, const DifferencePolygon& polygon, const ClosestPoint& closest) const {
-  const Double3 blend_extent = tick == 0 || tick == kTicks ? Double3{} : motion_.extent;
-  return distance_upper(motion_.kind, polygon, blend_extent, motion_.exact_scaling, closest.weights);
-}
-
-void Search::answer_contact(std::uint64_t begin, std::uint64_t end, const DifferencePolygon& at_begin,
-                            const DifferencePolygon& at_end) {
-  const ClosestPoint first = closest_point(motion_.kind, at_begin);
-  const ClosestPoint last = closest_point(motion_.kind, at_end);
-  const double first_gap = gap_at(begin, at_begin, first), last_gap = gap_at(end, at_end, last);
-  const double gap = std::min(first_gap, last_gap);
+void Search::answer_contact(Tick tick) {
+  const Tick next = std::min(tick + 1, kTicks);
+  const Polygon at_begin = polygon(tick), at_end = polygon(next);
+  const auto first = closest_point(motion_.kind, at_begin), last = closest_point(motion_.kind, at_end);
+  const double gap = std::min(gap_upper(tick, at_begin, first), gap_upper(next, at_end, last));
   result_.verdict = gap <= kAlarmGap ? CcdVerdict::kCollides : CcdVerdict::kUnresolved;
   result_.cause = CcdCause::kMotion;
-  result_.toi_lower = time_of(begin);
-  result_.gap_bound = scale_up(gap, motion_.exponent);
-  result_.weights = first_gap <= last_gap ? first.weights : last.weights;
-  if (is_zero(separating_)) separating_ = first.direction;
+  result_.toi_lower = time_of(tick);
+  result_.gap_bound = times_power_upper(gap, motion_.exponent);
+  result_.weights = first.weights;
+  const Double3 direction = approach_normal(tick);
+  if (!is_zero(direction)) result_.normal = to_vec3(scaled(1 / norm(direction), direction));
 }
 
 void Search::answer_end() {
-  const ClosestPoint closest = closest_point(motion_.kind, motion_.t1);
-  const double lower =
-      std::max(distance_lower(motion_.corner_count, motion_.t1, motion_.extent, closest.direction),
-               distance_lower(motion_.corner_count, motion_.t1, motion_.extent, normalize_exponent(closest.point)));
-  const double upper = gap_at(kTicks, motion_.t1, closest);
   result_.toi_lower = 1;
-  result_.weights = closest.weights;
-  separating_ = closest.direction;
-  if (scale_down(lower, motion_.exponent) > options_.tolerance || options_.tolerance == 0) {
-    result_.verdict = CcdVerdict::kSeparated;
-    result_.cause = CcdCause::kNone;
-    return;
-  }
+  result_.cause = CcdCause::kNone;
+  result_.verdict = CcdVerdict::kSeparated;
+  if (options_.tolerance == 0) return;  // no touch at t = 1 is a distance above zero
+  const auto closest = closest_point(motion_.kind, motion_.t1);
+  const double lower = std::max(distance_lower(motion_, motion_.t1, closest.direction),
+                                distance_lower(motion_, motion_.t1, normalize_exponent(closest.point)));
+  if (times_power_lower(lower, motion_.exponent) > options_.tolerance) return;
   result_.verdict = CcdVerdict::kCollides;
   result_.cause = CcdCause::kEnd;
-  result_.gap_bound = scale_up(upper, motion_.exponent);
+  result_.gap_bound = times_power_upper(gap_upper(kTicks, motion_.t1, closest), motion_.exponent);
+  result_.weights = closest.weights;
+  if (!is_zero(closest.direction)) {
+    result_.normal = to_vec3(scaled(1 / norm(closest.direction), closest.direction));
+  }
 }
 
 CcdResult Search::run() {
-  std::uint64_t begin = 0, width = kTicks;
-  DifferencePolygon at_begin = motion_.t0;
-  while (begin < kTicks) {
-    if (result_.intervals >= options_.max_intervals) {
-      result_.toi_lower = time_of(begin);
-      return result_;
-    }
-    ++result_.intervals;
-    const std::uint64_t end = begin + width;
-    const DifferencePolygon at_end = end == kTicks ? motion_.t1 : polygon_at(motion_, time_of(end));
-    if (certify(begin, end, at_begin, at_end)) {
-      begin = end;
-      at_begin = at_end;
-      width = begin & (~begin + 1);  // the next interval of the binary tree: its lowest set bit
-    } else if (width > 1) {
-      width /= 2;
-    } else {
-      answer_contact(begin, end, at_begin, at_end);
-      break;
-    }
+  if (limit_reached()) return result_;
+  RootIntervals pieces;
+  pieces.interval[0] = {0, kTicks};
+  pieces.count = 1;
+  if (has_cubic()) pieces = root_intervals(coplanarity_cubic(motion_));
+  result_.intervals += pieces.examined;
+  for (int i = 0; i < pieces.count; ++i) {
+    if (!clear(pieces.interval[static_cast<std::size_t>(i)])) return result_;
   }
-  if (begin == kTicks) answer_end();
-  const double length = norm(separating_);
-  if (length > 0) result_.normal = to_vec3((1 / length) * separating_);
+  answer_end();
   return result_;
-}
-
-CcdResult query(PairKind kind, const std::array<Double3, 4>& x_t0, const std::array<Double3, 4>& x_t1,
-                const CcdOptions& options) {
-  const bool valid_tolerance = options.tolerance >= 0 && options.tolerance < std::numeric_limits<double>::infinity();
-  if (!valid_tolerance || !in_domain(x_t0) || !in_domain(x_t1)) return {};
-  const CanonicalPair pair = canonical_order(kind, x_t0, x_t1);
-  const PairMotion motion = make_pair_motion(kind, pair.x_t0, pair.x_t1);
-  CcdResult result = Search(motion, options).run();
-  result.weights = restore_weights(pair, result.weights);
-  result.normal = to_vec3(restore_normal(pair, to_double3(result.normal)));
-  return result;
-}
-
-std::array<Double3, 4> to_points(const std::array<Vec3, 4>& x) {
-  return {to_double3(x[0]), to_double3(x[1]), to_double3(x[2]), to_double3(x[3])};
-}
-std::array<Double3, 4> to_points(const std::array<Vec3, 3>& x) {
-  return {to_double3(x[0]), to_double3(x[1]), to_double3(x[2]), Double3{}};
 }
 
 }  // namespace
 
-CcdResult vf_ccd_unguarded(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
-                           const CcdOptions& options) {
-  return query(PairKind::kVf, to_points(x_t0), to_points(x_t1), options);
-}
-
-CcdResult ee_ccd_unguarded(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
-                           const CcdOptions& options) {
-  return query(PairKind::kEe, to_points(x_t0), to_points(x_t1), options);
-}
-
-CcdResult self_ccd_unguarded(const std::array<Vec3, 3>& x_t0, const std::array<Vec3, 3>& x_t1,
-                             const CcdOptions& options) {
-  return query(PairKind::kSelf, to_points(x_t0), to_points(x_t1), options);
+CcdResult search_in_time(PairKind kind, const PairPoints& x_t0, const PairPoints& x_t1, const CcdOptions& options) {
+  return Search(kind, x_t0, x_t1, options).run();
 }
 
 }  // namespace selvage::detail

@@ -1,230 +1,171 @@
 #include "kernel/closest_point.h"
 
-#include <bit>
-#include <limits>
-
-#include "kernel/rounding.h"
+#include "kernel/power_of_two.h"
 
 namespace selvage::detail {
 
 namespace {
 
-using Weights = std::array<double, kMaxCorners>;  // one a corner
+enum class Feature : std::uint8_t { kCorner, kEdge, kInterior };
 
-struct Edge {
-  std::size_t first, second;  // corner[second] - corner[first] = vector
-  const Double3* vector;
-};
-
-struct Candidate {
-  Weights weights = {};
-  Double3 point;
+template <class Real>
+struct Nearest {
   double distance_squared = std::numeric_limits<double>::infinity();
-  Double3 direction;
+  Triple<Real> point;
+  std::array<Real, 4> corner_weights = {};
+  Feature feature = Feature::kCorner;
+  const Triple<Real>* edge = nullptr;
 };
 
-double clamp_unit(double t) { return t > 0 ? (t < 1 ? t : 1) : 0; }  // NaN gives 0
-
-Double3 weighted_sum(const DifferencePolygon& polygon, const Weights& w) {
-  const auto& c = polygon.corner;
-  return (w[0] * c[0] + w[1] * c[1]) + (w[2] * c[2] + w[3] * c[3]);
-}
-
-void keep_nearer(Candidate& best, const Candidate& candidate) {
-  if (candidate.distance_squared < best.distance_squared) best = candidate;
-}
-
-Candidate on_corner(const DifferencePolygon& polygon, std::size_t i) {
-  Candidate result;
-  result.weights[i] = 1;
-  result.point = polygon.corner[i];
-  result.direction = result.point;
-  result.distance_squared = dot(result.point, result.point);
-  return result;
-}
-
-/// Foot of the perpendicular on an edge, seen from its nearer end. Orthogonalising the foot once more against the edge
-/// makes it a direction that is good to rounding however small the distance is (Kahan: twice is enough).
-Candidate on_edge(const DifferencePolygon& polygon, const Edge& edge) {
-  Candidate result;
-  const Double3& e = *edge.vector;
-  const double length_squared = dot(e, e);
-  const Double3& p = polygon.corner[edge.first];
-  const Double3& q = polygon.corner[edge.second];
-  const double from_first = -dot(p, e) / length_squared;
-  if (!(from_first > 0 && from_first < 1)) return result;  // a corner is nearer; zero length divides to NaN or infinity
-  double t = from_first;
-  Double3 foot;
-  if (t <= 0.5) {
-    foot = p + t * e;
-  } else {
-    const double from_second = clamp_unit(dot(q, e) / length_squared);
-    t = 1 - from_second;
-    foot = q - from_second * e;
-  }
-  result.weights[edge.first] = 1 - t;
-  result.weights[edge.second] = t;
-  result.direction = foot - (dot(foot, e) / length_squared) * e;
-  result.point = foot;
-  result.distance_squared = dot(foot, foot);
-  return result;
-}
-
+/// Two edges that span the polygon's plane: v_across = v - shear u is orthogonal to u, to rounding even where the edges
+/// are nearly parallel (orthogonalised twice; Kahan: twice is enough).
+template <class Real>
 struct PlaneFrame {
-  Double3 u, v_across;  // v_across = v - shear u, orthogonal to u
-  double u_squared, v_squared, shear;
-  bool valid;
+  Triple<Real> u, v_across;
+  Real u_squared{}, v_squared{}, shear{};
+  bool valid = false;
 };
 
-PlaneFrame make_frame(const Double3& u, const Double3& v) {
-  PlaneFrame frame{u, v, dot(u, u), 0, 0, false};
-  if (!(frame.u_squared > 0)) return frame;
+template <class Real>
+PlaneFrame<Real> make_frame(const Triple<Real>& u, const Triple<Real>& v) {
+  PlaneFrame<Real> frame{u, v, dot(u, u)};
+  if (!(leading(frame.u_squared) > 0)) return frame;
   for (int pass = 0; pass < 2; ++pass) {
-    const double k = dot(u, frame.v_across) / frame.u_squared;
-    frame.v_across = frame.v_across - k * u;
-    frame.shear += k;
+    const Real k = dot(u, frame.v_across) / frame.u_squared;
+    frame.v_across = frame.v_across - scaled(k, u);
+    frame.shear = frame.shear + k;
   }
   frame.v_squared = dot(frame.v_across, frame.v_across);
-  frame.valid = frame.v_squared > 0;
+  frame.valid = leading(frame.v_squared) > 0;
   return frame;
 }
 
-/// A normal of the frame, accurate against both edges even where u x v has cancelled.
-Double3 frame_normal(const PlaneFrame& frame) {
-  Double3 n = normalize_exponent(cross(frame.u, frame.v_across));
+template <class Real>
+Triple<Real> orthogonalised(const Triple<Real>& n, const Triple<Real>& edge, const Real& edge_squared) {
+  return n - scaled(Real(dot(n, edge) / edge_squared), edge);
+}
+
+/// Orthogonal to both edges, relative to their lengths, even where the cross product has cancelled.
+template <class Real>
+Triple<Real> frame_normal(const PlaneFrame<Real>& frame) {
+  Triple<Real> n = normalize_exponent(cross(frame.u, frame.v_across));
   for (int pass = 0; pass < 2; ++pass) {
-    n = n - (dot(n, frame.u) / frame.u_squared) * frame.u;
-    n = n - (dot(n, frame.v_across) / frame.v_squared) * frame.v_across;
+    n = orthogonalised(n, frame.u, frame.u_squared);
+    n = orthogonalised(n, frame.v_across, frame.v_squared);
   }
   return n;
 }
 
-/// Steps of the least-squares problem min |corner[0] + alpha u + beta v|; the residual is recomputed from the corners,
-/// so each pass shrinks the error by the condition of the frame times u.
-Candidate in_interior(PairKind kind, const DifferencePolygon& polygon) {
-  Candidate result;
-  const PlaneFrame frame = make_frame(polygon.edge_u, polygon.edge_v);
-  if (!frame.valid) return result;
-  double alpha = 0, beta = 0;
-  Double3 point = polygon.corner[0];
-  for (int pass = 0; pass < 3; ++pass) {
-    const double across = -dot(point, frame.v_across) / frame.v_squared;
-    alpha += -dot(point, frame.u) / frame.u_squared - frame.shear * across;
-    beta += across;
-    if (kind == PairKind::kVf) {
-      if (!(alpha >= 0 && beta >= 0 && alpha + beta <= 1)) return result;
-      result.weights = {(1 - alpha) - beta, alpha, beta, 0};
-    } else {
-      if (!(alpha >= 0 && beta >= 0 && alpha <= 1 && beta <= 1)) return result;
-      result.weights = {(1 - alpha) * (1 - beta), (1 - alpha) * beta, alpha * (1 - beta), alpha * beta};
-    }
-    if (!(result.weights[0] >= 0)) return result;
-    point = weighted_sum(polygon, result.weights);
-  }
-  result.point = point;
-  result.distance_squared = dot(point, point);
-  result.direction = frame_normal(frame);
-  if (dot(result.direction, polygon.corner[0]) < 0) result.direction = -result.direction;
-  return result;
+template <class Real>
+Triple<Real> weighted_sum(const DifferencePolygon<Real>& polygon, const std::array<Real, 4>& w) {
+  const auto& c = polygon.corner;
+  return (scaled(w[0], c[0]) + scaled(w[1], c[1])) + (scaled(w[2], c[2]) + scaled(w[3], c[3]));
 }
 
-/// From one weight a corner to the weights of the four points.
-std::array<double, 4> point_weights(PairKind kind, const Weights& w) {
-  if (kind == PairKind::kEe) return {w[0] + w[1], w[2] + w[3], w[0] + w[2], w[1] + w[3]};
-  return {1, w[0], w[1], w[2]};
+template <class Real>
+void consider_corner(Nearest<Real>& nearest, const DifferencePolygon<Real>& polygon, std::size_t corner) {
+  const double distance_squared = leading(dot(polygon.corner[corner], polygon.corner[corner]));
+  if (!(distance_squared < nearest.distance_squared)) return;
+  nearest = {distance_squared, polygon.corner[corner], {}, Feature::kCorner, nullptr};
+  nearest.corner_weights[corner] = Real(1);
+}
+
+/// The foot of the perpendicular, where it lies within the edge, seen from its nearer end.
+template <class Real>
+void consider_edge(Nearest<Real>& nearest, const DifferencePolygon<Real>& polygon, std::size_t first,
+                   std::size_t second, const Triple<Real>& edge) {
+  const Real length_squared = dot(edge, edge);
+  const Real from_first = -dot(polygon.corner[first], edge), from_second = dot(polygon.corner[second], edge);
+  if (!(leading(from_first) > 0 && leading(from_second) > 0)) return;
+  const bool near_first = from_first < from_second;
+  const Real t = (near_first ? from_first : from_second) / length_squared;
+  const Triple<Real> foot =
+      near_first ? polygon.corner[first] + scaled(t, edge) : polygon.corner[second] - scaled(t, edge);
+  const double distance_squared = leading(dot(foot, foot));
+  if (!(distance_squared < nearest.distance_squared)) return;
+  nearest = {distance_squared, foot, {}, Feature::kEdge, &edge};
+  nearest.corner_weights[first] = near_first ? Real(1) - t : t;
+  nearest.corner_weights[second] = near_first ? t : Real(1) - t;
+}
+
+/// Steps of the least-squares problem min |corner 0 + alpha u + beta v|. The residual is recomputed from the corners,
+/// so each step shrinks the error by the condition of the frame times the roundoff.
+template <class Real>
+void consider_interior(Nearest<Real>& nearest, PairKind kind, const DifferencePolygon<Real>& polygon,
+                       const PlaneFrame<Real>& frame) {
+  Real alpha{}, beta{};
+  Triple<Real> point = polygon.corner[0];
+  std::array<Real, 4> weights = {};
+  for (int step = 0; step < 3; ++step) {
+    const Real across = -dot(point, frame.v_across) / frame.v_squared;
+    alpha = alpha + (-dot(point, frame.u) / frame.u_squared - frame.shear * across);
+    beta = beta + across;
+    const Real alpha_rest = Real(1) - alpha, beta_rest = Real(1) - beta;
+    if (!(leading(alpha) >= 0 && leading(beta) >= 0)) return;
+    if (kind == PairKind::kVf) {
+      if (!(leading(alpha_rest - beta) >= 0)) return;
+      weights = {alpha_rest - beta, alpha, beta, Real(0)};
+    } else {
+      if (!(leading(alpha_rest) >= 0 && leading(beta_rest) >= 0)) return;
+      weights = {alpha_rest * beta_rest, alpha_rest * beta, alpha * beta_rest, alpha * beta};
+    }
+    point = weighted_sum(polygon, weights);
+  }
+  const double distance_squared = leading(dot(point, point));
+  if (distance_squared < nearest.distance_squared) {
+    nearest = {distance_squared, point, weights, Feature::kInterior, nullptr};
+  }
+}
+
+template <class Real>
+std::array<double, 4> point_weights(PairKind kind, const std::array<Real, 4>& w) {
+  if (kind == PairKind::kEe) {
+    return {leading(w[0] + w[1]), leading(w[2] + w[3]), leading(w[0] + w[2]), leading(w[1] + w[3])};
+  }
+  return {1, leading(w[0]), leading(w[1]), leading(w[2])};
 }
 
 }  // namespace
 
-ClosestPoint closest_point(PairKind kind, const DifferencePolygon& polygon) {
-  Candidate best = on_corner(polygon, 0);
-  keep_nearer(best, on_corner(polygon, 1));
-  if (kind != PairKind::kSelf) keep_nearer(best, on_corner(polygon, 2));
+template <class Real>
+ClosestPoint<Real> closest_point(PairKind kind, const DifferencePolygon<Real>& polygon) {
+  Nearest<Real> nearest;
+  PlaneFrame<Real> frame;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(kind)); ++i) consider_corner(nearest, polygon, i);
   if (kind == PairKind::kEe) {
-    keep_nearer(best, on_corner(polygon, 3));
-    keep_nearer(best, on_edge(polygon, {0, 1, &polygon.edge_v}));
-    keep_nearer(best, on_edge(polygon, {2, 3, &polygon.edge_v}));
-    keep_nearer(best, on_edge(polygon, {0, 2, &polygon.edge_u}));
-    keep_nearer(best, on_edge(polygon, {1, 3, &polygon.edge_u}));
-    keep_nearer(best, in_interior(kind, polygon));
+    consider_edge(nearest, polygon, 0, 1, polygon.edge_v);
+    consider_edge(nearest, polygon, 2, 3, polygon.edge_v);
+    consider_edge(nearest, polygon, 0, 2, polygon.edge_u);
+    consider_edge(nearest, polygon, 1, 3, polygon.edge_u);
   } else {
-    keep_nearer(best, on_edge(polygon, {0, 1, &polygon.edge_u}));
-    if (kind == PairKind::kVf) {
-      keep_nearer(best, on_edge(polygon, {0, 2, &polygon.edge_v}));
-      keep_nearer(best, on_edge(polygon, {1, 2, &polygon.edge_w}));
-      keep_nearer(best, in_interior(kind, polygon));
-    }
+    consider_edge(nearest, polygon, 0, 1, polygon.edge_u);
   }
-  return {point_weights(kind, best.weights), best.point, normalize_exponent(best.direction)};
-}
-
-double distance_upper(PairKind kind, const DifferencePolygon& polygon, const Double3& blend_extent, bool exact_scaling,
-                      const std::array<double, 4>& weights) {
-  Weights w = {};
-  bool zero = exact_scaling && is_zero(blend_extent);
-  const auto uses = [&](std::size_t corner, double first, double second) {
-    w[corner] = first * second;
-    zero &= first == 0 || second == 0 || is_zero(polygon.corner[corner]);
-  };
-  if (kind == PairKind::kEe) {
-    for (std::size_t i = 0; i < 4; ++i) uses(i, weights[i / 2], weights[2 + i % 2]);
-  } else {
-    for (std::size_t i = 0; i < 3; ++i) uses(i, weights[0], weights[i + 1]);
+  if (kind == PairKind::kVf) {
+    consider_edge(nearest, polygon, 0, 2, polygon.edge_v);
+    consider_edge(nearest, polygon, 1, 2, polygon.edge_w);
   }
-  if (zero) return 0;
-  const Double3 sum = weighted_sum(polygon, w);
-  Double3 total;  // sum of w_i |x_i|
-  double weight_total = 0;
-  for (std::size_t i = 0; i < kMaxCorners; ++i) {
-    total = total + w[i] * abs(polygon.corner[i]);
-    weight_total += w[i];
+  if (kind != PairKind::kSelf) {
+    frame = make_frame(polygon.edge_u, polygon.edge_v);
+    if (frame.valid) consider_interior(nearest, kind, polygon, frame);
   }
-  const Double3 worst = (abs(sum) + kWitnessError * total) + kBlendError * blend_extent;
-  // The exact weights are divided by their exact sum, so that they make a convex combination; its computed value is
-  // good to 5 u. Quotient, norm, `worst` and this product round a few times more: 32 u covers all of them. 2^-1060:
-  // products lost to underflow, a dozen of at most 2^-1074 an axis, and scaling.
-  return norm(worst) / weight_total * (1 + 32 * kUnitRoundoff) + 0x1p-1060;
-}
 
-double support_error(const Double3& n, const Double3& extent) { return kSupportError * dot(abs(n), extent); }
-
-double least_support(int corner_count, const DifferencePolygon& polygon, const Double3& n) {
-  double least = std::min(dot(n, polygon.corner[0]), dot(n, polygon.corner[1]));
-  for (int i = 2; i < corner_count; ++i) least = std::min(least, dot(n, polygon.corner[static_cast<std::size_t>(i)]));
-  return least;
-}
-
-double distance_lower(int corner_count, const DifferencePolygon& polygon, const Double3& extent, const Double3& n) {
-  const double support = least_support(corner_count, polygon, n) - support_error(n, extent);
-  if (!(support > 0)) return 0;
-  return support / norm(n) * (1 - 8 * kUnitRoundoff);
-}
-
-Double3 normalize_exponent(const Double3& v) {
-  const double largest = max_component(abs(v));
-  if (!(largest > 0) || largest == std::numeric_limits<double>::infinity()) return {};
-  int shift = 0;
-  double factor = 1;
-  if (largest < std::numeric_limits<double>::min()) {
-    factor = 0x1p+600;
-    shift = 600;
+  ClosestPoint<Real> result{point_weights(kind, nearest.corner_weights), nearest.point, nearest.point};
+  if (nearest.feature == Feature::kEdge) {
+    result.direction = orthogonalised(nearest.point, *nearest.edge, Real(dot(*nearest.edge, *nearest.edge)));
+  } else if (nearest.feature == Feature::kInterior) {
+    result.direction = frame_normal(frame);
+    if (leading(dot(result.direction, polygon.corner[0])) < 0) result.direction = -result.direction;
   }
-  const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(largest * factor) >> 52);
-  const int exponent = biased - 1022 - shift;  // largest in [0.5, 1) * 2^exponent
-  const int first = -exponent / 2;
-  const int second = -exponent - first;
-  const auto power = [](int e) { return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52); };
-  return power(second) * (power(first) * v);
+  result.direction = normalize_exponent(result.direction);
+  return result;
 }
 
-double norm(const Double3& v) {
-  const double largest = max_component(abs(v));
-  if (!(largest > 0)) return largest;  // 0 or NaN
-  const Double3 scaled = normalize_exponent(v);
-  const double squared = dot(scaled, scaled);
-  const double length = std::sqrt(squared);
-  const double ratio = largest / max_component(abs(scaled));  // the power of two, exact
-  return length * ratio;
+template ClosestPoint<double> closest_point(PairKind, const DifferencePolygon<double>&);
+template ClosestPoint<DoubleDouble> closest_point(PairKind, const DifferencePolygon<DoubleDouble>&);
+
+std::array<double, 4> corner_weights(PairKind kind, const std::array<double, 4>& w) {
+  if (kind == PairKind::kEe) return {w[0] * w[2], w[0] * w[3], w[1] * w[2], w[1] * w[3]};
+  return {w[1], w[2], w[3], 0};
 }
 
 }  // namespace selvage::detail

@@ -1,40 +1,31 @@
-// The point of a difference polygon that is nearest to the origin: the distance of the two features, its weights, and
-// a direction that separates them. Computed without a proof; the bounds at the end of this file prove what is used.
+// The point of a difference polygon that is nearest to the origin: the distance of two features, the weights, and a
+// direction that separates them. Computed without a proof: separation.h proves what is used.
 #pragma once
 
 #include "kernel/pair_motion.h"
 
 namespace selvage::detail {
 
+template <class Real>
 struct ClosestPoint {
-  /// vf: {1, wa, wb, wc}; ee: {wa, wb, wc, wd}; self: {1, wa, wb, 0}. All >= 0; each feature's sum is 1 up to rounding.
+  /// Of the points of the pair. vf: {1, wa, wb, wc}; ee: {wa, wb, wc, wd}; self: {1, wa, wb, 0}. All >= 0; the sum over
+  /// each feature is 1 up to rounding.
   std::array<double, 4> weights = {};
-  Double3 point;      ///< the weighted sum of the corners
-  Double3 direction;  ///< from the second feature to the first, largest |component| in [0.5, 1]; zero if none was found
+  Triple<Real> point;  ///< the nearest point of the polygon
+  /// From the second feature to the first, the largest |component| in [0.5, 1); zero where the features meet in a
+  /// corner. As good as the features allow, however near they are: the difference of two corners, the perpendicular of
+  /// an edge orthogonalised against it, or the normal of the polygon.
+  Triple<Real> direction;
 };
 
 /// Over all features: corners, edges, interior. Zero-length edges, collinear corners and parallel edges are all right.
-[[nodiscard]] ClosestPoint closest_point(PairKind kind, const DifferencePolygon& polygon);
+template <class Real>
+[[nodiscard]] ClosestPoint<Real> closest_point(PairKind kind, const DifferencePolygon<Real>& polygon);
 
-/// PROVED: the distance of the features is at most this. `blend_extent`: the extent where `polygon` was interpolated,
-/// whose corners carry errors relative to it; zero at t = 0 and t = 1. `exact_scaling` as in PairMotion.
-[[nodiscard]] double distance_upper(PairKind kind, const DifferencePolygon& polygon, const Double3& blend_extent,
-                                    bool exact_scaling, const std::array<double, 4>& weights);
+extern template ClosestPoint<double> closest_point(PairKind, const DifferencePolygon<double>&);
+extern template ClosestPoint<DoubleDouble> closest_point(PairKind, const DifferencePolygon<DoubleDouble>&);
 
-/// PROVED: |fl(n . x) - n . X| < support_error for every corner x at any multiple of 2^-52 in [0, 1].
-/// REQUIRES |components of n| <= 1, the largest >= 0.5.
-[[nodiscard]] double support_error(const Double3& n, const Double3& extent);
-
-/// min over corners of fl(n . x).
-[[nodiscard]] double least_support(int corner_count, const DifferencePolygon& polygon, const Double3& n);
-
-/// PROVED: the distance of the features is at least this; 0 if `n` does not separate them.
-[[nodiscard]] double distance_lower(int corner_count, const DifferencePolygon& polygon, const Double3& extent,
-                                    const Double3& n);
-
-/// |v|, relative error at most kNormError whatever its size.
-[[nodiscard]] double norm(const Double3& v);
-/// v * 2^k with the largest |component| in [0.5, 1); zero stays zero.
-[[nodiscard]] Double3 normalize_exponent(const Double3& v);
+/// The polygon's point for given weights, and the sums that bound its error: one weight a corner.
+[[nodiscard]] std::array<double, 4> corner_weights(PairKind kind, const std::array<double, 4>& weights);
 
 }  // namespace selvage::detail

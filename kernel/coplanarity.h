@@ -3,18 +3,34 @@
 #pragma once
 
 #include "kernel/pair_motion.h"
+#include "kernel/time_ticks.h"
 
 namespace selvage::detail {
 
+template <class Real>
 struct CoplanarityCubic {
-  std::array<double, 4> coefficient = {};  ///< Bernstein coefficients over [0,1]
-  double error_bound = 0;                  ///< PROVED: of each coefficient
+  std::array<Real, 4> coefficient = {};  ///< Bernstein coefficients over [0,1]
+  double error_bound = 0;                ///< PROVED: of each coefficient, and of every value computed from them
 };
 
-/// det[edge_u(t), edge_v(t), corner_0(t)]. REQUIRES kind kVf or kEe.
-[[nodiscard]] CoplanarityCubic coplanarity_cubic(const PairMotion& motion);
+/// 3 det[edge_u(t), edge_v(t), corner_0(t)], the 3 sparing two divisions. REQUIRES kind kVf or kEe.
+template <class Real>
+[[nodiscard]] CoplanarityCubic<Real> coplanarity_cubic(const PairMotion<Real>& motion);
 
-/// PROVED when true: the exact cubic has one sign on all of [t_begin, t_end], both multiples of 2^-52.
-[[nodiscard]] bool is_definite(const CoplanarityCubic& cubic, double t_begin, double t_end);
+/// Bernstein coefficients over the interval, each good to error_bound.
+template <class Real>
+[[nodiscard]] std::array<Real, 4> local_coefficients(const CoplanarityCubic<Real>& cubic, const TickInterval& interval);
+
+/// PROVED when true: the exact cubic has one sign on the whole interval.
+template <class Real>
+[[nodiscard]] bool is_definite(const CoplanarityCubic<Real>& cubic, const TickInterval& interval);
+
+extern template CoplanarityCubic<double> coplanarity_cubic(const PairMotion<double>&);
+extern template CoplanarityCubic<DoubleDouble> coplanarity_cubic(const PairMotion<DoubleDouble>&);
+extern template std::array<double, 4> local_coefficients(const CoplanarityCubic<double>&, const TickInterval&);
+extern template std::array<DoubleDouble, 4> local_coefficients(const CoplanarityCubic<DoubleDouble>&,
+                                                               const TickInterval&);
+extern template bool is_definite(const CoplanarityCubic<double>&, const TickInterval&);
+extern template bool is_definite(const CoplanarityCubic<DoubleDouble>&, const TickInterval&);
 
 }  // namespace selvage::detail

@@ -12,45 +12,41 @@
 
 namespace selvage::detail {
 
-inline constexpr int kMaxCorners = 4;
+/// The points of a pair at one instant in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, unused}.
+using PairPoints = std::array<Double3, 4>;
 
 /// The polygon at one instant. `edge_u` = corner[1] - corner[0] (vf, self), corner[2] - corner[0] (ee);
 /// `edge_v` = corner[2] - corner[0] (vf), corner[1] - corner[0] (ee); `edge_w` = corner[2] - corner[1] (vf).
 /// Edges come from the points themselves: one rounding, relative to the edge.
+template <class Real>
 struct DifferencePolygon {
-  std::array<Double3, kMaxCorners> corner;
-  Double3 edge_u, edge_v, edge_w;
+  std::array<Triple<Real>, 4> corner;
+  Triple<Real> edge_u, edge_v, edge_w;
 };
 
+constexpr int corner_count(PairKind kind) { return kind == PairKind::kVf ? 3 : kind == PairKind::kEe ? 4 : 2; }
+
+template <class Real>
 struct PairMotion {
   PairKind kind = PairKind::kVf;
-  int corner_count = 0;
-  DifferencePolygon t0, t1;   ///< scaled by 2^-exponent
-  Double3 extent;             ///< >= |corner difference| an axis over both ends, >= kExtentFloor
-  int exponent = 0;           ///< the largest |component| of a corner difference is in [0.5, 1) * 2^exponent
-  bool exact_scaling = true;  ///< no scaled value lost bits: a scaled zero is an exact zero
+  DifferencePolygon<Real> t0, t1;  ///< scaled by 2^-exponent
+  Double3 extent;                  ///< >= |corner difference| along each axis, over both ends
+  int exponent = 0;                ///< the largest |component| of a corner difference is in [0.5, 1) * 2^exponent
+  bool exact_scaling = true;       ///< no value lost bits to underflow: a scaled zero is an exact zero
 };
 
-/// Whether all coordinates are finite and within kMaxCoordinate.
-template <std::size_t N>
-bool in_domain(const std::array<Double3, N>& x) {
-  bool inside = true;
-  for (const Double3& point : x)
-    inside &=
-        max_component(abs(point)) <= kMaxCoordinate && point.x == point.x && point.y == point.y && point.z == point.z;
-  return inside;
-}
+/// Double differences carry one rounding each, DoubleDouble ones none. REQUIRES coordinates within the domain.
+template <class Real>
+[[nodiscard]] PairMotion<Real> make_pair_motion(PairKind kind, const PairPoints& x_t0, const PairPoints& x_t1);
 
-/// The corners in the order of the public queries: {p, a, b, c}, {a, b, c, d} or {p, a, b, -}. REQUIRES in_domain().
-[[nodiscard]] PairMotion make_pair_motion(PairKind kind, const std::array<Double3, 4>& x_t0,
-                                          const std::array<Double3, 4>& x_t1);
+/// The polygon at t, with t and s = 1 - t both exact. Error: kPointRoundings (rounding.h).
+template <class Real>
+[[nodiscard]] DifferencePolygon<Real> polygon_at(const PairMotion<Real>& motion, const Real& s, const Real& t);
 
-/// The polygon at t, a multiple of 2^-52 in [0, 1], so that 1 - t is exact. Error: kPointRoundings.
-[[nodiscard]] DifferencePolygon polygon_at(const PairMotion& motion, double t);
-
-/// value * 2^exponent, never below the exact product.
-[[nodiscard]] double scale_up(double value, int exponent);
-/// value * 2^exponent, never above the exact product; value >= 0.
-[[nodiscard]] double scale_down(double value, int exponent);
+extern template PairMotion<double> make_pair_motion(PairKind, const PairPoints&, const PairPoints&);
+extern template PairMotion<DoubleDouble> make_pair_motion(PairKind, const PairPoints&, const PairPoints&);
+extern template DifferencePolygon<double> polygon_at(const PairMotion<double>&, const double&, const double&);
+extern template DifferencePolygon<DoubleDouble> polygon_at(const PairMotion<DoubleDouble>&, const DoubleDouble&,
+                                                           const DoubleDouble&);
 
 }  // namespace selvage::detail

@@ -7,7 +7,9 @@
 #include "kernel/ccd_detail.h"
 #include "kernel/closest_point.h"
 #include "kernel/fp_env.h"
+#include "kernel/power_of_two.h"
 #include "kernel/rounding.h"
+#include "kernel/separation.h"
 
 namespace selvage {
 
@@ -24,26 +26,31 @@ Proximity unknown_proximity() {
 }
 
 Proximity proximity(PairKind kind, const std::array<Vec3, 4>& x) {
-  const std::array<Double3, 4> points = {to_double3(x[0]), to_double3(x[1]), to_double3(x[2]), to_double3(x[3])};
-  if (!in_domain(points)) return unknown_proximity();
-  const CanonicalPair pair = canonical_order(kind, points, points);
-  const PairMotion motion = make_pair_motion(kind, pair.x_t0, pair.x_t1);
-  const ClosestPoint closest = closest_point(kind, motion.t0);
-  const double upper = distance_upper(kind, motion.t0, Double3{}, motion.exact_scaling, closest.weights);
-  const double lower =
-      std::max(distance_lower(motion.corner_count, motion.t0, motion.extent, closest.direction),
-               distance_lower(motion.corner_count, motion.t0, motion.extent, normalize_exponent(closest.point)));
+  for (const Vec3& point : x) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::fabs(point[axis]) <= kMaxCoordinate)) return unknown_proximity();
+    }
+  }
+  const CanonicalOrder order = canonical_order(kind, x.data(), x.data());
+  PairPoints points;
+  for (std::size_t i = 0; i < 4; ++i) points[i] = to_double3(x[order.original[i]]);
+  const PairMotion<double> motion = make_pair_motion<double>(kind, points, points);
+  const auto closest = closest_point(kind, motion.t0);
+  const double upper = distance_upper(motion, motion.t0, false, closest.weights);
+  const double lower = std::max(distance_lower(motion, motion.t0, closest.direction),
+                                distance_lower(motion, motion.t0, normalize_exponent(closest.point)));
+  // sqrt((upper - lower)(upper + lower)): four roundings.
   const double error = std::sqrt((upper - lower) * (upper + lower)) * (1 + 8 * kUnitRoundoff);
 
   Proximity result;
-  result.distance_lower = scale_down(lower, motion.exponent);
-  result.distance_upper = scale_up(upper, motion.exponent);
-  result.distance = std::min(std::max(scale_down(norm(closest.point), motion.exponent), result.distance_lower),
+  result.distance_lower = times_power_lower(lower, motion.exponent);
+  result.distance_upper = times_power_upper(upper, motion.exponent);
+  result.distance = std::min(std::max(times_power(norm(closest.point), motion.exponent), result.distance_lower),
                              result.distance_upper);
-  result.point_error_bound = scale_up(error, motion.exponent);
-  result.weights = restore_weights(pair, closest.weights);
+  result.point_error_bound = times_power_upper(error, motion.exponent);
+  result.weights = restore_weights(order, closest.weights);
   if (upper > 0 && !is_zero(closest.direction)) {
-    result.normal = to_vec3(restore_normal(pair, (1 / norm(closest.direction)) * closest.direction));
+    result.normal = restore_normal(order, scaled(1 / norm(closest.direction), closest.direction));
   }
   return result;
 }

@@ -1,53 +1,63 @@
 // Every error bound of the kernel, with its derivation. Proofs of the straight-line pieces: kernel/proofs/*.gappa;
 // the arguments that join them: docs/guarantee.md; exact rationals against each bound: tests/kernel/rounding_test.cpp.
 //
-// Model (IEEE 754 binary64, to nearest, gradual underflow; FpEnvGuard establishes it):
+// Model (IEEE 754 binary64, to nearest, gradual underflow; FpEnvGuard establishes it), u = 2^-53:
 //   fl(a + b) = (a + b)(1 + d), |d| <= u: sums have no underflow error;
 //   fl(a * b) = (a * b)(1 + d) + h, |d| <= u, |h| <= 2^-1075.
+// The same holds for double-double arithmetic with u = 7 * 2^-106 < 2^-103 (Joldes, Muller, Popescu 2017, theorems 3.1
+// and 5.1) and a small multiple of 2^-1074 for h.
 // A product of n factors (1 + d) differs from 1 by at most n u / (1 - n u) (Higham 2002, Lemma 3.1). Each constant
-// below carries at least u / 4 of slack for that denominator and for the roundings of the bound's own evaluation, both
-// of second order.
+// below counts the roundings n, and adds a quarter for that denominator and for the evaluation of the bound itself,
+// both of second order in u.
 //
 // Scaled differences: with P - Q the exact difference of two stored points along one axis,
 //   s = fl(P - Q) * 2^-k,  |s| < 1 for every corner difference, the largest in [0.5, 1).
 // The subtraction costs u |s|; scaling is exact, or loses at most 2^-1074 where the result is subnormal.
-// E (the extent, one value an axis) is at least every |s| on that axis at both ends of the step, and at least
-// kExtentFloor, so that u E covers every underflow: the bounds need no further absolute term.
+// The extent E (one value an axis) is the largest |s| on that axis over all corners and both ends of the step.
 #pragma once
+
+#include "kernel/double_double.h"
 
 namespace selvage::detail {
 
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Underflow of a product costs <= 2^-1075 and at most 64 of them enter one bound, each multiplied by a direction of
-/// components <= 1 whose largest is >= 0.5: 64 * 2^-1074 < u * kExtentFloor * 0.5 / 4 = 2^-956.
-inline constexpr double kExtentFloor = 0x1p-900;
+template <class Real>
+inline constexpr double kUnit = kUnitRoundoff;
+template <>
+inline constexpr double kUnit<DoubleDouble> = 0x1p-103;
 
-/// x(t) = fl( fl((1-t) s0) + fl(t s1) ), with 1 - t exact (t is a multiple of 2^-52): the subtraction that made s,
-/// the product and the sum: |x - X| <= 3 u ((1-t)|s0| + t|s1|) <= 3 u E.
+/// What underflow costs a bound: every lost product is at most 2^-1074, times factors below 2^12, at most 2^8 of them.
+inline constexpr double kUnderflowError = 0x1p-1000;
+
+/// x(t) = fl( fl((1-t) s0) + fl(t s1) ), with t and 1 - t exact: the subtraction that made s, the product, the sum.
+///   |x - X| <= 3 u ((1-t)|s0| + t|s1|) <= 3 u E.
 inline constexpr double kPointRoundings = 3;
 
-/// fl(n . x) with |n_j| <= 1: each product 1, first sum 1, second sum 1: 3 u sum |n_j| |x_j|, plus the points' own 3 u
-/// E_j. 6 u (1 + O(u)), and the bound's own evaluation (3 roundings) is of second order.
-inline constexpr double kSupportError = (kPointRoundings + 3.25) * kUnitRoundoff;
+/// fl(n . x): each product 1, the sums 2, relative to sum |n_j| |x_j|; and the points' own 3 u E_j:
+///   |fl(n . x) - n . X| <= 6 u sum |n_j| E_j.
+template <class Real>
+inline constexpr double kSupportError = (kPointRoundings + 3.25) * kUnit<Real>;
 
-/// The witness sum w_i x_i, along one axis: the subtraction 1, product of two weights 1, product 1, two sums 2, of
-/// sum w_i |x_i|. Corners interpolated to t lose kBlendError E besides, since they may cancel below their error.
-inline constexpr double kWitnessError = 5.25 * kUnitRoundoff;
+/// The witness sum w_i x_i, along one axis: the subtraction 1, the product of two weights 1, the product 1, three sums
+/// 3, relative to sum w_i |x_i|. Corners interpolated to t lose kBlendError E besides, since they may cancel.
+inline constexpr double kWitnessError = 6.25 * kUnitRoundoff;
 inline constexpr double kBlendError = (kPointRoundings + 0.25) * kUnitRoundoff;
 
-/// sqrt(x^2 + y^2 + z^2), scaled so that nothing over- or underflows: squares 1, sums 2, halved by the root: 1.5 u;
-/// the root 1 u; squares lost to underflow < 2^-1000 of the largest.
+/// sqrt(x^2 + y^2 + z^2), scaled so that nothing that matters under- or overflows: squares 1 and sums 2, halved by the
+/// root: 1.5; the root 1.
 inline constexpr double kNormError = 2.75 * kUnitRoundoff;
 
-/// A Bernstein coefficient of det[u(t), v(t), r(t)], relative to the permanent of the extents (each term a_i b_j c_k):
+/// A Bernstein coefficient of 3 det[u(t), v(t), r(t)], relative to three permanents of the extents (terms a_i b_j c_k):
 ///   the three subtractions 3; the two products 2; the difference inside a cross product 1; the sum of the two cross
-///   products in the doubled middle coefficient 1; the sums of the dot product 2; the sum of the two determinants 1;
-///   the division by three 1: 11 u of (terms of three determinants) / 3, that is 11 u of one permanent.
-inline constexpr double kDeterminantError = 11.5 * kUnitRoundoff;
+///   products in the doubled middle coefficient 1; the sums of the dot product 2; the sum of the two determinants 1.
+///   (The outer coefficients: the product with 3 instead of the last two.)
+template <class Real>
+inline constexpr double kDeterminantError = 10.25 * kUnit<Real>;
 
-/// Three levels of s a + t b with s + t = 1 exactly: each 2 u of the largest coefficient, error of the level before
-/// carried on as a convex combination; underflow is covered by the absolute term of the cubic's own bound.
-inline constexpr double kBlossomError = 6.25 * kUnitRoundoff;
+/// Three levels of s a + t b with s + t = 1 exactly: each 2 u of the largest coefficient; the error of the level before
+/// is carried on as a convex combination.
+template <class Real>
+inline constexpr double kBlossomError = 6.25 * kUnit<Real>;
 
 }  // namespace selvage::detail

@@ -1,0 +1,26 @@
+// The search in time behind vf_ccd, ee_ccd and self_ccd, for the queries that the cull leaves.
+#pragma once
+
+#include <optional>
+
+#include "kernel/ccd.h"
+#include "kernel/pair_motion.h"
+#include "kernel/time_ticks.h"
+
+namespace selvage::detail {
+
+/// The query in canonical order. REQUIRES coordinates and tolerance within the domain. A separated answer carries no
+/// weights and no normal.
+[[nodiscard]] CcdResult search_in_time(PairKind kind, const PairPoints& x_t0, const PairPoints& x_t1,
+                                       const CcdOptions& options);
+
+/// Where double-double arithmetic cannot prove the features of `motion` apart within the interval: the tick at or
+/// before the first such instant; nothing where the whole interval is PROVED free of touch. `suspect` is a time worth
+/// looking at first, as a fraction of the interval. `examined` is raised by the intervals looked at, at most
+/// kMaxPreciseIntervals.
+[[nodiscard]] std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion,
+                                                        const TickInterval& interval, double suspect,
+                                                        std::int32_t& examined);
+inline constexpr int kMaxPreciseIntervals = 256;
+
+}  // namespace selvage::detail

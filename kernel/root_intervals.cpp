@@ -1,0 +1,102 @@
+#include "kernel/root_intervals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace selvage::detail {
+
+namespace {
+
+/// A piece whose coefficients are all below this many error bounds is kept whole: within it nothing can be told apart.
+constexpr double kFlatFactor = 4;
+/// Newton steps on a bracketed simple root; from a bracket of 2^-3 four steps reach the precision of doubles.
+constexpr int kRootSteps = 8;
+
+double value_at(const std::array<double, 4>& c, double t) {
+  const double s = 1 - t;
+  const double a = s * c[0] + t * c[1], b = s * c[1] + t * c[2], d = s * c[2] + t * c[3];
+  return s * (s * a + t * b) + t * (s * b + t * d);
+}
+
+double slope_at(const std::array<double, 4>& c, double t) {
+  const double s = 1 - t;
+  const double a = c[1] - c[0], b = c[2] - c[1], d = c[3] - c[2];
+  return 3 * (s * (s * a + t * b) + t * (s * b + t * d));
+}
+
+class Isolation {
+ public:
+  explicit Isolation(const CoplanarityCubic<double>& cubic) : cubic_(cubic) {}
+
+  RootIntervals run() {
+    examine({0, kTicks});
+    return result_;
+  }
+
+ private:
+  void examine(const TickInterval& piece);
+  bool narrow_to_simple_root(const TickInterval& piece, const std::array<double, 4>& local);
+  void emit(const TickInterval& piece);
+
+  const CoplanarityCubic<double>& cubic_;
+  RootIntervals result_;
+};
+
+void Isolation::examine(const TickInterval& piece) {
+  const std::array<double, 4> local = local_coefficients(cubic_, piece);
+  const auto [least, greatest] = std::minmax({local[0], local[1], local[2], local[3]});
+  const double bound = cubic_.error_bound;
+  ++result_.examined;
+  if (least > bound || greatest < -bound) return;
+  const Tick width = piece.end - piece.begin;
+  const bool flat = least > -kFlatFactor * bound && greatest < kFlatFactor * bound;
+  if (flat || width == 1 || result_.examined + 64 > kMaxExamined) return emit(piece);
+  const bool changes_sign = (local[0] > bound && local[3] < -bound) || (local[0] < -bound && local[3] > bound);
+  if (changes_sign && narrow_to_simple_root(piece, local)) return;
+  const Tick middle = piece.begin + width / 2;
+  examine({piece.begin, middle});
+  examine({middle, piece.end});
+}
+
+/// Guesses the root and a margin; the two sides are then proved free of roots, or nothing is claimed.
+bool Isolation::narrow_to_simple_root(const TickInterval& piece, const std::array<double, 4>& local) {
+  const double root = root_fraction(local);
+  const double margin = 1.5 * cubic_.error_bound / std::fabs(slope_at(local, root));
+  const auto width = static_cast<double>(piece.end - piece.begin);
+  const double first = std::floor((root - margin) * width) - 1, last = std::ceil((root + margin) * width) + 1;
+  if (!(first > 0 && last < width)) return false;
+  const TickInterval inner = {piece.begin + static_cast<Tick>(first), piece.begin + static_cast<Tick>(last)};
+  if (!is_definite(cubic_, {piece.begin, inner.begin}) || !is_definite(cubic_, {inner.end, piece.end})) return false;
+  emit(inner);
+  return true;
+}
+
+void Isolation::emit(const TickInterval& piece) {
+  const auto last = static_cast<std::size_t>(result_.count);
+  const bool full = result_.count == static_cast<int>(result_.interval.size());
+  if (result_.count > 0 && (full || result_.interval[last - 1].end == piece.begin)) {
+    result_.interval[last - 1].end = piece.end;
+    return;
+  }
+  result_.interval[last] = piece;
+  ++result_.count;
+}
+
+}  // namespace
+
+// Newton's method, kept inside the bracket.
+double root_fraction(const std::array<double, 4>& c) {
+  double low = 0, high = 1, t = c[0] / (c[0] - c[3]);
+  const bool rising = c[0] < 0;
+  for (int step = 0; step < kRootSteps; ++step) {
+    const double value = value_at(c, t);
+    ((value < 0) == rising ? low : high) = t;
+    const double next = t - value / slope_at(c, t);
+    t = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return t;
+}
+
+RootIntervals root_intervals(const CoplanarityCubic<double>& cubic) { return Isolation(cubic).run(); }
+
+}  // namespace selvage::detail

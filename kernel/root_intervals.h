@@ -1,0 +1,23 @@
+// The times at which a coplanarity cubic may vanish, as few and as narrow intervals as its error bound allows.
+#pragma once
+
+#include "kernel/coplanarity.h"
+
+namespace selvage::detail {
+
+/// A cubic has three roots; near-double ones may come as more pieces, which are then joined.
+struct RootIntervals {
+  std::array<TickInterval, 4> interval = {};
+  int count = 0;
+  int examined = 0;  ///< pieces of time looked at, for K8: at most kMaxExamined
+};
+inline constexpr int kMaxExamined = 400;
+
+/// PROVED: every root in [0,1] lies in one of the closed intervals, which are disjoint and sorted. A cubic that is zero
+/// within its bound gives the whole of [0,1]; a simple root an interval of about error_bound / slope.
+[[nodiscard]] RootIntervals root_intervals(const CoplanarityCubic<double>& cubic);
+
+/// The root of a cubic in Bernstein form that changes sign over [0,1], in (0,1): a guess, good to rounding.
+[[nodiscard]] double root_fraction(const std::array<double, 4>& coefficient);
+
+}  // namespace selvage::detail

@@ -1,0 +1,111 @@
+#include "kernel/separation.h"
+
+#include "kernel/closest_point.h"
+#include "kernel/power_of_two.h"
+#include "kernel/rounding.h"
+
+namespace selvage::detail {
+
+namespace {
+
+/// Steps of Gilbert's algorithm. Most intervals that it can certify need four; the others are cheaper to halve.
+constexpr int kGilbertSteps = 6;
+
+template <class Real>
+struct Support {
+  Real least;
+  const Triple<Real>* corner;
+};
+
+template <class Real>
+Support<Real> support(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                      const DifferencePolygon<Real>& end, const Triple<Real>& n) {
+  Support<Real> result{dot(n, begin.corner[0]), &begin.corner[0]};
+  const auto count = static_cast<std::size_t>(corner_count(motion.kind));
+  for (const DifferencePolygon<Real>* polygon : {&begin, &end}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Real value = dot(n, polygon->corner[i]);
+      if (value < result.least) result = {value, &polygon->corner[i]};
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+double support_error(const Triple<Real>& n, const Double3& extent) {
+  return kSupportError<Real> * dot(abs(leading(n)), extent) + kUnderflowError;
+}
+
+template <class Real>
+bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin, const DifferencePolygon<Real>& end,
+               const Triple<Real>& n) {
+  return leading(support(motion, begin, end, n).least) > support_error(n, motion.extent);
+}
+
+template <class Real>
+std::optional<Triple<Real>> separating_direction(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                                                 const DifferencePolygon<Real>& end, Triple<Real> point) {
+  for (int step = 0; step < kGilbertSteps; ++step) {
+    const Triple<Real> n = normalize_exponent(point);
+    const Support<Real> next = support(motion, begin, end, n);
+    if (leading(next.least) > support_error(n, motion.extent)) return n;
+    const Triple<Real> toward = *next.corner - point;
+    const Real fraction = -dot(point, toward) / dot(toward, toward);
+    if (!(leading(fraction) > 0)) return std::nullopt;
+    point = fraction < Real(1) ? point + scaled(fraction, toward) : *next.corner;
+  }
+  return std::nullopt;
+}
+
+template double support_error(const Double3&, const Double3&);
+template bool separates(const PairMotion<double>&, const DifferencePolygon<double>&, const DifferencePolygon<double>&,
+                        const Double3&);
+template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                        const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+template std::optional<Double3> separating_direction(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                                     const DifferencePolygon<double>&, Double3);
+template std::optional<Triple<DoubleDouble>> separating_direction(const PairMotion<DoubleDouble>&,
+                                                                  const DifferencePolygon<DoubleDouble>&,
+                                                                  const DifferencePolygon<DoubleDouble>&,
+                                                                  Triple<DoubleDouble>);
+
+double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon, const Double3& n) {
+  const double margin = leading(support(motion, polygon, polygon, n).least) - support_error(n, motion.extent);
+  if (!(margin > 0)) return 0;
+  // The difference, the norm, the quotient and this product: under 8 roundings.
+  return margin / norm(n) * (1 - 8 * kUnitRoundoff);
+}
+
+double distance_upper(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon, bool blended,
+                      const std::array<double, 4>& weights) {
+  const std::array<double, 4> w = corner_weights(motion.kind, weights);
+  Double3 sum, total;  // of w_i x_i, and of w_i |x_i|
+  double weight_total = 0;
+  bool zero = motion.exact_scaling && !blended;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    sum = sum + scaled(w[i], polygon.corner[i]);
+    total = total + scaled(w[i], abs(polygon.corner[i]));
+    weight_total += w[i];
+    // A product of two weights may have underflown to zero: ask the weights themselves.
+    const bool unused = motion.kind == PairKind::kEe ? weights[i / 2] == 0 || weights[2 + i % 2] == 0 : w[i] == 0;
+    zero &= unused || is_zero(polygon.corner[i]);
+  }
+  if (zero) return 0;
+  const Double3 blend_extent = blended ? motion.extent : Double3{};
+  const Double3 worst = (abs(sum) + scaled(kWitnessError, total)) + scaled(kBlendError, blend_extent);
+  // The exact weights are divided by their exact sum, so that they make a convex combination; its computed value is
+  // good to 5 u. Quotient, norm, `worst` and this product round a few times more: 32 u covers all of them.
+  return norm(worst) / weight_total * (1 + 32 * kUnitRoundoff) + kUnderflowError;
+}
+
+double norm(const Double3& v) {
+  const double largest = max_component(abs(v));
+  if (!(largest > 0)) return largest;  // 0 or NaN
+  const int exponent = exponent_of(largest);
+  const Double3 unit = times_power(v, -exponent);
+  return times_power(std::sqrt(dot(unit, unit)), exponent);
+}
+
+}  // namespace selvage::detail

@@ -1,0 +1,52 @@
+// Separating directions: n . x > 0 for every corner difference x at both ends of a time interval proves that the
+// features do not touch within it, because every difference in between is a convex combination of these.
+#pragma once
+
+#include <optional>
+
+#include "kernel/pair_motion.h"
+
+namespace selvage::detail {
+
+/// PROVED: |fl(n . x) - n . X| < support_error for every corner x at every t. REQUIRES |components of n| < 2^10.
+template <class Real>
+[[nodiscard]] double support_error(const Triple<Real>& n, const Double3& extent);
+
+/// PROVED when true: no touch while t goes from the instant of `begin` to the instant of `end`.
+template <class Real>
+[[nodiscard]] bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                             const DifferencePolygon<Real>& end, const Triple<Real>& n);
+
+/// Gilbert's algorithm (1966) from `point`, a point of the swept hull: walks toward the hull's point nearest to the
+/// origin, which is the best direction there is. The first direction that separates, if one appears in time.
+template <class Real>
+[[nodiscard]] std::optional<Triple<Real>> separating_direction(const PairMotion<Real>& motion,
+                                                               const DifferencePolygon<Real>& begin,
+                                                               const DifferencePolygon<Real>& end, Triple<Real> point);
+
+/// PROVED: the features of this instant (t = 0 or t = 1) are at least this far apart, scaled; 0 if `n` does not
+/// separate.
+[[nodiscard]] double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
+                                    const Double3& n);
+
+/// PROVED: the features come within this distance, scaled, at the instant of `polygon`. `blended`: the instant is
+/// neither t = 0 nor t = 1. `weights` as in ClosestPoint.
+[[nodiscard]] double distance_upper(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
+                                    bool blended, const std::array<double, 4>& weights);
+
+/// |v|, relative error at most kNormError whatever its size.
+[[nodiscard]] double norm(const Double3& v);
+
+extern template double support_error(const Double3&, const Double3&);
+extern template bool separates(const PairMotion<double>&, const DifferencePolygon<double>&,
+                               const DifferencePolygon<double>&, const Double3&);
+extern template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                               const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+extern template std::optional<Double3> separating_direction(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                                            const DifferencePolygon<double>&, Double3);
+extern template std::optional<Triple<DoubleDouble>> separating_direction(const PairMotion<DoubleDouble>&,
+                                                                         const DifferencePolygon<DoubleDouble>&,
+                                                                         const DifferencePolygon<DoubleDouble>&,
+                                                                         Triple<DoubleDouble>);
+
+}  // namespace selvage::detail
