@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/verify_command.h"
 #include "cli/version.h"
 
 int main(int argc, char** argv) {
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(0, 1);  // one is required, but an unknown name shall be named: see below
 
   Job job;
+  add_verify_command(program, job);
 
   try {
     program.parse(argc, argv);

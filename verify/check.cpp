@@ -1,1 +1,22 @@
 #include "verify/check.h"
+
+namespace selvage::verify {
+
+PairCounts& PairCounts::operator+=(const PairCounts& other) {
+  vf += other.vf;
+  ee += other.ee;
+  overlap += other.overlap;
+  self += other.self;
+  exact += other.exact;
+  return *this;
+}
+
+ViolationCounts& ViolationCounts::operator+=(const ViolationCounts& other) {
+  vf += other.vf;
+  ee += other.ee;
+  overlap += other.overlap;
+  self += other.self;
+  return *this;
+}
+
+}  // namespace selvage::verify

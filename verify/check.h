@@ -11,6 +11,7 @@
 
 #include "io/sequence.h"
 #include "verify/exact_motion.h"
+#include "verify/topology.h"
 
 namespace selvage::verify {
 
@@ -20,8 +21,11 @@ struct Violation {
   std::int64_t frame = 0;  ///< the frame; for motions the frame that the motion starts from
   bool motion = false;
   EventKind event = EventKind::kOverlap;
-  std::string kind;                        ///< touch, cross, overlap, fold, degenerate, near, ...
-  std::array<std::int32_t, 2> features{};  ///< vertex, face | edge, edge | face, face | vertex, its face
+  /// Motions: touch, cross. Overlaps: touch, cross, overlap (coplanar), fold, duplicate. Self: degenerate (frames),
+  /// touch (motions). Frames with a minimum distance: near.
+  std::string kind;
+  /// vertex, face | edge, edge | face, face | vertex, its face. Edges are numbered as in Topology.
+  std::array<std::int32_t, 2> features{};
   std::array<std::int32_t, 6> vertices{};  ///< their vertices, -1 where there are fewer than six
   ExactTime t;                             ///< motions only
 };
@@ -29,10 +33,14 @@ struct Violation {
 struct PairCounts {
   std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;  ///< examined (boxes overlap)
   std::int64_t exact = 0;                              ///< needed exact arithmetic
+
+  PairCounts& operator+=(const PairCounts& other);
 };
 struct ViolationCounts {
   std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;
+
   [[nodiscard]] std::int64_t total() const { return vf + ee + overlap + self; }
+  ViolationCounts& operator+=(const ViolationCounts& other);
 };
 
 struct CheckResult {
@@ -43,20 +51,21 @@ struct CheckResult {
 
 struct CheckOptions {
   std::size_t max_violations = 100;
-  std::optional<double> min_distance;  ///< frames: all non-incident features at least this far apart, exactly
-  bool check_bodies = false;           ///< also pairs of faces that both belong to bodies
-};
-
-/// The surface: triangles and, per face, whether it belongs to a scripted body (empty: none does).
-struct Surface {
-  std::span<const std::array<std::int32_t, 3>> triangles;
-  std::span<const std::uint8_t> is_body;
+  /// Frames: every vertex at least this far from every face that does not hold it, every edge from every edge with no
+  /// common vertex; exactly. (Features that touch by construction, and those of one face, are not compared.)
+  std::optional<double> min_distance;
+  bool check_bodies = false;  ///< also what concerns bodies alone: pairs of body features, zero-area body faces
 };
 
 /// One instant: all triangle pairs, shared vertices and edges included, and zero-area faces. In parallel,
-/// deterministic.
+/// deterministic. Throws std::invalid_argument where V does not fit the surface or is not finite.
+[[nodiscard]] CheckResult check_frame(const Topology& topology, std::span<const Point> V, const CheckOptions& options);
 [[nodiscard]] CheckResult check_frame(const Surface& surface, std::span<const Point> V, const CheckOptions& options);
-/// The straight motion over closed [0,1]: vertex-face, edge-edge, and each vertex against its own opposite edge.
+/// The straight motion over closed [0,1]: vertex-face, edge-edge, and each vertex against its own opposite edge. From a
+/// frame without violations, no event means no intersection at any time (docs/guarantee.md); the motion alone does
+/// not see what crosses already at t = 0 and keeps crossing.
+[[nodiscard]] CheckResult check_motion(const Topology& topology, std::span<const Point> V_t0,
+                                       std::span<const Point> V_t1, const CheckOptions& options);
 [[nodiscard]] CheckResult check_motion(const Surface& surface, std::span<const Point> V_t0, std::span<const Point> V_t1,
                                        const CheckOptions& options);
 
@@ -78,8 +87,13 @@ struct SequenceReport {
   PairCounts pairs;
   ViolationCounts violations_total;
   std::vector<Violation> violations;
-  std::int64_t unreferenced_vertices = 0;  ///< no part of any face: not checked, and said so
-  std::int64_t body_faces = 0;
+  std::vector<std::string> unchecked;  ///< what was to be checked and was not, and why: never clean
+  io::Precision precision = io::Precision::kFloat64;
+  double largest_coordinate = 0;           ///< magnitude, over all frames
+  std::int64_t vertices = 0, faces = 0;    ///< of the last frame
+  std::int64_t unreferenced_vertices = 0;  ///< no part of any face: not checked, and said so; of the last frame
+  std::int64_t body_faces = 0;             ///< of the last frame
+  bool bodies_checked = false;             ///< CheckOptions::check_bodies
   double seconds = 0;
 };
 

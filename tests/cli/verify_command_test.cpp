@@ -1,0 +1,166 @@
+#include <csignal>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.h"
+
+namespace selvage {
+namespace {
+
+using testing::run_program;
+using testing::spit;
+using testing::TemporaryFolder;
+
+/// A face at z = 0 and, above it by `height`, another; as OBJ.
+std::string two_faces(double height) {
+  const std::string z = std::to_string(height);
+  return "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 " + z + "\nv 2 1 " + z + "\nv 1 2 " + z + "\nf 4 5 6\n";
+}
+
+}  // namespace
+
+TEST(VerifyCommand, CleanFrameIsZero) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", two_faces(1));
+  const auto result = run_program(folder, {"verify", folder.path() / "a.obj"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("clean\n")) << result.out;
+  EXPECT_NE(result.out.find("1 of 1 checked, 0 violated"), std::string::npos) << result.out;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(VerifyCommand, TouchingFrameIsOneAndNamed) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", two_faces(0));
+  const auto result = run_program(folder, {"verify", folder.path() / "a.obj"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("overlap overlap, face 0, face 1 (vertices 0 1 2 3 4 5)"), std::string::npos) << result.out;
+}
+
+TEST(VerifyCommand, MotionThroughIsOneThoughBothFramesAreClean) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj", b = folder.path() / "b.obj", json = folder.path() / "report.json";
+  spit(a, two_faces(1));
+  spit(b, two_faces(-3));
+  EXPECT_EQ(run_program(folder, {"verify", a, b}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", "--frames-only", a, b}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", "--motion", a, b, "--json", json}).exit_code, 1);
+  const auto report = nlohmann::json::parse(testing::slurp(json));
+  EXPECT_EQ(report["schema"], "selvage.verify/1");
+  EXPECT_EQ(report["verdict"], "violated");
+  EXPECT_EQ(report["frames"], (nlohmann::json{{"checked", 2}, {"violated", 0}, {"expected", 2}}));
+  EXPECT_EQ(report["motions"], (nlohmann::json{{"checked", 1}, {"violated", 1}, {"expected", 1}}));
+  EXPECT_EQ(report["violations_total"], (nlohmann::json{{"vf", 3}, {"ee", 0}, {"overlap", 0}, {"self", 0}}));
+  ASSERT_EQ(report["violations"].size(), 3);
+  const auto& first = report["violations"][0];
+  EXPECT_EQ(first["event"], "vf");
+  EXPECT_EQ(first["kind"], "cross");
+  EXPECT_EQ(first["features"], (nlohmann::json{3, 0}));
+  EXPECT_EQ(first["t"]["lower"], "1/4");
+  EXPECT_EQ(first["t"]["upper_number"], 0.25);
+}
+
+TEST(VerifyCommand, TwoLevelsOfExactness) {
+  // Vertices that come within the smallest double, and no farther.
+  const TemporaryFolder folder;
+  spit(folder.path() / "apart.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 5e-324\nv 2 1 1\nv 1 2 1\nf 4 5 6\n");
+  EXPECT_EQ(run_program(folder, {"verify", folder.path() / "apart.obj"}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", "--min-distance", "5e-324", folder.path() / "apart.obj"}).exit_code, 0);
+  const auto near = run_program(folder, {"verify", "--min-distance", "1e-323", folder.path() / "apart.obj"});
+  EXPECT_EQ(near.exit_code, 1);
+  EXPECT_NE(near.out.find("vf near, vertex 3, face 0"), std::string::npos) << near.out;
+}
+
+TEST(VerifyCommand, MaxViolationsCapsTheListNotTheCount) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", two_faces(1));
+  spit(folder.path() / "b.obj", two_faces(-3));
+  const auto result = run_program(
+      folder, {"verify", "--motion", "--max-violations", "1", folder.path() / "a.obj", folder.path() / "b.obj"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("violations: 3 vf"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("and 2 more"), std::string::npos) << result.out;
+}
+
+TEST(VerifyCommand, ChangingFacesAreUnknown) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", two_faces(1));
+  spit(folder.path() / "b.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  const auto a = folder.path() / "a.obj", b = folder.path() / "b.obj";
+  EXPECT_EQ(run_program(folder, {"verify", a, b}).exit_code, 0);  // frames alone need no pairing
+  const auto result = run_program(folder, {"verify", "--motion", a, b});
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_TRUE(result.out.starts_with("unknown\n")) << result.out;
+  EXPECT_NE(result.out.find("b.obj"), std::string::npos) << result.out;
+}
+
+TEST(VerifyCommand, BadInputIsNeverAVerdict) {
+  const struct {
+    const char* why;
+    std::string content;
+    int exit_code;
+    const char* message;
+  } cases[] = {
+      {"empty file", "", 3, "a.obj"},
+      {"no face", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", 3, "a.obj"},
+      {"index out of range", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", 3, "a.obj:4"},
+      {"index zero", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", 3, "a.obj:4"},
+      {"repeated corner", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n", 3, "a.obj:4"},
+      {"not a number", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 3, "a.obj:1"},
+      {"infinity", "v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n", 3, "a.obj:2"},
+      {"too large", "v 0 0 0\nv 1 0 0\nv 0 1e999 0\nf 1 2 3\n", 3, "a.obj:3"},
+      {"cut off", "v 0 0 0\nv 1 0 0\nv 0 1", 3, "a.obj:3"},
+      {"words", "v zero 0 0\nf 1 1 1\n", 3, "a.obj:1"},
+  };
+  for (const auto& c : cases) {
+    const TemporaryFolder folder;
+    spit(folder.path() / "a.obj", c.content);
+    const auto result = run_program(folder, {"verify", folder.path() / "a.obj"});
+    EXPECT_EQ(result.exit_code, c.exit_code) << c.why << ": " << result.out << result.err;
+    EXPECT_EQ(result.out, "") << c.why;
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << c.why << ": " << result.err;
+  }
+}
+
+TEST(VerifyCommand, MissingAndUnwritableFilesAreFour) {
+  const TemporaryFolder folder;
+  const auto missing = run_program(folder, {"verify", folder.path() / "missing.obj"});
+  EXPECT_EQ(missing.exit_code, 4) << missing.err;
+  EXPECT_NE(missing.err.find("missing.obj"), std::string::npos) << missing.err;
+  spit(folder.path() / "a.obj", two_faces(1));
+  const auto unwritable =
+      run_program(folder, {"verify", folder.path() / "a.obj", "--json", folder.path() / "no" / "r.json"});
+  EXPECT_EQ(unwritable.exit_code, 4) << unwritable.err;
+  EXPECT_EQ(unwritable.out, "") << "no verdict on stdout that the report does not hold";
+}
+
+TEST(VerifyCommand, UsageErrorsAreTwo) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", two_faces(1));
+  const std::string a = folder.path() / "a.obj";
+  const std::vector<std::vector<std::string>> cases = {
+      {"verify"},
+      {"verify", a, "--motion"},  // one frame: no motion would be checked
+      {"verify", a, a, "--motion", "--frames-only"},
+      {"verify", a, "--min-distance", "-1"},
+      {"verify", a, "--min-distance", "nan"},
+      {"verify", a, "--max-violations", "-3"},
+      {"verify", a, "--threads", "-1"},
+      {"verify", a, "--jsn", "x"},
+  };
+  for (const auto& arguments : cases) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.out << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err, "");
+  }
+}
+
+TEST(VerifyCommand, HelpStartsWithAnExample) {
+  const auto result = run_program({"verify", "--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(result.out.starts_with("Example: selvage verify ")) << result.out;
+}
+
+}  // namespace selvage

@@ -1,0 +1,131 @@
+#include "verify/exact_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <gmpxx.h>
+
+#include "verify/dyadic.h"
+
+namespace selvage::verify {
+namespace {
+
+using Vector = std::array<mpz_class, 3>;
+
+Vector operator-(const Vector& a, const Vector& b) {
+  return {mpz_class(a[0] - b[0]), mpz_class(a[1] - b[1]), mpz_class(a[2] - b[2])};
+}
+mpz_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {mpz_class(a[1] * b[2] - a[2] * b[1]), mpz_class(a[2] * b[0] - a[0] * b[2]),
+          mpz_class(a[0] * b[1] - a[1] * b[0])};
+}
+
+/// Everything times one power of two: four points and the square of the distance to compare with.
+struct Scene {
+  std::array<Vector, 4> x;
+  mpz_class distance_squared;
+};
+
+/// All comparisons below: sign(squared distance - distance_squared). A minimum of distances compares as the minimum of
+/// the signs.
+int compare_points(const Vector& p, const Vector& q, const mpz_class& distance_squared) {
+  const Vector d = p - q;
+  return cmp(dot(d, d), distance_squared);
+}
+
+int compare_point_segment(const Vector& p, const Vector& a, const Vector& b, const mpz_class& distance_squared) {
+  const Vector edge = b - a, offset = p - a;
+  const mpz_class along = dot(edge, offset), length_squared = dot(edge, edge);
+  if (along <= 0) return compare_points(p, a, distance_squared);  // also where the edge has no length
+  if (along >= length_squared) return compare_points(p, b, distance_squared);
+  return cmp(dot(offset, offset) * length_squared - along * along, distance_squared * length_squared);
+}
+
+int compare_vf(const Scene& s) {
+  const auto& [p, a, b, c] = s.x;
+  int sign =
+      std::min({compare_point_segment(p, a, b, s.distance_squared), compare_point_segment(p, b, c, s.distance_squared),
+                compare_point_segment(p, c, a, s.distance_squared)});
+  const Vector n = cross(b - a, c - a);
+  const mpz_class n_squared = dot(n, n);
+  if (n_squared == 0) return sign;  // zero area: the triangle is its edges
+  const auto inside = [&](const Vector& from, const Vector& to) { return dot(n, cross(to - from, p - from)) >= 0; };
+  if (inside(a, b) && inside(b, c) && inside(c, a)) {
+    const mpz_class height = dot(n, p - a);
+    sign = std::min(sign, cmp(height * height, s.distance_squared * n_squared));
+  }
+  return sign;
+}
+
+int compare_ee(const Scene& s) {
+  const auto& [a, b, c, d] = s.x;
+  int sign = std::min(
+      {compare_point_segment(a, c, d, s.distance_squared), compare_point_segment(b, c, d, s.distance_squared),
+       compare_point_segment(c, a, b, s.distance_squared), compare_point_segment(d, a, b, s.distance_squared)});
+  // The feet of the common perpendicular of the two lines, a + (u_foot / n_squared)(b - a) and c + ... (d - c).
+  const Vector u = b - a, v = d - c, w = a - c, n = cross(u, v);
+  const mpz_class n_squared = dot(n, n);
+  if (n_squared == 0) return sign;  // parallel, or an edge without length: some end point is nearest
+  const mpz_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const mpz_class u_foot = uv * vw - vv * uw, v_foot = uu * vw - uv * uw;
+  if (u_foot >= 0 && u_foot <= n_squared && v_foot >= 0 && v_foot <= n_squared) {
+    const mpz_class gap = dot(w, n);
+    sign = std::min(sign, cmp(gap * gap, s.distance_squared * n_squared));
+  }
+  return sign;
+}
+
+void require_distance(double d) {
+  if (!(d >= 0) || !std::isfinite(d)) throw std::invalid_argument("a distance must be finite and not negative");
+}
+
+Scene scene(const std::array<Point, 4>& x, double d) {
+  require_distance(d);
+  std::array<double, 13> values{};
+  std::array<mpz_class, 13> integers;
+  for (std::size_t i = 0; i < 12; ++i) values[i] = x[i / 3][i % 3];
+  values[12] = d;
+  scale_to_integers(values, integers);
+  Scene s;
+  for (std::size_t i = 0; i < 12; ++i) s.x[i / 3][i % 3] = std::move(integers[i]);
+  s.distance_squared = integers[12] * integers[12];
+  return s;
+}
+
+/// At t = m / 2^k the points are ((2^k - m) x_t0 + m x_t1) / 2^k: the scene times 2^k is whole again.
+Scene scene_at(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, double t, double d) {
+  require_distance(d);
+  if (!(t >= 0 && t <= 1)) throw std::invalid_argument("a time must be in [0,1]");
+  std::array<double, 25> values{};
+  std::array<mpz_class, 25> integers;
+  for (std::size_t i = 0; i < 12; ++i) {
+    values[i] = x_t0[i / 3][i % 3];
+    values[12 + i] = x_t1[i / 3][i % 3];
+  }
+  values[24] = d;
+  scale_to_integers(values, integers);
+  const Dyadic time = to_dyadic(t);  // t <= 1, so with an odd mantissa the exponent is not positive
+  const mpz_class whole = mpz_class(1) << static_cast<unsigned long>(-time.exponent);
+  const mpz_class later = static_cast<long>(time.mantissa), earlier = whole - later;
+  Scene s;
+  for (std::size_t i = 0; i < 12; ++i) s.x[i / 3][i % 3] = earlier * integers[i] + later * integers[12 + i];
+  const mpz_class distance = integers[24] * whole;
+  s.distance_squared = distance * distance;
+  return s;
+}
+
+}  // namespace
+
+int compare_vf_distance(const std::array<Point, 4>& x, double d) { return compare_vf(scene(x, d)); }
+int compare_ee_distance(const std::array<Point, 4>& x, double d) { return compare_ee(scene(x, d)); }
+
+bool vf_within_at(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, double t, double d) {
+  return compare_vf(scene_at(x_t0, x_t1, t, d)) <= 0;
+}
+bool ee_within_at(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, double t, double d) {
+  return compare_ee(scene_at(x_t0, x_t1, t, d)) <= 0;
+}
+
+}  // namespace selvage::verify

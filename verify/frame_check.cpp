@@ -1,0 +1,111 @@
+#include <utility>
+
+#include "verify/check.h"
+#include "verify/distance_check.h"
+#include "verify/exact_overlap.h"
+#include "verify/part_trees.h"
+#include "verify/predicates.h"
+#include "verify/violation.h"
+
+namespace selvage::verify {
+namespace {
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+const char* kind_name(OverlapKind kind) {
+  switch (kind) {
+    case OverlapKind::kNone:
+      return "none";
+    case OverlapKind::kTouch:
+      return "touch";
+    case OverlapKind::kPierce:
+      return "cross";
+    case OverlapKind::kCoplanar:
+      return "overlap";
+    case OverlapKind::kFold:
+      return "fold";
+    case OverlapKind::kSame:
+      return "duplicate";
+  }
+  return "unknown";
+}
+
+class FrameCheck {
+ public:
+  FrameCheck(const Topology& topology, std::span<const Point> V, const CheckOptions& options)
+      : topology_(topology), V_(V), options_(options), tally_(options.max_violations) {}
+
+  CheckResult run() {
+    if (!V_.empty()) {
+      const Lattice lattice = Lattice::over(bounding_box(V_));
+      const PartTrees faces(topology_.faces, lattice, [&](std::int32_t f) { return bounding_box(corners(f)); });
+      faces.tally_within(options_.check_bodies, options_.max_violations, tally_,
+                         [&](std::int32_t f, std::int32_t g, Tally& tally) { check_pair(f, g, tally); });
+    }
+    check_areas(topology_.faces.cloth);
+    if (options_.check_bodies) check_areas(topology_.faces.body);
+    if (options_.min_distance) check_distances(topology_, V_, *options_.min_distance, options_, tally_);
+    return result();
+  }
+
+ private:
+  std::array<Point, 3> corners(std::int32_t face) const {
+    const auto& [a, b, c] = topology_.triangles[at(face)];
+    return {V_[at(a)], V_[at(b)], V_[at(c)]};
+  }
+
+  void check_pair(std::int32_t f, std::int32_t g, Tally& tally) const {
+    if (g < f) std::swap(f, g);
+    const OverlapAnswer answer =
+        exact_overlap(topology_.triangles[at(f)], corners(f), topology_.triangles[at(g)], corners(g));
+    ++tally.pairs.overlap;
+    if (answer.exact_used) ++tally.pairs.exact;
+    if (answer.kind != OverlapKind::kNone) tally.add({EventKind::kOverlap, {f, g}, kind_name(answer.kind)});
+  }
+
+  /// The corner that lies between the other two: of three collinear points one does.
+  std::int32_t middle_corner(std::int32_t face) const {
+    const auto x = corners(face);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Box others = bounding_box(std::array<Point, 2>{x[(i + 1) % 3], x[(i + 2) % 3]});
+      if (others.overlaps({x[i], x[i]})) return topology_.triangles[at(face)][i];
+    }
+    return topology_.triangles[at(face)][0];
+  }
+
+  void check_areas(const std::vector<std::int32_t>& faces) {
+    tally_in_parallel(faces.size(), options_.max_violations, tally_, [&](std::size_t i, Tally& tally) {
+      ++tally.pairs.self;
+      const std::array<Point, 3> x = corners(faces[i]);
+      Predicates signs(x);
+      const bool degenerate = signs.projection_axis(0, 1, 2) < 0;
+      if (signs.exact_used()) ++tally.pairs.exact;
+      if (degenerate) tally.add({EventKind::kSelf, {middle_corner(faces[i]), faces[i]}, "degenerate"});
+    });
+  }
+
+  CheckResult result() const {
+    CheckResult result{tally_.pairs, tally_.violations(), {}};
+    for (const Hit& hit : tally_.first_hits()) result.violations.push_back(describe(topology_, hit));
+    return result;
+  }
+
+  const Topology& topology_;
+  std::span<const Point> V_;
+  const CheckOptions& options_;
+  Tally tally_;
+};
+
+}  // namespace
+
+CheckResult check_frame(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
+  const FpGuard guard;
+  require_positions(topology, V);
+  return FrameCheck(topology, V, options).run();
+}
+
+CheckResult check_frame(const Surface& surface, std::span<const Point> V, const CheckOptions& options) {
+  return check_frame(make_topology(surface, V.size()), V, options);
+}
+
+}  // namespace selvage::verify

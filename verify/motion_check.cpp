@@ -1,0 +1,148 @@
+#include <utility>
+
+#include "verify/check.h"
+#include "verify/part_trees.h"
+#include "verify/violation.h"
+
+namespace selvage::verify {
+namespace {
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+const char* kind_name(MotionKind kind) { return kind == MotionKind::kCross ? "cross" : "touch"; }
+
+class MotionCheck {
+ public:
+  MotionCheck(const Topology& topology, std::span<const Point> V_t0, std::span<const Point> V_t1,
+              const CheckOptions& options)
+      : topology_(topology), V_t0_(V_t0), V_t1_(V_t1), options_(options), tally_(options.max_violations) {}
+
+  CheckResult run() {
+    if (!V_t0_.empty()) check_pairs();
+    check_faces(topology_.faces.cloth);
+    if (options_.check_bodies) check_faces(topology_.faces.body);
+    CheckResult result{tally_.pairs, tally_.violations(), {}};
+    for (const Hit& hit : tally_.first_hits()) result.violations.push_back(timed(hit));
+    return result;
+  }
+
+ private:
+  template <std::size_t N>
+  using Vertices = std::array<std::int32_t, N>;
+
+  template <std::size_t N>
+  static std::array<Point, N> gather(std::span<const Point> V, const Vertices<N>& vertices) {
+    std::array<Point, N> x;
+    for (std::size_t i = 0; i < N; ++i) x[i] = V[at(vertices[i])];
+    return x;
+  }
+
+  template <std::size_t N>
+  Box swept_box(const Vertices<N>& vertices) const {
+    Box box{V_t0_[at(vertices[0])], V_t0_[at(vertices[0])]};
+    for (const std::int32_t v : vertices) {
+      for (const Point& p : {V_t0_[at(v)], V_t1_[at(v)]}) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          box.min[k] = std::min(box.min[k], p[k]);
+          box.max[k] = std::max(box.max[k], p[k]);
+        }
+      }
+    }
+    return box;
+  }
+
+  Vertices<4> vf_vertices(std::int32_t v, std::int32_t f) const {
+    const auto& [a, b, c] = topology_.triangles[at(f)];
+    return {v, a, b, c};
+  }
+  Vertices<4> ee_vertices(std::int32_t e, std::int32_t f) const {
+    const auto& [a, b] = topology_.edges[at(e)];
+    const auto& [c, d] = topology_.edges[at(f)];
+    return {a, b, c, d};
+  }
+  /// A corner of a face, then the edge opposite it.
+  Vertices<3> self_vertices(std::int32_t v, std::int32_t f) const {
+    const auto& [a, b, c] = topology_.triangles[at(f)];
+    if (v == a) return {a, b, c};
+    return v == b ? Vertices<3>{b, c, a} : Vertices<3>{c, a, b};
+  }
+
+  MotionAnswer ask(EventKind event, std::int32_t i, std::int32_t j, Detail detail) const {
+    const auto answer = [&](auto query, const auto& vertices) {
+      return query(gather(V_t0_, vertices), gather(V_t1_, vertices), detail);
+    };
+    if (event == EventKind::kVf) return answer(exact_vf_motion, vf_vertices(i, j));
+    if (event == EventKind::kEe) return answer(exact_ee_motion, ee_vertices(i, j));
+    return answer(exact_self_motion, self_vertices(i, j));
+  }
+
+  void decide(EventKind event, std::int32_t i, std::int32_t j, Tally& tally) const {
+    const MotionAnswer answer = ask(event, i, j, Detail::kDecision);
+    if (answer.exact_used) ++tally.pairs.exact;
+    if (answer.touches) tally.add({event, {i, j}, kind_name(answer.kind)});
+  }
+
+  void check_pairs() {
+    const Box bounds_t0 = bounding_box(V_t0_), bounds_t1 = bounding_box(V_t1_);
+    const Lattice lattice =
+        Lattice::over(bounding_box(std::array{bounds_t0.min, bounds_t0.max, bounds_t1.min, bounds_t1.max}));
+    const PartTrees edges(topology_.edge_parts, lattice,
+                          [&](std::int32_t e) { return swept_box(topology_.edges[at(e)]); });
+    edges.tally_within(options_.check_bodies, options_.max_violations, tally_,
+                       [&](std::int32_t e, std::int32_t f, Tally& tally) {
+                         if (f < e) std::swap(e, f);
+                         const auto [a, b, c, d] = ee_vertices(e, f);
+                         if (a == c || a == d || b == c || b == d) return;
+                         ++tally.pairs.ee;
+                         decide(EventKind::kEe, e, f, tally);
+                       });
+    const PartTrees vertices(topology_.vertices, lattice, [&](std::int32_t v) { return swept_box(Vertices<1>{v}); });
+    const PartTrees faces(topology_.faces, lattice,
+                          [&](std::int32_t f) { return swept_box(topology_.triangles[at(f)]); });
+    vertices.tally_between(faces, options_.check_bodies, options_.max_violations, tally_,
+                           [&](std::int32_t v, std::int32_t f, Tally& tally) {
+                             const auto& [a, b, c] = topology_.triangles[at(f)];
+                             if (v == a || v == b || v == c) return;
+                             ++tally.pairs.vf;
+                             decide(EventKind::kVf, v, f, tally);
+                           });
+  }
+
+  void check_faces(const std::vector<std::int32_t>& faces) {
+    tally_in_parallel(faces.size(), options_.max_violations, tally_, [&](std::size_t i, Tally& tally) {
+      for (const std::int32_t v : topology_.triangles[at(faces[i])]) {
+        ++tally.pairs.self;
+        decide(EventKind::kSelf, v, faces[i], tally);
+      }
+    });
+  }
+
+  Violation timed(const Hit& hit) const {
+    Violation violation = describe(topology_, hit);
+    violation.motion = true;
+    violation.t = ask(hit.event, hit.features[0], hit.features[1], Detail::kFirstTime).first;
+    return violation;
+  }
+
+  const Topology& topology_;
+  std::span<const Point> V_t0_, V_t1_;
+  const CheckOptions& options_;
+  Tally tally_;
+};
+
+}  // namespace
+
+CheckResult check_motion(const Topology& topology, std::span<const Point> V_t0, std::span<const Point> V_t1,
+                         const CheckOptions& options) {
+  const FpGuard guard;
+  require_positions(topology, V_t0);
+  require_positions(topology, V_t1);
+  return MotionCheck(topology, V_t0, V_t1, options).run();
+}
+
+CheckResult check_motion(const Surface& surface, std::span<const Point> V_t0, std::span<const Point> V_t1,
+                         const CheckOptions& options) {
+  return check_motion(make_topology(surface, V_t0.size()), V_t0, V_t1, options);
+}
+
+}  // namespace selvage::verify

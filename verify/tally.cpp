@@ -1,0 +1,45 @@
+#include "verify/tally.h"
+
+namespace selvage::verify {
+
+void Tally::add(const Hit& hit) {
+  switch (hit.event) {
+    case EventKind::kVf:
+      ++violations_.vf;
+      break;
+    case EventKind::kEe:
+      ++violations_.ee;
+      break;
+    case EventKind::kOverlap:
+      ++violations_.overlap;
+      break;
+    case EventKind::kSelf:
+      ++violations_.self;
+      break;
+  }
+  keep(hit);
+}
+
+void Tally::keep(const Hit& hit) {
+  if (limit_ == 0) return;
+  hits_.push_back(hit);
+  // Twice the limit and some are kept before the larger half goes: linear time on the whole.
+  if (hits_.size() < 2 * limit_ + 64) return;
+  std::nth_element(hits_.begin(), hits_.begin() + static_cast<std::ptrdiff_t>(limit_) - 1, hits_.end());
+  hits_.resize(limit_);
+}
+
+void Tally::add(const Tally& other) {
+  pairs += other.pairs;
+  violations_ += other.violations_;
+  for (const Hit& hit : other.hits_) keep(hit);
+}
+
+std::vector<Hit> Tally::first_hits() const {
+  std::vector<Hit> first = hits_;
+  std::sort(first.begin(), first.end());
+  first.resize(std::min(first.size(), limit_));
+  return first;
+}
+
+}  // namespace selvage::verify

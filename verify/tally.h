@@ -1,0 +1,63 @@
+// Counting in parallel with the same result for any number of threads: every chunk of work counts for itself, and the
+// counts are added in order.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "verify/check.h"
+#include "verify/fp_guard.h"
+
+namespace selvage::verify {
+
+/// A violation before its details are worked out. `kind` is a literal.
+struct Hit {
+  EventKind event;
+  std::array<std::int32_t, 2> features;
+  const char* kind;
+
+  friend bool operator<(const Hit& x, const Hit& y) {
+    return std::tie(x.event, x.features) < std::tie(y.event, y.features);
+  }
+};
+
+/// Counts, and the `limit` first hits in (event, features) order. Memory does not grow with the number of hits.
+class Tally {
+ public:
+  explicit Tally(std::size_t limit) : limit_(limit) {}
+
+  PairCounts pairs;
+
+  void add(const Hit& hit);
+  void add(const Tally& other);
+  [[nodiscard]] const ViolationCounts& violations() const { return violations_; }
+  /// Sorted; at most `limit`.
+  [[nodiscard]] std::vector<Hit> first_hits() const;
+
+ private:
+  void keep(const Hit& hit);
+
+  std::size_t limit_;
+  ViolationCounts violations_;
+  std::vector<Hit> hits_;
+};
+
+/// Adds to `tally` what work(i, its own tally) counts for all i < count.
+template <class Work>
+void tally_in_parallel(std::size_t count, std::size_t limit, Tally& tally, const Work& work) {
+  // Fixed chunks, so that what a chunk counts does not depend on the scheduler.
+  constexpr std::size_t kChunk = 16;
+  std::vector<Tally> chunks((count + kChunk - 1) / kChunk, Tally(limit));
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+    const FpGuard guard;
+    for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, count); ++i) work(i, chunks[c]);
+  });
+  for (const Tally& chunk : chunks) tally.add(chunk);
+}
+
+}  // namespace selvage::verify

@@ -1,0 +1,40 @@
+// What a check needs to know about a surface besides positions: its edges, and what belongs to cloth and to bodies.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "verify/exact_motion.h"
+
+namespace selvage::verify {
+
+/// The surface: triangles and, per face, whether it belongs to a scripted body (empty: none does).
+struct Surface {
+  std::span<const std::array<std::int32_t, 3>> triangles;
+  std::span<const std::uint8_t> is_body;
+};
+
+/// Indices of elements, ascending, by whom they belong to. An edge or vertex of any cloth face belongs to cloth.
+struct Parts {
+  std::vector<std::int32_t> cloth, body;
+};
+
+struct Topology {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 2>> edges;  ///< {smaller, larger} vertex, sorted by (larger, smaller)
+  Parts faces, edge_parts, vertices;
+  std::int64_t vertex_count = 0;
+  std::int64_t unreferenced_vertices = 0;  ///< held by no face: in neither part
+};
+
+/// Throws std::invalid_argument where an index is out of range, a face repeats a corner, or is_body has another length
+/// than the faces. O(#F log #F).
+[[nodiscard]] Topology make_topology(const Surface& surface, std::size_t vertex_count);
+
+/// Throws std::invalid_argument unless there are `topology.vertex_count` points and all are finite: no verdict is
+/// given on others.
+void require_positions(const Topology& topology, std::span<const Point> V);
+
+}  // namespace selvage::verify
