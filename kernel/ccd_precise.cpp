@@ -12,6 +12,7 @@ using Polygon = DifferencePolygon<DoubleDouble>;
 /// Times in parts of 2^-100: a tick and its part together are exact in a DoubleDouble.
 __extension__ using Part = unsigned __int128;
 constexpr int kPartBits = 48;  // in a tick
+constexpr Part kNarrow = Part{kNarrowWidth} << kPartBits;
 
 /// Distances below this are of the order of double-double rounding, as are those that a guessed time leaves: no
 /// direction will separate them.
@@ -34,11 +35,9 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
                                           double suspect, std::int32_t& examined) {
   Part begin = Part{interval.begin} << kPartBits;
   const Part last = Part{interval.end} << kPartBits;
-  if (interval.end - interval.begin == 1) {
-    const auto parts = static_cast<Part>(suspect * 0x1p+48);
-    for (const Part time : {begin + parts, last}) {
-      if (is_near(closest_point(motion.kind, polygon_within(motion, time)))) return interval.begin;
-    }
+  const auto suspect_offset = static_cast<Part>(suspect * static_cast<double>(interval.end - interval.begin) * 0x1p+48);
+  if (last - begin <= kNarrow && is_near(closest_point(motion.kind, polygon_within(motion, begin + suspect_offset)))) {
+    return interval.begin;
   }
   std::array<Part, 128> ends;
   std::size_t depth = 1;
@@ -54,7 +53,8 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
       begin = end;
       at_begin = at_end;
       --depth;
-    } else if (middle == begin || count + 1 >= kMaxPreciseIntervals || is_near(closest_point(motion.kind, at_begin))) {
+    } else if (middle == begin || count + 1 >= kMaxPreciseIntervals || is_near(closest_point(motion.kind, at_begin)) ||
+               (end - begin <= kNarrow && is_near(closest_point(motion.kind, at_end)))) {
       return static_cast<Tick>(begin >> kPartBits);
     } else {
       ends[depth++] = middle;

@@ -107,7 +107,7 @@ std::optional<Tick> Search::first_contact(const TickInterval& interval, const Po
   if (gap_upper(interval.begin, at_begin, closest) == 0) return interval.begin;
   const auto& w = closest.weights;
   const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
-  if (root && interval.end - interval.begin == 1 && least_weight > kInnerWeight) return interval.begin;
+  if (root && least_weight > kInnerWeight) return interval.begin;
   look_precisely();
   return first_precise_contact(*precise_motion_, interval, root.value_or(0), result_.intervals);
 }
@@ -131,13 +131,14 @@ bool Search::clear(const TickInterval& interval) {
     if (!certify(piece, at_begin, at_end)) {
       if (width <= kPreciseWidth) look_precisely();
       const std::optional<double> root = simple_root(piece);
-      if (root && width > 1) {
-        // One tick for the root alone: the pieces beside it are then free of roots.
-        const auto offset = static_cast<Tick>(*root * static_cast<double>(width));
-        ends[depth++] = begin + std::clamp(offset, Tick{1}, width - 1);
+      if (root && width > kNarrowWidth) {
+        // The tick of the root and its neighbours: the pieces beside these are then free of roots.
+        const Tick at_root = begin + static_cast<Tick>(*root * static_cast<double>(width));
+        if (at_root + 2 < piece.end) ends[depth++] = at_root + 2;
+        if (at_root > begin + 1) ends[depth++] = at_root - 1;
         continue;
       }
-      if (width > 1 && gap_upper(begin, at_begin, closest_point(motion_.kind, at_begin)) > kNoGap) {
+      if (width > 1 && !root && gap_upper(begin, at_begin, closest_point(motion_.kind, at_begin)) > kNoGap) {
         ends[depth++] = begin + width / 2;
         continue;
       }

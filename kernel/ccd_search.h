@@ -14,6 +14,9 @@ namespace selvage::detail {
 [[nodiscard]] CcdResult search_in_time(PairKind kind, const PairPoints& x_t0, const PairPoints& x_t1,
                                        const CcdOptions& options);
 
+/// An interval of this many ticks around a simple root is not divided further: toi_lower is early by no more.
+inline constexpr Tick kNarrowWidth = 3;
+
 /// Where double-double arithmetic cannot prove the features of `motion` apart within the interval: the tick at or
 /// before the first such instant; nothing where the whole interval is PROVED free of touch. `suspect` is a time worth
 /// looking at first, as a fraction of the interval. `examined` is raised by the intervals looked at, at most

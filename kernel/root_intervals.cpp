@@ -24,6 +24,10 @@ double slope_at(const std::array<double, 4>& c, double t) {
   return 3 * (s * (s * a + t * b) + t * (s * b + t * d));
 }
 
+bool is_monotone(const std::array<double, 4>& c) {
+  return (c[0] < c[1] && c[1] < c[2] && c[2] < c[3]) || (c[0] > c[1] && c[1] > c[2] && c[2] > c[3]);
+}
+
 class Isolation {
  public:
   explicit Isolation(const CoplanarityCubic<double>& cubic) : cubic_(cubic) {}
@@ -51,8 +55,7 @@ void Isolation::examine(const TickInterval& piece) {
   const Tick width = piece.end - piece.begin;
   const bool flat = least > -kFlatFactor * bound && greatest < kFlatFactor * bound;
   if (flat || width == 1 || result_.examined + 64 > kMaxExamined) return emit(piece);
-  const bool changes_sign = (local[0] > bound && local[3] < -bound) || (local[0] < -bound && local[3] > bound);
-  if (changes_sign && narrow_to_simple_root(piece, local)) return;
+  if (is_monotone(local) && narrow_to_simple_root(piece, local)) return;
   const Tick middle = piece.begin + width / 2;
   examine({piece.begin, middle});
   examine({middle, piece.end});
@@ -64,9 +67,12 @@ bool Isolation::narrow_to_simple_root(const TickInterval& piece, const std::arra
   const double margin = 1.5 * cubic_.error_bound / std::fabs(slope_at(local, root));
   const auto width = static_cast<double>(piece.end - piece.begin);
   const double first = std::floor((root - margin) * width) - 1, last = std::ceil((root + margin) * width) + 1;
-  if (!(first > 0 && last < width)) return false;
-  const TickInterval inner = {piece.begin + static_cast<Tick>(first), piece.begin + static_cast<Tick>(last)};
-  if (!is_definite(cubic_, {piece.begin, inner.begin}) || !is_definite(cubic_, {inner.end, piece.end})) return false;
+  if (!(last - first < width)) return false;
+  TickInterval inner = piece;
+  if (first > 0) inner.begin += static_cast<Tick>(first);
+  if (last < width) inner.end = piece.begin + static_cast<Tick>(last);
+  if (inner.begin > piece.begin && !is_definite(cubic_, {piece.begin, inner.begin})) return false;
+  if (inner.end < piece.end && !is_definite(cubic_, {inner.end, piece.end})) return false;
   emit(inner);
   return true;
 }
@@ -86,12 +92,15 @@ void Isolation::emit(const TickInterval& piece) {
 
 // Newton's method, kept inside the bracket.
 double root_fraction(const std::array<double, 4>& c) {
+  const bool rising = c[0] < c[3];
+  if ((c[0] < 0) != rising) return 0;
+  if ((c[3] > 0) != rising) return 1;
   double low = 0, high = 1, t = c[0] / (c[0] - c[3]);
-  const bool rising = c[0] < 0;
   for (int step = 0; step < kRootSteps; ++step) {
     const double value = value_at(c, t);
     ((value < 0) == rising ? low : high) = t;
     const double next = t - value / slope_at(c, t);
+    if (next == t) break;
     t = next > low && next < high ? next : 0.5 * (low + high);
   }
   return t;

@@ -17,7 +17,8 @@ inline constexpr int kMaxExamined = 400;
 /// within its bound gives the whole of [0,1]; a simple root an interval of about error_bound / slope.
 [[nodiscard]] RootIntervals root_intervals(const CoplanarityCubic<double>& cubic);
 
-/// The root of a cubic in Bernstein form that changes sign over [0,1], in (0,1): a guess, good to rounding.
+/// The root in [0,1] of a cubic in Bernstein form that is monotone or changes sign, or the end nearer to its root: a guess,
+/// good to rounding.
 [[nodiscard]] double root_fraction(const std::array<double, 4>& coefficient);
 
 }  // namespace selvage::detail
