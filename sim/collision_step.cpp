@@ -1,1 +1,228 @@
 #include "sim/collision_step.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "kernel/assert.h"
+#include "kernel/fp_env.h"
+#include "sim/collision_tracker.h"
+#include "sim/friction.h"
+#include "sim/impact_zone.h"
+#include "sim/impulse.h"
+#include "sim/repulsion.h"
+#include "sim/scripted_groups.h"
+#include "sim/step_input.h"
+#include "sim/step_limit.h"
+#include "sim/step_motion.h"
+
+namespace selvage::sim {
+namespace {
+
+/// Vertices whose pairs are looked at: all but those of bodies.
+std::vector<std::uint8_t> surface_flags(const CollisionBodies& bodies) {
+  std::vector<std::uint8_t> flags(bodies.inverse_mass.size(), 1);
+  for (std::size_t v = 0; v < bodies.body.size(); ++v) flags[v] = bodies.body[v] < 0 ? 1 : 0;
+  return flags;
+}
+
+/// One pass through section 7 with a given set of waiting bodies.
+class Attempt {
+ public:
+  Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const CollisionBodies& bodies,
+          ScriptedGroups& groups, double dt_s)
+      : mesh_(mesh),
+        hierarchy_(hierarchy),
+        options_(options),
+        bodies_(bodies),
+        groups_(groups),
+        dt_s_(dt_s),
+        surface_(surface_flags(bodies)),
+        tracker_(mesh, hierarchy, {options.tolerance_m, options.max_intervals}, surface_),
+        update_(mesh.vertex_count) {}
+
+  /// A conflict where the fail-safe ends in one.
+  std::optional<StepLimiter::Conflict> run(const PositionsRef& V_t0, const PositionsRef& V_candidate) {
+    report_ = {};
+    motion_.start(V_t0, groups_.targets(V_t0, V_candidate), options_.precision);
+    groups_.observe(motion_);
+    if (options_.repulsion) repel();
+    tracker_.start(motion_);
+    report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
+    apply_impulses();
+    move_impact_zones();
+    return hold_back();
+  }
+
+  [[nodiscard]] const StepMotion& motion() const { return motion_; }
+  [[nodiscard]] CollisionStepReport& report() { return report_; }
+  [[nodiscard]] const CollisionTracker& tracker() const { return tracker_; }
+
+ private:
+  void repel();
+  void apply_impulses();
+  void move_impact_zones();
+  std::optional<StepLimiter::Conflict> hold_back();
+  [[nodiscard]] bool zone_can_help(const Collision& collision) const;
+
+  const Mesh& mesh_;
+  BoxHierarchy& hierarchy_;
+  const CollisionOptions& options_;
+  const CollisionBodies& bodies_;
+  ScriptedGroups& groups_;
+  const double dt_s_;
+  const std::vector<std::uint8_t> surface_;
+  StepMotion motion_;
+  CollisionTracker tracker_;
+  ParallelUpdate update_;
+  CollisionStepReport report_;
+};
+
+/// Sections 7.2 and 7.3: every proximity at the start of the step, in parallel.
+void Attempt::repel() {
+  const std::vector<PairProximity> proximities =
+      find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
+  report_.proximities = static_cast<std::int64_t>(proximities.size());
+  std::vector<PairChange> changes;
+  for (const PairProximity& pair : proximities) {
+    const Interaction interaction =
+        make_interaction(pair.kind, pair.vertices, pair.proximity.weights, bodies_.inverse_mass);
+    const PairVectors displacement = gather(interaction, motion_.displacement());
+    const double mobility = effective_mobility(interaction);
+    const Vec3& normal = pair.proximity.normal;
+    const Repulsion push = repulsion(pair.proximity.distance, relative(interaction, displacement).dot(normal),
+                                     mobility * interaction.inverse_mass_scale, options_, dt_s_);
+    if (!(mobility > 0) || !(push.total() > 0)) continue;
+    ++report_.repulsions;
+    PairChange change{pair.vertices, distribute(interaction, push.total() * normal)};
+    if (const auto rub = friction_change(interaction, gather(interaction, motion_.V_t0()), displacement, normal,
+                                         push.total(), {options_.friction_static, options_.friction_kinetic})) {
+      ++report_.frictions;
+      for (std::size_t i = 0; i < 4; ++i) change.change[i] += (*rub)[i];
+    }
+    changes.push_back(change);
+  }
+  update_.apply(changes, options_.relaxation, motion_);
+}
+
+/// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
+void Attempt::apply_impulses() {
+  while (report_.impulse_rounds < options_.impulse_iterations && !tracker_.collisions().empty()) {
+    ++report_.impulse_rounds;
+    std::vector<PairChange> changes;
+    for (const Collision& collision : tracker_.collisions()) {
+      const Interaction interaction =
+          make_interaction(collision.kind, tracker_.vertices(collision), collision.ccd.weights, bodies_.inverse_mass);
+      changes.push_back(collision_impulse(collision, interaction, motion_, options_.tolerance_m));
+    }
+    update_.apply(changes, 1.0, motion_);
+    if (!motion_.anything_changed()) return;
+    tracker_.update(motion_);
+  }
+}
+
+/// A rigid zone keeps distances: it stops every collision, and restores the tolerance where there was one at the start.
+bool Attempt::zone_can_help(const Collision& collision) const {
+  if (collision.ccd.cause != CcdCause::kEnd) return true;
+  const std::array<VertexId, 4> v = tracker_.vertices(collision);
+  const Positions& V = motion_.V_t0();
+  const std::array<Vec3, 4> x{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
+  if (collision.kind == PairKind::kEe) return ee_proximity(x).distance_lower > options_.tolerance_m;
+  // A self pair is {p, a, b, p}: its edge is a face without area.
+  const Vec3& c = collision.kind == PairKind::kSelf ? x[2] : x[3];
+  return vf_proximity({x[0], x[1], x[2], c}).distance_lower > options_.tolerance_m;
+}
+
+/// Section 7.5: merge what collides into rigid zones, and grow them until nothing collides.
+void Attempt::move_impact_zones() {
+  if (tracker_.collisions().empty()) return;
+  const Positions displacement = motion_.displacement();  // zones keep the momentum that the impulses left
+  ImpactZones zones(mesh_.vertex_count, groups_);
+  while (report_.zone_rounds < options_.zone_iterations && !tracker_.collisions().empty()) {
+    bool merged = false;
+    for (const Collision& collision : tracker_.collisions()) {
+      if (zone_can_help(collision)) merged = zones.merge(tracker_.vertices(collision)) || merged;
+    }
+    if (!merged) break;
+    ++report_.zone_rounds;
+    zones.move_grown(displacement, bodies_.inverse_mass, motion_);
+    tracker_.update(motion_);
+  }
+  report_.largest_zone = zones.largest();
+}
+
+/// The fail-safe: what still collides is held back, more of it every round.
+std::optional<StepLimiter::Conflict> Attempt::hold_back() {
+  if (!tracker_.has_motion_collision()) return std::nullopt;
+  StepLimiter limiter(mesh_, hierarchy_, groups_, options_.thickness_m);
+  while (tracker_.has_motion_collision()) {
+    SELVAGE_ASSERT(report_.fail_safe_rounds <= 3 * static_cast<std::int64_t>(mesh_.vertex_count));
+    ++report_.fail_safe_rounds;
+    if (auto conflict = limiter.restrain(tracker_, motion_)) return conflict;
+    tracker_.update(motion_);
+  }
+  report_.fail_safe_vertices = limiter.restrained_count();
+  return std::nullopt;
+}
+
+/// displacement / dt, at the largest finite double where that overflows.
+Positions average_velocity(const Positions& displacement, double dt_s) {
+  static constexpr double kMax = std::numeric_limits<double>::max();
+  return displacement.unaryExpr([dt_s](double d) { return std::clamp(d / dt_s, -kMax, kMax); });
+}
+
+}  // namespace
+
+struct CollisionStep::Impl {
+  Impl(const Mesh& step_mesh, const CollisionOptions& step_options)
+      : mesh(step_mesh), options(step_options), hierarchy(step_mesh) {}
+
+  const Mesh& mesh;
+  CollisionOptions options;
+  BoxHierarchy hierarchy;
+};
+
+CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options)
+    : impl_(std::make_unique<Impl>(mesh, options)) {}
+CollisionStep::~CollisionStep() = default;
+CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
+
+CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
+                                              const CollisionBodies& bodies, double dt_s) {
+  const FpEnvGuard guard;
+  CollisionStepResult result;
+  result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
+  if (result.report.input_error != InputError::kNone) return result;
+
+  ScriptedGroups groups(bodies);
+  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, bodies, groups, dt_s);
+  std::vector<std::int32_t> waiting;
+  auto conflict = attempt.run(V_t0, V_candidate);
+  while (conflict && bodies.policy == SqueezePolicy::kYield) {
+    SELVAGE_ASSERT(static_cast<GroupId>(waiting.size()) < groups.count());
+    for (const GroupId group : conflict->groups) {
+      groups.wait(group);
+      waiting.push_back(groups.body(group));
+    }
+    conflict = attempt.run(V_t0, V_candidate);
+  }
+
+  result.report = std::move(attempt.report());
+  std::ranges::sort(waiting);
+  result.report.waiting_bodies = std::move(waiting);
+  if (conflict) {
+    result.report.status = StepStatus::kStopped;
+    result.report.witness = conflict->collision;
+    result.x = V_t0;
+    result.velocity = Positions::Zero(V_t0.rows(), 3);
+    return result;
+  }
+  result.report.status = StepStatus::kSafe;
+  result.report.certificate = attempt.tracker().report();
+  result.report.below_tolerance = attempt.tracker().collisions();
+  result.x = attempt.motion().x();
+  result.velocity = average_velocity(attempt.motion().displacement(), dt_s);
+  return result;
+}
+
+}  // namespace selvage::sim

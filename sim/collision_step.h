@@ -55,19 +55,23 @@ struct CollisionStepReport {
   StepStatus status = StepStatus::kInvalidInput;
   InputError input_error = InputError::kNone;
   std::int64_t proximities = 0, repulsions = 0, frictions = 0;
-  std::int64_t first_collisions = 0;  ///< found on the candidate motion, before any impulse
+  std::int64_t first_collisions = 0;  ///< left by the repulsions, before any impulse of section 7.4
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
-  std::int32_t largest_zone = 0;        ///< vertices
-  std::int64_t fail_safe_vertices = 0;  ///< 0 in ordinary scenes
-  std::vector<std::int32_t> waiting_bodies;
-  std::vector<Collision> below_tolerance;  ///< free of touch, but not proved farther than tolerance at the end (S2)
-  std::optional<Collision> witness;        ///< for kStopped
-  CollisionReport certificate;             ///< of the final check: counts of the certified queries
+  std::int32_t largest_zone = 0;             ///< vertices
+  std::int64_t fail_safe_vertices = 0;       ///< 0 in ordinary scenes
+  std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
+  std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
+  std::optional<Collision> witness;          ///< for kStopped
+  /// Of x: the pairs not proved separated (those of below_tolerance), and the queries of all rounds. A pair is asked
+  /// again only after one of its vertices changed, so each answer is for the motion V_t0 -> x.
+  CollisionReport certificate;
 };
 
 struct CollisionStepResult {
-  Positions x;         ///< #V by 3: certified; exactly the doubles to store
-  Positions velocity;  ///< #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x
+  Positions x;  ///< #V by 3: certified; exactly the doubles to store
+  /// #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x; at most the largest
+  /// finite double.
+  Positions velocity;
   CollisionStepReport report;
 };
 
@@ -78,10 +82,14 @@ class CollisionStep {
   ~CollisionStep();
   CollisionStep(CollisionStep&&) noexcept;
 
-  /// PRE: V_t0 is free of intersections (exactly). V_candidate: any finite positions; scripted vertices' are their
-  /// script. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than tolerance is
-  /// named. Terminates: every fail-safe round limits or freezes at least one more vertex. Deterministic for any thread
-  /// count.
+  /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
+  /// looked at. V_candidate: any finite positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the
+  /// lattice, and the candidates, the scripts' too, are rounded to it.
+  /// POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than tolerance is named;
+  /// scripted vertices are at their (rounded) candidates, or at V_t0 where their body waits; all others are within
+  /// kMaxCoordinate, or the largest float32.
+  /// Ends after at most (bodies + 2) (impulse_iterations + zone_iterations + 3 #V + 1) searches for collisions.
+  /// Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s);
 

@@ -1,0 +1,64 @@
+#include "sim/collision_tracker.h"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+namespace selvage::sim {
+
+CollisionTracker::CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const CcdOptions& options,
+                                   std::vector<std::uint8_t> surface)
+    : mesh_(mesh), hierarchy_(hierarchy), options_(options), surface_(std::move(surface)) {}
+
+std::array<VertexId, 4> CollisionTracker::vertices(const Collision& collision) const {
+  return pair_vertices(mesh_, collision.kind, collision.first, collision.second);
+}
+
+bool CollisionTracker::has_motion_collision() const {
+  return std::ranges::any_of(report_.collisions, [](const Collision& c) { return c.ccd.cause != CcdCause::kEnd; });
+}
+
+CollisionReport CollisionTracker::find(const StepMotion& motion, std::span<const std::uint8_t> active) {
+  CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options_, active);
+  for (Collision& collision : found.collisions) {
+    if (std::ranges::any_of(vertices(collision), [&](VertexId v) { return motion.moves(v); })) continue;
+    collision.ccd.cause = CcdCause::kEnd;
+    collision.ccd.toi_lower = 1;
+  }
+  return found;
+}
+
+void CollisionTracker::count(const CollisionReport& found) {
+  report_.vf_candidates += found.vf_candidates;
+  report_.ee_candidates += found.ee_candidates;
+  report_.self_candidates += found.self_candidates;
+  report_.intervals += found.intervals;
+  report_.toi_lower = 1;
+  for (const Collision& c : report_.collisions) report_.toi_lower = std::min(report_.toi_lower, c.ccd.toi_lower);
+}
+
+void CollisionTracker::start(StepMotion& motion) {
+  motion.take_changed();
+  CollisionReport found = find(motion, surface_);
+  report_ = {};
+  report_.collisions = std::move(found.collisions);
+  count(found);
+}
+
+void CollisionTracker::update(StepMotion& motion) {
+  if (!motion.anything_changed()) return;
+  const std::vector<std::uint8_t> changed = motion.take_changed();
+  CollisionReport found = find(motion, changed);
+  std::vector<Collision> unchanged;
+  for (const Collision& collision : report_.collisions) {
+    const auto has_changed = [&](VertexId v) { return changed[static_cast<std::size_t>(v)] != 0; };
+    if (std::ranges::none_of(vertices(collision), has_changed)) unchanged.push_back(collision);
+  }
+  const auto key = [](const Collision& c) { return std::tuple(c.kind, c.first, c.second); };
+  report_.collisions.clear();
+  std::ranges::merge(unchanged, found.collisions, std::back_inserter(report_.collisions), {}, key, key);
+  count(found);
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,54 @@
+// Two material points of the surface that interact, one in each feature of a pair (paper, 7.1). Their relative motion
+// is a weighted sum over the pair's vertices, and a change of it is shared out with the same weights.
+//   Legend: w weights, m^-1 mobility, K = sum of w^2 m^-1 (what an impulse of 1 changes the relative motion by).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "kernel/collisions.h"
+
+namespace selvage::sim {
+
+using PairVectors = std::array<Vec3, 4>;  ///< one vector for each vertex of a pair, in the pair's order
+
+struct Interaction {
+  std::array<VertexId, 4> vertices{};  ///< in the order of pair_vertices()
+  /// Signed: the point of the first feature minus the point of the second is sum_i weights[i] x_i. Sum 0 up to
+  /// rounding.
+  std::array<double, 4> weights{};
+  /// Inverse masses over the largest of the four: in [0, 1]; 0 for scripted vertices. Below kLeastMobility a vertex
+  /// counts as scripted, so that no product of masses leaves the range of doubles.
+  std::array<double, 4> mobility{};
+  double inverse_mass_scale = 0;  ///< the largest of the four, 1/kg; 0 where nothing can move
+};
+
+/// 2^-100: beside a vertex 10^30 times as light the heavy one's change is far below its own rounding.
+inline constexpr double kLeastMobility = 0x1p-100;
+
+/// `weights` as in Proximity and CcdResult.
+[[nodiscard]] Interaction make_interaction(PairKind kind, const std::array<VertexId, 4>& vertices,
+                                           const std::array<double, 4>& weights, std::span<const double> inverse_mass);
+
+/// The four rows of X, #V by 3.
+[[nodiscard]] PairVectors gather(const Interaction& interaction, const Positions& X);
+/// First point minus second, for positions as for displacements. Differences are taken first: an offset costs nothing.
+[[nodiscard]] Vec3 relative(const Interaction& interaction, const PairVectors& x);
+/// K, with mobilities.
+[[nodiscard]] double effective_mobility(const Interaction& interaction);
+/// Whether cloth alone takes part, so that momentum is kept: no vertex of the pair is scripted.
+[[nodiscard]] bool is_closed(const Interaction& interaction);
+
+/// A vertex moves at most this many times the relative change asked for. The plain formula w m^-1 / K stays below 1.3
+/// where all corners of a feature are free; it grows without bound where the only free corner of a pinned triangle has
+/// a weight near 0, and would throw that corner away.
+inline constexpr double kMaxLever = 8;
+/// The share in (0, 1] of an impulse that kMaxLever lets through. REQUIRES effective_mobility() > 0.
+[[nodiscard]] double lever_share(const Interaction& interaction);
+
+/// Changes of the vertices' displacements that change the relative displacement by `change` (less where kMaxLever says
+/// so): equal and opposite impulses, weighted (paper, 7.1, for any masses). Zero where nothing can move.
+/// Linear momentum is kept for closed pairs; angular momentum where `change` is parallel to the points' separation.
+[[nodiscard]] PairVectors distribute(const Interaction& interaction, const Vec3& change);
+
+}  // namespace selvage::sim

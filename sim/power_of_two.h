@@ -1,0 +1,17 @@
+// Exact scaling by powers of two, so that squares and products stay in the range of doubles.
+#pragma once
+
+#include <cmath>
+
+namespace selvage::sim {
+
+/// The least power of two above `length`, at least 2^-1000 so that dividing by it cannot overflow in the domain.
+/// REQUIRES 0 <= length < 2^1023.
+[[nodiscard]] inline double power_of_two_above(double length) {
+  constexpr int kLeastExponent = -1000;
+  int exponent = kLeastExponent;
+  if (length > 0) std::frexp(length, &exponent);
+  return std::ldexp(1.0, exponent < kLeastExponent ? kLeastExponent : exponent);
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,24 @@
+// The pseudo-inverse of a symmetric positive semidefinite 3 by 3 matrix: inertia tensors of nodes on a line, and
+// mobilities in which a direction is missing.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace selvage::sim {
+
+/// Eigenvalues at most this share of the largest count as 0. Inertia grows with the square of a lever arm, so arms
+/// below 10^-6 of the longest are dropped; the eigenvalues' own error, a few u = 10^-16, stays below 10^-3 of what is
+/// kept.
+inline constexpr double kRankTolerance = 1e-12;
+
+/// REQUIRES `matrix` symmetric, finite, semidefinite up to rounding. The zero matrix gives the zero matrix.
+[[nodiscard]] Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& matrix);
+
+/// The matrix of v -> a x v.
+[[nodiscard]] inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d result;
+  result << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return result;
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,56 @@
+#include "sim/step_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/step_motion.h"
+
+namespace selvage::sim {
+namespace {
+
+bool is_length(double value) { return value >= 0 && value <= kMaxCoordinate; }  // false for NaN
+bool is_finite_nonnegative(double value) { return value >= 0 && std::isfinite(value); }
+
+bool is_on_lattice(const PositionsRef& V, CollisionOptions::Precision precision) {
+  for (Eigen::Index v = 0; v < V.rows(); ++v) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (to_lattice(V(v, axis), precision) != V(v, axis)) return false;
+    }
+  }
+  return true;
+}
+
+InputError validate_masses(std::size_t vertex_count, const CollisionBodies& bodies) {
+  if (bodies.inverse_mass.size() != vertex_count) return InputError::kSizeMismatch;
+  if (!bodies.body.empty() && bodies.body.size() != vertex_count) return InputError::kSizeMismatch;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (!is_finite_nonnegative(bodies.inverse_mass[v])) return InputError::kBadMass;
+    const bool on_body = !bodies.body.empty() && bodies.body[v] >= 0;
+    if (on_body && bodies.inverse_mass[v] > 0) return InputError::kBadMass;
+  }
+  return InputError::kNone;
+}
+
+}  // namespace
+
+InputError validate_options(const CollisionOptions& o) {
+  const bool lengths = is_length(o.thickness_m) && is_length(o.tolerance_m);
+  const bool spring = is_finite_nonnegative(o.repulsion_stiffness_n_m) && o.overlap_fraction >= 0 &&
+                      o.overlap_fraction <= 1 && o.relaxation > 0 && o.relaxation <= 1;
+  const bool friction = is_finite_nonnegative(o.friction_static) && is_finite_nonnegative(o.friction_kinetic) &&
+                        o.friction_kinetic <= o.friction_static;
+  const bool limits = o.impulse_iterations >= 0 && o.zone_iterations >= 0 && o.max_intervals >= 1;
+  return lengths && spring && friction && limits ? InputError::kNone : InputError::kBadOption;
+}
+
+InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options, const PositionsRef& V_t0,
+                               const PositionsRef& V_candidate, const CollisionBodies& bodies, double dt_s) {
+  if (const InputError error = validate_options(options); error != InputError::kNone) return error;
+  if (!(dt_s > 0) || !std::isfinite(dt_s)) return InputError::kBadTimeStep;
+  if (const InputError error = validate(mesh, V_t0, V_candidate); error != InputError::kNone) return error;
+  const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count);
+  if (const InputError error = validate_masses(vertex_count, bodies); error != InputError::kNone) return error;
+  return is_on_lattice(V_t0, options.precision) ? InputError::kNone : InputError::kOffLattice;
+}
+
+}  // namespace selvage::sim

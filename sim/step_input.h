@@ -1,0 +1,16 @@
+// Whether a collision step can be done at all: options, sizes, domain, masses, lattice.
+#pragma once
+
+#include "sim/collision_step.h"
+
+namespace selvage::sim {
+
+/// Whether every option lies in the range that CollisionOptions states.
+[[nodiscard]] InputError validate_options(const CollisionOptions& options);
+
+/// The first thing wrong with the input of a step, or kNone. O(#V).
+[[nodiscard]] InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options,
+                                             const PositionsRef& V_t0, const PositionsRef& V_candidate,
+                                             const CollisionBodies& bodies, double dt_s);
+
+}  // namespace selvage::sim

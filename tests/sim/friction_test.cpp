@@ -1,0 +1,129 @@
+#include "sim/friction.h"
+
+#include "tests/property.h"
+#include "tests/sim/mechanics.h"
+
+namespace selvage::sim::testing {
+namespace {
+
+using selvage::testing::check_property;
+
+constexpr double kGap = 0.5e-3;
+
+/// A cloth vertex kGap above a scripted floor triangle, moving with `displacement`.
+struct VertexOnFloor {
+  std::array<double, 4> inverse_mass{2, 0, 0, 0};
+  Interaction interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.5, 0.25, 0.25}, inverse_mass);
+  PairVectors x_t0{Vec3(0, 0, kGap), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 3, 0)};
+};
+
+/// As random_pair(false), but `gap` apart along the z axis, which becomes the normal.
+RandomPair random_contact(double gap) {
+  RandomPair pair = random_pair(false);
+  for (Vec3& x : pair.x_t0) x.z() = 0;
+  const Vec3 miss = relative(pair.interaction, pair.x_t0);
+  const std::size_t first = pair.interaction.weights[1] > 0 ? 2 : 1;  // vertices of the first feature
+  for (std::size_t i = 0; i < first; ++i) pair.x_t0[i] -= miss - gap * Vec3::UnitZ();
+  return pair;
+}
+
+double slip(const PairVectors& displacement) { return displacement[0].head<2>().norm(); }
+
+}  // namespace
+
+TEST(Friction, SlidingVertexSlowsByMuTimesTheNormalChange) {
+  const VertexOnFloor scene;
+  const PairVectors displacement{Vec3(3, 4, -1), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  const auto change = friction_change(scene.interaction, scene.x_t0, displacement, Vec3::UnitZ(), 1, {0.5, 0.3});
+  ASSERT_TRUE(change);
+  const PairVectors after = sum(displacement, *change);
+  EXPECT_NEAR(slip(after), 5 - 0.3, 1e-14);
+  EXPECT_NEAR(after[0].x() / after[0].y(), 3.0 / 4.0, 1e-14);
+  EXPECT_EQ(after[0].z(), -1);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ((*change)[i], Vec3(0, 0, 0));
+}
+
+TEST(Friction, SticksBelowTheStaticLimitAndSlidesAboveIt) {
+  const VertexOnFloor scene;
+  const auto slip_after = [&](double slip_before, double on_static, double on_kinetic) {
+    const PairVectors displacement{Vec3(slip_before, 0, -1), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    const auto change =
+        friction_change(scene.interaction, scene.x_t0, displacement, Vec3::UnitZ(), 1, {on_static, on_kinetic});
+    return change ? slip(sum(displacement, *change)) : slip_before;
+  };
+  EXPECT_NEAR(slip_after(0.49, 0.5, 0.3), 0, 1e-15);           // below mu_s: sticks
+  EXPECT_NEAR(slip_after(0.51, 0.5, 0.3), 0.51 - 0.3, 1e-15);  // above: slides with mu_k
+  EXPECT_NEAR(slip_after(0.2, 0.3, 0.3), 0, 1e-15);
+  EXPECT_NEAR(slip_after(0.4, 0.3, 0.3), 0.1, 1e-15);
+  EXPECT_EQ(slip_after(0.4, 0, 0), 0.4);
+  EXPECT_EQ(slip_after(0.4, 0.3, 0), 0.4);  // slides, and sliding costs nothing
+}
+
+TEST(Friction, IsThePapersFormulaWhereThePointsMeet) {
+  // As the separation goes to 0 the torque does too: dv_T = mu dv_N, shared by weights and masses.
+  check_property(100, 31, [] {
+    const RandomPair pair = random_contact(1e-13);
+    Vec3 slip_before = relative(pair.interaction, pair.displacement);
+    slip_before.z() = 0;
+    RC_PRE(slip_before.norm() > 0.1 && lever_share(pair.interaction) == 1);
+    const auto change =
+        friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), 0.25, {0.2, 0.2});
+    RC_ASSERT(change.has_value());
+    const PairVectors paper = distribute(pair.interaction, -0.05 * slip_before.normalized());
+    for (std::size_t i = 0; i < 4; ++i) RC_ASSERT(((*change)[i] - paper[i]).norm() <= 1e-9);
+  });
+}
+
+TEST(Friction, KeepsBothMomentaAddsNoEnergyAndStaysInTheCone) {
+  check_property(500, 32, [] {
+    const RandomPair pair = random_contact(number_between(0, 0.2));
+    const double normal_change = number_between(0, 1);
+    const double on_static = number_between(0, 2);
+    const FrictionCoefficients friction{on_static, number_between(0, on_static)};
+    const auto change =
+        friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), normal_change, friction);
+    RC_PRE(change.has_value());
+    const PairVectors after = sum(pair.displacement, *change);
+    const Mechanics m0 = mechanics(pair.x_t0, pair.displacement, pair.inverse_mass);
+    const Mechanics m1 = mechanics(pair.x_t0, after, pair.inverse_mass);
+    RC_ASSERT((m1.linear - m0.linear).norm() <= 1e-12 * m0.linear_scale);
+    RC_ASSERT((m1.angular - m0.angular).norm() <= 1e-12 * m0.angular_scale);
+    RC_ASSERT(m1.energy <= m0.energy * (1 + 1e-13));
+    // Together with the normal impulse of a full stop it adds no energy either.
+    const double approach = relative(pair.interaction, pair.displacement).z();
+    if (approach < 0) {
+      const PairVectors both = sum(after, distribute(pair.interaction, -approach * Vec3::UnitZ()));
+      RC_ASSERT(mechanics(pair.x_t0, both, pair.inverse_mass).energy <= m0.energy * (1 + 1e-13));
+    }
+    // The slip it takes away is at most mu_s times the normal change.
+    const Vec3 slowed = relative(pair.interaction, *change);
+    RC_ASSERT(slowed.norm() <= on_static * normal_change * (1 + 1e-12));
+  });
+}
+
+TEST(Friction, DoesNotBrakeARigidRotation) {
+  check_property(100, 33, [] {
+    RandomPair pair = random_contact(0.1);
+    const Vec3 omega = vector_within(1);
+    for (std::size_t i = 0; i < 4; ++i) pair.displacement[i] = omega.cross(pair.x_t0[i]);
+    const auto change = friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), 1, {1, 1});
+    if (change) {
+      for (const Vec3& c : *change) RC_ASSERT(c.norm() <= 1e-9);
+    }
+  });
+}
+
+TEST(Friction, StaysFiniteForHugeAndTinyMotions) {
+  check_property(100, 34, [] {
+    RandomPair pair = random_contact(1e-3);
+    const double scale = std::exp2(number_between(-1000, 1000));
+    for (Vec3& d : pair.displacement) d *= scale;
+    const auto change =
+        friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), scale, {0.5, 0.5});
+    if (change) {
+      for (const Vec3& c : *change) RC_ASSERT(c.allFinite());
+    }
+  });
+}
+
+}  // namespace selvage::sim::testing
