@@ -1,0 +1,47 @@
+// Boxes in columns, so that one box is tested against several at once (SIMD, chosen at run time).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/box.h"
+
+namespace selvage {
+
+/// Answers are written in whole vectors: `out` has room for this many entries more than there are rows in the range.
+inline constexpr std::size_t kVectorSlack = 8;
+
+/// A list of boxes, each with a key. A row that has not been set holds nothing and overlaps nothing.
+struct BoxColumns {
+  std::array<std::vector<double>, 3> lower, upper;
+  std::vector<std::uint64_t> key;
+
+  void resize(std::size_t row_count);
+  /// As resize, but what the rows hold is unspecified and memory is never given back.
+  void reuse(std::size_t row_count);
+  void set(std::size_t row, const Box& box);
+  [[nodiscard]] Box row(std::size_t row) const;
+  [[nodiscard]] std::size_t row_count() const { return row_count_; }
+
+ private:
+  std::size_t row_count_ = 0;
+};
+
+/// Writes the keys of rows begin .. end-1 whose box overlaps `box` and whose key is at least `first_key`, in row order;
+/// returns their number. REQUIRES keys below 2^63.
+std::size_t find_overlaps(const BoxColumns& boxes, std::size_t begin, std::size_t end, const Box& box,
+                          std::uint64_t first_key, std::uint64_t* out);
+
+/// The vertices of the rows' features; kCorners is 2 for edges and 3 for faces.
+template <std::size_t kCorners>
+using CornerColumns = std::array<std::vector<std::uint64_t>, kCorners>;
+
+/// The same for rows begin .. boxes.row_count()-1, with the corner columns beside them: rows that share one of
+/// `own_corners` are left out, and every key is joined with `own_key` by OR.
+std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<3>& corners, std::size_t begin, const Box& box,
+                       const std::array<VertexId, 1>& own_corners, std::uint64_t own_key, std::uint64_t* out);
+std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<2>& corners, std::size_t begin, const Box& box,
+                       const std::array<VertexId, 2>& own_corners, std::uint64_t own_key, std::uint64_t* out);
+
+}  // namespace selvage

@@ -1,0 +1,246 @@
+#include "kernel/pair_finder.h"
+
+#include <algorithm>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "kernel/fp_env.h"
+#include "kernel/pair_buffer.h"
+
+namespace selvage {
+
+namespace {
+
+using Words = std::vector<std::uint64_t>;
+
+TreeRef tree_ref(std::uint64_t word) { return static_cast<TreeRef>(static_cast<std::uint32_t>(word)); }
+
+/// Appends what `find` writes behind the words that are there; it gets the room and returns how many it wrote.
+template <typename Find>
+void append(Words& words, std::size_t count_max, const Find& find) {
+  const std::size_t size = words.size();
+  words.resize(size + count_max + kVectorSlack);
+  words.resize(size + find(words.data() + size));
+}
+
+/// Possible partners of a cluster's features, in ascending order.
+template <std::size_t kCorners>
+struct Partners {
+  BoxColumns boxes;
+  CornerColumns<kCorners> corners;
+
+  void reuse(std::size_t count) {
+    boxes.reuse(count);
+    for (auto& column : corners) {
+      if (column.size() < boxes.key.size()) column.resize(boxes.key.size());
+    }
+  }
+  void set(std::size_t row, const BoxColumns& from, std::size_t from_row, std::uint64_t feature,
+           const std::array<VertexId, kCorners>& vertices) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis][row] = from.lower[axis][from_row];
+      boxes.upper[axis][row] = from.upper[axis][from_row];
+    }
+    boxes.key[row] = feature << 32;
+    for (std::size_t k = 0; k < kCorners; ++k) corners[k][row] = static_cast<std::uint64_t>(vertices[k]);
+  }
+};
+
+struct Workspace {
+  PairBuffer pairs;
+  Words open, clusters, keys;
+  Partners<3> faces;
+  Partners<2> edges;
+};
+
+class PairFinder {
+ public:
+  PairFinder(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes)
+      : mesh_(mesh),
+        clusters_(clusters),
+        boxes_(boxes),
+        vf_(static_cast<std::size_t>(mesh.vertex_count)),
+        ee_(mesh.edges.size()) {}
+
+  Candidates find() {
+    if (!clusters_.nodes.empty()) descend(0, {0});
+    Candidates candidates;
+    collect(vf_, candidates.vf);
+    collect(ee_, candidates.ee);
+    return candidates;
+  }
+
+ private:
+  /// Appends the children of node `ref` that overlap `box`; only those that may be active where `active_only` is set.
+  void expand(TreeRef ref, const Box& box, bool active_only, Words& out) const {
+    const std::size_t begin = FaceClusters::kFanOut * static_cast<std::size_t>(ref);
+    const std::size_t end = begin + clusters_.nodes[static_cast<std::size_t>(ref)].child_count;
+    const std::size_t size = out.size();
+    append(out, end - begin,
+           [&](std::uint64_t* room) { return find_overlaps(boxes_.children(), begin, end, box, 0, room); });
+    if (!active_only) return;
+    const auto first = out.begin() + static_cast<std::ptrdiff_t>(size);
+    out.erase(std::remove_if(first, out.end(), [&](std::uint64_t word) { return !boxes_.is_active(tree_ref(word)); }),
+              out.end());
+  }
+
+  /// `frontier`: nodes and clusters that hold every cluster whose box overlaps that of a cluster below node n.
+  void descend(std::size_t n, const Words& frontier) {
+    const FaceClusters::Node& node = clusters_.nodes[n];
+    tbb::parallel_for(std::size_t{0}, node.child_count, [&](std::size_t k) {
+      const FpEnvGuard guard;
+      const Box box = boxes_.children().row(FaceClusters::kFanOut * n + k);
+      const TreeRef child = node.child[k];
+      const bool active_only = !boxes_.is_active(child);
+      Words below;
+      for (const std::uint64_t word : frontier) {
+        if (tree_ref(word) >= 0) {
+          expand(tree_ref(word), box, active_only, below);
+        } else {
+          below.push_back(word);
+        }
+      }
+      if (below.empty()) return;
+      if (child >= 0) {
+        descend(static_cast<std::size_t>(child), below);
+      } else {
+        find_in_cluster(static_cast<std::size_t>(~child), box, below, active_only);
+      }
+    });
+  }
+
+  void find_in_cluster(std::size_t c, const Box& box, const Words& frontier, bool active_only) {
+    Workspace& work = workspaces_.local();
+    work.open = frontier;
+    work.clusters.clear();
+    while (!work.open.empty()) {
+      const std::uint64_t word = work.open.back();
+      work.open.pop_back();
+      if (tree_ref(word) < 0) {
+        work.clusters.push_back(static_cast<std::uint64_t>(~tree_ref(word)));
+      } else {
+        expand(tree_ref(word), box, active_only, work.open);
+      }
+    }
+    find_vf(c, work);
+    find_ee(c, work);
+  }
+
+  /// Ascending keys of the rows of `clusters` that overlap `box` and stand for first_feature or a later one.
+  template <typename Id>
+  static void find_keys(const Words& clusters, const PerCluster<Id>& rows, const BoxColumns& boxes, const Box& box,
+                        std::int32_t first_feature, Words& keys) {
+    keys.clear();
+    const std::uint64_t first_key = static_cast<std::uint64_t>(first_feature) << 32;
+    for (const std::uint64_t c : clusters) {
+      const std::size_t begin = rows.begin[c], end = rows.begin[c + 1];
+      append(keys, end - begin,
+             [&](std::uint64_t* room) { return find_overlaps(boxes, begin, end, box, first_key, room); });
+    }
+    std::sort(keys.begin(), keys.end());
+  }
+
+  /// Answers for all of a cluster's features: `find(feature, partners)` for each, with the partners it may have.
+  template <std::size_t kCorners, typename Id, typename IsActive, typename Find>
+  void match(std::span<const Id> own, const IsActive& is_active, const BoxColumns& boxes,
+             const std::vector<std::array<VertexId, kCorners>>& corners, Words& keys, Partners<kCorners>& partners,
+             const Find& find) const {
+    const auto list_partners = [&] {
+      partners.reuse(keys.size());
+      for (std::size_t row = 0; row < keys.size(); ++row) {
+        const std::uint64_t feature = keys[row] >> 32;
+        partners.set(row, boxes, static_cast<std::size_t>(keys[row] & 0xffffffff), feature, corners[feature]);
+      }
+    };
+    if (std::any_of(own.begin(), own.end(), is_active)) {
+      list_partners();
+      for (const Id id : own) {
+        if (is_active(id)) find(id);
+      }
+    }
+    if (std::all_of(own.begin(), own.end(), is_active)) return;
+    std::erase_if(keys, [&](std::uint64_t key) { return !boxes_.is_active(corners[key >> 32]); });
+    list_partners();
+    for (const Id id : own) {
+      if (!is_active(id)) find(id);
+    }
+  }
+
+  /// Row of the first partner after `feature`.
+  template <std::size_t kCorners>
+  static std::size_t first_after(const Partners<kCorners>& partners, std::int32_t feature) {
+    const auto begin = partners.boxes.key.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(partners.boxes.row_count());
+    return static_cast<std::size_t>(std::lower_bound(begin, end, (static_cast<std::uint64_t>(feature) + 1) << 32) -
+                                    begin);
+  }
+
+  template <std::size_t kCorners, std::size_t kOwnCorners>
+  static std::span<const std::uint64_t> find_partners(const Partners<kCorners>& partners, std::size_t begin,
+                                                      const Box& box,
+                                                      const std::array<VertexId, kOwnCorners>& own_corners,
+                                                      std::int32_t feature, PairBuffer& pairs) {
+    std::uint64_t* room = pairs.room(partners.boxes.row_count() - begin + kVectorSlack);
+    return pairs.keep(find_pairs(partners.boxes, partners.corners, begin, box, own_corners,
+                                 static_cast<std::uint64_t>(feature), room));
+  }
+
+  void find_vf(std::size_t c, Workspace& work) {
+    const auto own = clusters_.vertices.of(c);
+    if (own.empty()) return;
+    Box all;
+    for (const VertexId v : own) all.merge(boxes_.vertex(v));
+    find_keys(work.clusters, clusters_.faces, boxes_.faces(), all, 0, work.keys);
+    const auto is_active = [&](VertexId v) { return boxes_.is_active(std::array{v}); };
+    match(own, is_active, boxes_.faces(), mesh_.faces, work.keys, work.faces, [&](VertexId v) {
+      vf_[static_cast<std::size_t>(v)] = find_partners(work.faces, 0, boxes_.vertex(v), std::array{v}, v, work.pairs);
+    });
+  }
+
+  void find_ee(std::size_t c, Workspace& work) {
+    const auto own = clusters_.edges.of(c);
+    if (own.empty()) return;
+    const auto ends = [&](EdgeId e) { return mesh_.edges[static_cast<std::size_t>(e)]; };
+    const auto box = [&](EdgeId e) { return united(boxes_.vertex(ends(e)[0]), boxes_.vertex(ends(e)[1])); };
+    Box all;
+    for (const EdgeId e : own) all.merge(box(e));
+    find_keys(work.clusters, clusters_.edges, boxes_.edges(), all, own.front() + 1, work.keys);
+    const auto is_active = [&](EdgeId e) { return boxes_.is_active(ends(e)); };
+    match(own, is_active, boxes_.edges(), mesh_.edges, work.keys, work.edges, [&](EdgeId e) {
+      ee_[static_cast<std::size_t>(e)] =
+          find_partners(work.edges, first_after(work.edges, e), box(e), ends(e), e, work.pairs);
+    });
+  }
+
+  template <typename Candidate>
+  static void collect(const std::vector<std::span<const std::uint64_t>>& found, std::vector<Candidate>& out) {
+    std::vector<std::size_t> begin(found.size() + 1, 0);
+    for (std::size_t i = 0; i < found.size(); ++i) begin[i + 1] = begin[i] + found[i].size();
+    out.resize(begin.back());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        std::transform(
+            found[i].begin(), found[i].end(), out.begin() + static_cast<std::ptrdiff_t>(begin[i]),
+            [](std::uint64_t pair) {
+              return Candidate{static_cast<std::int32_t>(pair & 0xffffffff), static_cast<std::int32_t>(pair >> 32)};
+            });
+      }
+    });
+  }
+
+  const Mesh& mesh_;
+  const FaceClusters& clusters_;
+  const FittedBoxes& boxes_;
+  std::vector<std::span<const std::uint64_t>> vf_, ee_;  ///< by the first feature of the pairs
+  tbb::enumerable_thread_specific<Workspace> workspaces_;
+};
+
+}  // namespace
+
+Candidates find_pairs(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes) {
+  return PairFinder(mesh, clusters, boxes).find();
+}
+
+}  // namespace selvage

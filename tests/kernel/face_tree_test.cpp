@@ -1,0 +1,100 @@
+#include "kernel/face_tree.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/kernel/random_motion.h"
+#include "tests/property.h"
+
+namespace selvage {
+
+namespace {
+
+/// Depth of the root's deepest face; -1 if a node has no parent or several.
+int depth_of(const FaceTree& tree, std::size_t face_count) {
+  std::vector<int> depth(face_count + tree.children.size(), -1);
+  if (depth.empty()) return 0;
+  depth.back() = 0;
+  int deepest = 0;
+  for (std::size_t i = tree.children.size(); i-- > 0;) {
+    for (const std::int32_t child : tree.children[i]) {
+      int& depth_below = depth[static_cast<std::size_t>(child)];
+      if (depth_below >= 0 || depth[face_count + i] < 0) return -1;
+      depth_below = depth[face_count + i] + 1;
+      deepest = std::max(deepest, depth_below);
+    }
+  }
+  return std::count(depth.begin(), depth.end(), -1) > 0 ? -1 : deepest;
+}
+
+/// Every sweep leaves at most 3/4 of its nodes plus one: 2.41 log2(n) sweeps down to four nodes, and a few more.
+int depth_bound(std::size_t face_count) {
+  return static_cast<int>(std::ceil(2.41 * std::log2(static_cast<double>(face_count) + 1))) + 4;
+}
+
+Mesh mesh_of(VertexId vertex_count, const std::vector<std::array<VertexId, 3>>& faces) {
+  Faces F(static_cast<Eigen::Index>(faces.size()), 3);
+  for (Eigen::Index f = 0; f < F.rows(); ++f) {
+    for (Eigen::Index k = 0; k < 3; ++k) F(f, k) = faces[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)];
+  }
+  return make_mesh(vertex_count, F);
+}
+
+/// A strip of n quads along x; every face on the upper side carries a chain of `spike` faces.
+Mesh comb(int n, int spike) {
+  std::vector<std::array<VertexId, 3>> faces;
+  VertexId next = 2;
+  VertexId lower = 0, upper = 1;
+  for (int i = 0; i < n; ++i) {
+    const VertexId next_lower = next++, next_upper = next++;
+    faces.push_back({lower, next_lower, upper});
+    faces.push_back({next_lower, next_upper, upper});
+    VertexId a = upper, b = next_upper;
+    for (int k = 0; k < spike; ++k) {
+      faces.push_back({a, b, next});
+      a = b;
+      b = next++;
+    }
+    lower = next_lower;
+    upper = next_upper;
+  }
+  return mesh_of(next, faces);
+}
+
+}  // namespace
+
+TEST(FaceTree, PropHoldsEveryFaceOnceAndIsShallow) {
+  testing::check_property(300, 3, [] {
+    const auto shape = testing::random_shape();
+    RC_LOG() << shape << '\n';
+    const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
+    const FaceTree tree = make_face_tree(mesh);
+    const std::size_t face_count = mesh.faces.size();
+    RC_ASSERT(tree.children.size() == (face_count == 0 ? 0 : face_count - 1));
+    const int depth = depth_of(tree, face_count);
+    RC_ASSERT(depth >= 0);
+    RC_ASSERT(depth <= depth_bound(face_count));
+  });
+}
+
+/// Shapes whose adjacency is a star, a clique, a path or nothing at all: greedy pairing alone would leave a chain of
+/// thousands of nodes for the first, and a list of pairs that is quadratic in length for the second.
+TEST(FaceTree, IsShallowForDegenerateAdjacency) {
+  constexpr VertexId kCount = 20000;
+  std::vector<std::array<VertexId, 3>> book, pages, loose;
+  for (VertexId i = 0; i < kCount; ++i) {
+    book.push_back({0, 1, 2 + i});                   // all faces around one edge
+    pages.push_back({i % 2, 2, 3 + i});              // two books with a common cover
+    loose.push_back({3 * i, 3 * i + 1, 3 * i + 2});  // components of one face
+  }
+  pages.push_back({0, 1, 2});
+  for (const Mesh& mesh : {mesh_of(kCount + 2, book), mesh_of(kCount + 3, pages), mesh_of(3 * kCount, loose),
+                           comb(kCount, 1), comb(kCount / 10, 9)}) {
+    const int depth = depth_of(make_face_tree(mesh), mesh.faces.size());
+    EXPECT_GE(depth, 0);
+    EXPECT_LE(depth, depth_bound(mesh.faces.size()));
+  }
+}
+
+}  // namespace selvage
