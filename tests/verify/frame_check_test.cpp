@@ -1,0 +1,283 @@
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "tests/verify/sheet.h"
+#include "verify/check.h"
+#include "verify/exact_distance.h"
+#include "verify/exact_overlap.h"
+
+namespace selvage::verify {
+namespace {
+
+using selvage::testing::add_vertex;
+using selvage::testing::point_on;
+using selvage::testing::sheet;
+using selvage::testing::surface;
+
+CheckResult check(const io::MeshData& mesh, CheckOptions options = {}) {
+  options.max_violations = 1000000;
+  return check_frame(surface(mesh), mesh.points, options);
+}
+
+std::string text(const Violation& v) {
+  const char* events[] = {"vf", "ee", "overlap", "self"};
+  return std::string(events[static_cast<std::size_t>(v.event)]) + " " + v.kind + " " + std::to_string(v.features[0]) +
+         " " + std::to_string(v.features[1]);
+}
+
+std::set<std::string> texts(const CheckResult& result) {
+  std::set<std::string> names;
+  for (const Violation& v : result.violations) names.insert(text(v));
+  return names;
+}
+
+/// One way to spoil a clean sheet at one face, and the names of what must be found then.
+struct Plant {
+  const char* why;
+  std::set<std::string> (*spoil)(io::MeshData&, std::size_t face);
+};
+
+std::string overlap_name(const char* kind, std::size_t face, const io::MeshData& mesh) {
+  return std::string("overlap ") + kind + " " + std::to_string(face) + " " + std::to_string(mesh.triangles.size() - 1);
+}
+
+const Plant kPlants[] = {
+    {"a triangle pierces a face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}, 0.0625));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}, -0.0625));
+       const auto r = add_vertex(mesh, point_on(mesh, face, {1, 2, 1}, 0.0625));
+       mesh.triangles.push_back({p, q, r});
+       return std::set{overlap_name("cross", face, mesh)};
+     }},
+    {"a vertex touches the interior of a face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}, 0.125));
+       const auto r = add_vertex(mesh, point_on(mesh, face, {1, 2, 1}, 0.125));
+       mesh.triangles.push_back({p, q, r});
+       return std::set{overlap_name("touch", face, mesh)};
+     }},
+    {"a coplanar triangle inside a face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {1, 2, 1}));
+       const auto r = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}));
+       mesh.triangles.push_back({p, q, r});
+       return std::set{overlap_name("overlap", face, mesh)};
+     }},
+    {"a triangle that shares a vertex pierces the face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 0.0625));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, -0.0625));
+       mesh.triangles.push_back({mesh.triangles[face][0], p, q});
+       return std::set{overlap_name("cross", face, mesh)};
+     }},
+    {"a triangle that shares a vertex touches the face elsewhere",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 0.0625));
+       mesh.triangles.push_back({mesh.triangles[face][0], p, q});
+       return std::set{overlap_name("touch", face, mesh)};
+     }},
+    {"a triangle that shares a vertex lies in the face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {1, 2, 1}));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}));
+       mesh.triangles.push_back({mesh.triangles[face][0], p, q});
+       return std::set{overlap_name("overlap", face, mesh)};
+     }},
+    {"a triangle that shares an edge is folded flat onto the face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}));
+       mesh.triangles.push_back({mesh.triangles[face][1], mesh.triangles[face][0], p});
+       return std::set{overlap_name("fold", face, mesh)};
+     }},
+    {"the same face twice",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto [a, b, c] = mesh.triangles[face];
+       mesh.triangles.push_back({b, a, c});
+       // and each copy is folded onto nothing: neighbours share an edge with both and lie elsewhere
+       return std::set{overlap_name("duplicate", face, mesh)};
+     }},
+    {"a zero-area face, away from the sheet",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 2));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 3));
+       const auto r = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 4));
+       mesh.triangles.push_back({p, r, q});
+       return std::set{"self degenerate " + std::to_string(q) + " " + std::to_string(mesh.triangles.size() - 1)};
+     }},
+    {"a zero-area face pierces a face",
+     [](io::MeshData& mesh, std::size_t face) {
+       const auto p = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, -0.0625));
+       const auto q = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 1));
+       const auto r = add_vertex(mesh, point_on(mesh, face, {2, 1, 1}, 2));
+       mesh.triangles.push_back({p, r, q});
+       return std::set{overlap_name("cross", face, mesh),
+                       "self degenerate " + std::to_string(q) + " " + std::to_string(mesh.triangles.size() - 1)};
+     }},
+};
+
+}  // namespace
+
+TEST(FrameCheck, CleanSheetIsCleanAndCounted) {
+  const io::MeshData mesh = sheet(20);
+  const CheckResult result = check(mesh);
+  EXPECT_EQ(result.violations_total.total(), 0);
+  EXPECT_EQ(result.pairs.self, 800);
+  EXPECT_GE(result.pairs.overlap, 3 * 800 / 2 - 40);  // at least the neighbours across edges
+}
+
+TEST(FrameCheck, EveryPlantedViolationIsFoundAndNamed) {
+  for (const std::int32_t n : {7, 22, 70}) {  // 98, 968, 9800 faces
+    const io::MeshData clean = sheet(n);
+    ASSERT_EQ(check(clean).violations_total.total(), 0);
+    const std::size_t faces = clean.triangles.size();
+    for (const Plant& plant : kPlants) {
+      for (const std::size_t face : {std::size_t{0}, faces / 2 + 3, faces - 1}) {
+        io::MeshData mesh = clean;
+        const std::set<std::string> expected = plant.spoil(mesh, face);
+        const CheckResult result = check(mesh);
+        EXPECT_EQ(texts(result), expected) << plant.why << ", face " << face << " of " << faces;
+        EXPECT_EQ(result.violations_total.total(), static_cast<std::int64_t>(expected.size()));
+      }
+    }
+  }
+}
+
+TEST(FrameCheck, IsEveryPairOfATangledSoup) {
+  std::mt19937 random(21);
+  std::uniform_int_distribution<int> lattice(-3, 3);
+  for (int round = 0; round < 30; ++round) {
+    io::MeshData mesh;
+    for (int i = 0; i < 30; ++i) {
+      mesh.points.push_back({double(lattice(random)), double(lattice(random)), double(lattice(random))});
+    }
+    std::uniform_int_distribution<std::int32_t> vertex(0, 29);
+    while (mesh.triangles.size() < 40) {
+      const std::int32_t a = vertex(random), b = vertex(random), c = vertex(random);
+      if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
+    }
+    const auto corners = [&](std::size_t f) {
+      const auto& [a, b, c] = mesh.triangles[f];
+      return std::array<Point, 3>{mesh.points[std::size_t(a)], mesh.points[std::size_t(b)],
+                                  mesh.points[std::size_t(c)]};
+    };
+    std::int64_t overlaps = 0, degenerate = 0;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      degenerate += exact_degenerate(corners(f)) ? 1 : 0;
+      for (std::size_t g = f + 1; g < mesh.triangles.size(); ++g) {
+        const auto answer = exact_overlap(mesh.triangles[f], corners(f), mesh.triangles[g], corners(g));
+        overlaps += answer.kind != OverlapKind::kNone ? 1 : 0;
+      }
+    }
+    const CheckResult result = check(mesh);
+    ASSERT_EQ(result.violations_total.overlap, overlaps);
+    ASSERT_EQ(result.violations_total.self, degenerate);
+    ASSERT_EQ(result.violations.size(), static_cast<std::size_t>(overlaps + degenerate));
+  }
+}
+
+TEST(FrameCheck, ListIsSortedCappedAndTheSameForAnyNumberOfThreads) {
+  io::MeshData mesh = sheet(30);
+  for (std::size_t face = 0; face < 1800; face += 7) {
+    const auto p = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}, 0.0625));
+    const auto q = add_vertex(mesh, point_on(mesh, face, {1, 1, 2}, -0.0625));
+    mesh.triangles.push_back({p, q, add_vertex(mesh, point_on(mesh, face, {1, 2, 1}, 0.0625))});
+  }
+  const CheckResult all = check(mesh);
+  ASSERT_GE(all.violations.size(), 250U);
+  for (std::size_t i = 1; i < all.violations.size(); ++i) {
+    ASSERT_LT(std::tie(all.violations[i - 1].event, all.violations[i - 1].features),
+              std::tie(all.violations[i].event, all.violations[i].features));
+  }
+  for (const std::size_t threads : {1, 2, 3, 8}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    for (const std::size_t limit : {std::size_t{0}, std::size_t{1}, std::size_t{10}}) {
+      const CheckResult capped = check_frame(surface(mesh), mesh.points, {limit, {}, false});
+      EXPECT_EQ(capped.violations_total.total(), all.violations_total.total());
+      EXPECT_EQ(capped.pairs.overlap, all.pairs.overlap);
+      ASSERT_EQ(capped.violations.size(), limit);
+      for (std::size_t i = 0; i < limit; ++i) EXPECT_EQ(text(capped.violations[i]), text(all.violations[i]));
+    }
+  }
+}
+
+TEST(FrameCheck, BodiesAreCheckedAgainstClothAlwaysAndAgainstBodiesOnRequest) {
+  io::MeshData mesh;
+  mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}, {1, 1, 5}, {1, 1, 6}, {1, 1, 7}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  const auto total = [&](std::vector<std::uint8_t> is_body, bool bodies) {
+    return check_frame({mesh.triangles, is_body}, mesh.points, {100, {}, bodies}).violations_total.total();
+  };
+  EXPECT_EQ(total({0, 0, 0}, false), 2);
+  EXPECT_EQ(total({0, 1, 1}, false), 1);
+  EXPECT_EQ(total({1, 0, 1}, false), 1);
+  EXPECT_EQ(total({1, 1, 0}, false), 1);
+  EXPECT_EQ(total({1, 1, 1}, false), 0);
+  EXPECT_EQ(total({1, 1, 1}, true), 2);
+}
+
+TEST(FrameCheck, RefusesWhatItCannotJudge) {
+  const io::MeshData mesh = sheet(3);
+  const auto spoilt = [&](double x) {
+    io::MeshData bad = mesh;
+    bad.points[5][1] = x;
+    return bad;
+  };
+  EXPECT_THROW(check(spoilt(std::nan(""))), std::invalid_argument);
+  EXPECT_THROW(check(spoilt(std::numeric_limits<double>::infinity())), std::invalid_argument);
+  io::MeshData bad = mesh;
+  bad.triangles[2] = {0, 1, 16};
+  EXPECT_THROW(check(bad), std::invalid_argument);
+  bad.triangles[2] = {0, 1, -1};
+  EXPECT_THROW(check(bad), std::invalid_argument);
+  bad.triangles[2] = {0, 1, 1};
+  EXPECT_THROW(check(bad), std::invalid_argument);
+  EXPECT_THROW(check(mesh, {100, -1.0, false}), std::invalid_argument);
+  EXPECT_THROW(check(mesh, {100, std::nan(""), false}), std::invalid_argument);
+}
+
+TEST(FrameCheck, MinimumDistanceIsEveryPairWithoutACommonVertex) {
+  std::mt19937 random(23);
+  for (int round = 0; round < 6; ++round) {
+    io::MeshData mesh = sheet(4);
+    std::uniform_real_distribution<double> jitter(-0.25, 0.25);
+    for (Point& p : mesh.points) {
+      for (double& x : p) x += round % 2 == 0 ? jitter(random) : 0;
+    }
+    for (const double distance : {0.0, 0.4, 0.70703125, 0.75, 1.0, 1.5}) {
+      const Topology topology = make_topology(surface(mesh), mesh.points.size());
+      const auto at = [&](std::int32_t v) { return mesh.points[static_cast<std::size_t>(v)]; };
+      std::int64_t vf = 0, ee = 0;
+      for (std::int32_t v = 0; v < 25; ++v) {
+        for (const auto& [a, b, c] : mesh.triangles) {
+          if (v == a || v == b || v == c) continue;
+          vf += compare_vf_distance({at(v), at(a), at(b), at(c)}, distance) < 0 ? 1 : 0;
+        }
+      }
+      for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+        for (std::size_t f = e + 1; f < topology.edges.size(); ++f) {
+          const auto& [a, b] = topology.edges[e];
+          const auto& [c, d] = topology.edges[f];
+          if (a == c || a == d || b == c || b == d) continue;
+          ee += compare_ee_distance({at(a), at(b), at(c), at(d)}, distance) < 0 ? 1 : 0;
+        }
+      }
+      const CheckResult result = check(mesh, {100, distance, false});
+      EXPECT_EQ(result.violations_total.vf, vf) << distance;
+      EXPECT_EQ(result.violations_total.ee, ee) << distance;
+      EXPECT_EQ(result.violations_total.overlap, 0);
+    }
+  }
+}
+
+}  // namespace selvage::verify

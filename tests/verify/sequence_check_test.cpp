@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/sequence.h"
+#include "tests/public_data.h"
+#include "tests/verify/sheet.h"
+#include "verify/check.h"
+#include "verify/report.h"
+
+namespace selvage::verify {
+namespace {
+
+using selvage::testing::sheet;
+
+/// A sequence in memory.
+class Frames final : public io::SequenceReader {
+ public:
+  explicit Frames(std::vector<io::MeshData> frames) : frames_(std::move(frames)) {}
+  std::size_t frame_count() const override { return frames_.size(); }
+  io::SequenceKind kind() const override { return io::SequenceKind::kSteps; }
+  io::Precision precision() const override { return io::Precision::kFloat64; }
+  const std::vector<io::Group>& groups() const override { return groups_; }
+  std::string frame_name(std::size_t frame) const override { return "memory[" + std::to_string(frame) + "]"; }
+  double time(std::size_t frame) const override { return static_cast<double>(frame); }
+  bool same_faces_as_previous(std::size_t) const override { return true; }
+  io::MeshData frame(std::size_t frame) const override { return frames_.at(frame); }
+
+ private:
+  std::vector<io::MeshData> frames_;
+  std::vector<io::Group> groups_;
+};
+
+io::MeshData lifted(io::MeshData mesh, double height) {
+  for (Point& p : mesh.points) p[2] += height;
+  return mesh;
+}
+
+/// A sheet with a triangle above it (height > 1), below it (height < -1), or, with another foot, through it.
+io::MeshData sheet_and_triangle(double height, double foot) {
+  io::MeshData mesh = sheet(5);
+  const auto p = testing::add_vertex(mesh, {1.25, 1.25, height});
+  const auto q = testing::add_vertex(mesh, {1.5, 1.25, height});
+  const auto r = testing::add_vertex(mesh, {1.25, 1.5, foot});
+  mesh.triangles.push_back({p, q, r});
+  return mesh;
+}
+io::MeshData sheet_and_triangle(double height) { return sheet_and_triangle(height, height); }
+
+SequenceReport check(const std::vector<io::MeshData>& frames, const SequenceOptions& options = {}) {
+  return check_sequence(Frames(frames), options);
+}
+
+}  // namespace
+
+TEST(SequenceCheck, CleanNeedsEveryFrameAndEveryMotion) {
+  const SequenceReport report = check({sheet(4), lifted(sheet(4), 0.5), lifted(sheet(4), 2)});
+  EXPECT_EQ(report.verdict, Verdict::kClean);
+  EXPECT_EQ(report.frames.checked, 3);
+  EXPECT_EQ(report.frames_expected, 3);
+  EXPECT_EQ(report.motions.checked, 2);
+  EXPECT_EQ(report.motions_expected, 2);
+  EXPECT_EQ(report.faces, 32);
+  EXPECT_EQ(report.vertices, 25);
+  EXPECT_EQ(report.largest_coordinate, 4);
+  EXPECT_GT(report.pairs.vf, 0);
+  EXPECT_GT(report.pairs.overlap, 0);
+}
+
+TEST(SequenceCheck, NamesTheFrameAndTheMotionThatAreViolated) {
+  const SequenceReport motion =
+      check({sheet_and_triangle(2), sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(-4)});
+  EXPECT_EQ(motion.verdict, Verdict::kViolated);
+  EXPECT_EQ(motion.frames.violated, 0);
+  EXPECT_EQ(motion.motions.violated, 1);
+  ASSERT_FALSE(motion.violations.empty());
+  EXPECT_EQ(motion.violations.front().frame, 1);
+  EXPECT_TRUE(motion.violations.front().motion);
+
+  const SequenceReport frame =
+      check({sheet_and_triangle(2), sheet_and_triangle(3), sheet_and_triangle(3, -3)}, {{}, true, false, nullptr});
+  EXPECT_EQ(frame.verdict, Verdict::kViolated);
+  EXPECT_EQ(frame.frames.violated, 1);
+  ASSERT_FALSE(frame.violations.empty());
+  EXPECT_EQ(frame.violations.front().frame, 2);
+  EXPECT_FALSE(frame.violations.front().motion);
+}
+
+TEST(SequenceCheck, FramesAloneDoNotSeeWhatHappensBetween) {
+  const SequenceReport report = check({sheet_and_triangle(3), sheet_and_triangle(-3)}, {{}, true, false, nullptr});
+  EXPECT_EQ(report.verdict, Verdict::kClean);
+  EXPECT_EQ(report.motions_expected, 0);
+}
+
+TEST(SequenceCheck, NothingToCheckIsAnError) {
+  EXPECT_THROW(check({}), io::Error);
+  io::MeshData no_faces = sheet(3);
+  no_faces.triangles.clear();
+  EXPECT_THROW(check({sheet(3), no_faces}), io::Error);
+}
+
+TEST(SequenceCheck, ChangingFacesAreUnknownAndNamed) {
+  io::MeshData other = sheet(4);
+  std::swap(other.triangles[3], other.triangles[4]);
+  const SequenceReport report = check({sheet(4), other, other});
+  EXPECT_EQ(report.verdict, Verdict::kUnknown);
+  EXPECT_EQ(report.frames.checked, 3);
+  EXPECT_EQ(report.motions.checked, 1);
+  ASSERT_EQ(report.unchecked.size(), 1U);
+  EXPECT_NE(report.unchecked[0].find("memory[0] to memory[1]"), std::string::npos) << report.unchecked[0];
+
+  io::MeshData more_vertices = sheet(4);
+  testing::add_vertex(more_vertices, {9, 9, 9});
+  EXPECT_EQ(check({sheet(4), more_vertices}).verdict, Verdict::kUnknown);
+}
+
+TEST(SequenceCheck, AViolationOutweighsWhatWasNotChecked) {
+  io::MeshData other = sheet_and_triangle(3, -3);
+  std::swap(other.triangles[3], other.triangles[4]);
+  EXPECT_EQ(check({sheet(4), other}).verdict, Verdict::kViolated);
+}
+
+TEST(SequenceCheck, StoppedIsUnknown) {
+  for (std::size_t stop = 0; stop < 5; ++stop) {
+    SequenceOptions options;
+    std::size_t last_done = 0;
+    options.progress = [&](std::size_t done, std::size_t total) {
+      EXPECT_EQ(total, 5U);
+      last_done = done;
+      return done < stop;
+    };
+    const SequenceReport report = check({sheet(4), sheet(4), sheet(4)}, options);
+    EXPECT_EQ(report.verdict, Verdict::kUnknown) << stop;
+    EXPECT_EQ(report.frames.checked + report.motions.checked, static_cast<std::int64_t>(last_done));
+    EXPECT_EQ(last_done, stop);
+    ASSERT_EQ(report.unchecked.size(), 1U);
+  }
+}
+
+TEST(SequenceCheck, BodiesAloneAreUnknownUnlessAskedFor) {
+  io::MeshData body = sheet(4);
+  body.groups = {{"table", io::Group::Role::kBody, 0, 32}};
+  SequenceOptions options;
+  EXPECT_EQ(check({body, body}, options).verdict, Verdict::kUnknown);
+  options.check.check_bodies = true;
+  const SequenceReport report = check({body, body}, options);
+  EXPECT_EQ(report.verdict, Verdict::kClean);
+  EXPECT_EQ(report.body_faces, 32);
+}
+
+TEST(SequenceCheck, UnreferencedVerticesAreCountedNotChecked) {
+  io::MeshData mesh = sheet(4);
+  testing::add_vertex(mesh, testing::point_on(mesh, 3, {1, 1, 2}));
+  const SequenceReport report = check({mesh, mesh});
+  EXPECT_EQ(report.verdict, Verdict::kClean);
+  EXPECT_EQ(report.unreferenced_vertices, 1);
+}
+
+TEST(SequenceCheck, ListIsCappedOverTheWholeSequence) {
+  SequenceOptions options;
+  options.check.max_violations = 4;
+  const SequenceReport report =
+      check({sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
+  EXPECT_EQ(report.violations.size(), 4U);
+  EXPECT_GT(report.violations_total.total(), 4);
+  EXPECT_EQ(report.motions.violated, 3);
+}
+
+TEST(Report, TextAndJsonTellTheSame) {
+  SequenceOptions options;
+  options.check.max_violations = 2;
+  const SequenceReport report = check({sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
+  const ReportContext context{"selvage test", {"a\xff.obj"}, {"first", "second"}};
+  const auto json = nlohmann::json::parse(json_report(report, context));
+  EXPECT_EQ(json["schema"], "selvage.verify/1");
+  EXPECT_EQ(json["verdict"], "violated");
+  EXPECT_EQ(json["program"], "selvage test");
+  EXPECT_EQ(json["pairs"]["vf"], report.pairs.vf);
+  EXPECT_EQ(json["pairs"]["exact"], report.pairs.exact);
+  EXPECT_EQ(json["violations_total"]["vf"], report.violations_total.vf);
+  ASSERT_EQ(json["violations"].size(), 2U);
+  const auto& violation = json["violations"][0];
+  EXPECT_EQ(violation["frame"], 0);
+  EXPECT_EQ(violation["frame_name"], "first");
+  EXPECT_EQ(violation["unit"], "motion");
+  EXPECT_EQ(violation["event"], "vf");
+  EXPECT_EQ(violation["t"]["lower"], report.violations[0].t.lower);
+  EXPECT_EQ(violation["t"]["lower_number"], report.violations[0].t.lower_approx);
+  EXPECT_EQ(violation["vertices"].size(), 4U);
+  EXPECT_EQ(json["surface"]["faces"], 51);
+  EXPECT_GE(json["seconds"], 0);
+
+  const std::string text = text_report(report, context);
+  EXPECT_TRUE(text.starts_with("violated\n")) << text;
+  EXPECT_NE(text.find("2 of 2 checked, 0 violated"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 of 1 checked, 1 violated"), std::string::npos) << text;
+  EXPECT_NE(text.find("and " + std::to_string(report.violations_total.total() - 2) + " more"), std::string::npos);
+}
+
+// Sequences of other simulators; the numbers of intersecting face pairs beside them are CGAL's.
+TEST(SequenceCheck, CountsWhatCgalCountsInPublicSequences) {
+  const auto data = testing::public_data();
+  if (!data || !std::filesystem::exists(*data / "sequences")) GTEST_SKIP() << "public data not found: set SELVAGE_DATA";
+  for (const char* name : {"blender-table-50", "blender-curtain-150", "eltopo-curtain-50"}) {
+    const std::filesystem::path file = *data / "sequences" / (std::string(name) + ".npz");
+    std::ifstream stream(*data / "sequences" / (std::string(name) + ".pairs.json"));
+    const auto expected = nlohmann::json::parse(stream)["frames"];
+    const auto sequence = io::open_sequence({file});
+    ASSERT_EQ(sequence->frame_count(), expected.size()) << name;
+    for (std::size_t i = 0; i < sequence->frame_count(); ++i) {
+      const io::MeshData mesh = sequence->frame(i);
+      std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
+      for (const io::Group& group : mesh.groups) {
+        const bool body = group.role == io::Group::Role::kBody;
+        std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, body ? 1 : 0);
+      }
+      const CheckResult result = check_frame({mesh.triangles, is_body}, mesh.points, {1000000, {}, false});
+      std::int64_t cloth_pairs = 0, sharing = 0, body_pairs = 0;
+      for (const Violation& v : result.violations) {
+        if (v.event != EventKind::kOverlap) continue;
+        const auto [f, g] = v.features;
+        if (is_body[static_cast<std::size_t>(f)] != 0 || is_body[static_cast<std::size_t>(g)] != 0) {
+          ++body_pairs;
+          continue;
+        }
+        ++cloth_pairs;
+        const auto& x = v.vertices;
+        if (std::find_first_of(x.begin(), x.begin() + 3, x.begin() + 3, x.end()) != x.begin() + 3) ++sharing;
+      }
+      EXPECT_EQ(cloth_pairs, expected[i]["cloth_self_pairs"]) << name << " frame " << i;
+      EXPECT_EQ(sharing, expected[i]["of_these_sharing_a_vertex"]) << name << " frame " << i;
+      EXPECT_EQ(body_pairs, expected[i]["cloth_body_pairs"]) << name << " frame " << i;
+    }
+  }
+}
+
+}  // namespace selvage::verify
