@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "kernel/types.h"
@@ -38,20 +37,10 @@ struct Box {  ///< closed; empty until merged with something
 };
 
 /// A vertex on its way from row v of V_t0 to row v of V_t1, grown by reach / 2. With reach = 0 the box is exact. Else
-/// each bound is rounded outward: subtracting rounds by at most half a unit in the last place and halving `reach` by at
-/// most 2^-1075; the one step of nextafter is at least both together (a quarter, not a half, is lost below a power of
-/// two, where the step is half as long). Growth is monotone, so growing before uniting equals growing after it.
-/// REQUIRES reach >= 0, |coordinate| <= kMaxCoordinate: then no bound overflows for any finite reach.
-inline Box vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v, double reach) {
-  Box box;
-  const double growth = 0.5 * reach;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto column = static_cast<Eigen::Index>(axis);
-    const auto [lower, upper] = std::minmax({V_t0(v, column), V_t1(v, column)});
-    box.lower[axis] = reach == 0 ? lower : std::nextafter(lower - growth, -Box::kInfinity);
-    box.upper[axis] = reach == 0 ? upper : std::nextafter(upper + growth, Box::kInfinity);
-  }
-  return box;
-}
+/// each bound is rounded outward, by less than two units in the last place. Growth is monotone: growing before uniting
+/// equals growing after it.
+/// REQUIRES reach >= 0, |coordinate| <= kMaxCoordinate: then no bound overflows for any finite reach. The caller holds
+/// an FpEnvGuard.
+[[nodiscard]] Box vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v, double reach);
 
 }  // namespace selvage

@@ -16,8 +16,9 @@ struct Collision {
 };
 struct CollisionReport {
   std::vector<Collision> collisions;  ///< not separated; sorted by (kind, first, second)
-  double toi_lower = 1;               ///< PROVED: the whole mesh is free of touch on [0, toi_lower)
-  std::int64_t vf_candidates = 0, ee_candidates = 0, self_candidates = 0, intervals = 0;  ///< deterministic
+  double toi_lower = 1;               ///< PROVED: no pair with an active vertex touches in [0, toi_lower)
+  /// Queries made of each kind, and the time intervals they examined: a deterministic measure of work.
+  std::int64_t vf_candidates = 0, ee_candidates = 0, self_candidates = 0, intervals = 0;
 };
 struct PairProximity {
   PairKind kind;
@@ -30,12 +31,19 @@ struct PairProximity {
 [[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
                                                     std::int32_t second);
 
-/// All pairs that are not proved separated over the step. All three kinds of events. REQUIRES validate() == kNone.
-/// `hierarchy` belongs to `mesh` and is refit here; `active` as in CandidateOptions.
+/// All pairs that are not proved separated over the step: vf, ee, and each vertex against the opposite edge of each
+/// face that holds it (kSelf: touching in [0,1], or within tolerance at t = 1, like any other pair). Pairs without an
+/// active vertex are left out. Queries are spent on pairs whose boxes, swept over the step and grown by half the
+/// tolerance, overlap (candidates.h); the boxes of all other pairs are proof enough. toi_lower covers every vf, ee and
+/// kSelf pair with an active vertex, candidate or not. A step without motion (V_t0 = V_t1) is a step: pairs within
+/// tolerance are found, touching ones with toi_lower 0. `hierarchy` belongs to `mesh` and is refit here; `active` as in
+/// CandidateOptions. REQUIRES validate() == kNone and a finite tolerance >= 0. In parallel; results are ordered, and
+/// equal bits for any thread count (K7).
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                               const PositionsRef& V_t1, const CcdOptions& options,
                                               std::span<const std::uint8_t> active = {});
-/// All vf and ee pairs nearer than `reach` at V (distance_lower < reach), sorted by (kind, first, second).
+/// All vf and ee pairs that are nearer than `reach` at V; pairs proved to be at least that far apart are left out
+/// (kept are candidates with distance_lower < reach). Sorted by (kind, first, second). REQUIRES as above.
 [[nodiscard]] std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hierarchy,
                                                           const PositionsRef& V, double reach,
                                                           std::span<const std::uint8_t> active = {});

@@ -1,23 +1,15 @@
 #include "kernel/box_hierarchy.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include "tests/kernel/public_frames.h"
 #include "tests/kernel/random_motion.h"
+#include "tests/kernel/with_threads.h"
 #include "tests/property.h"
 
 namespace selvage {
 
 namespace {
-
-/// Runs with `count` threads, whatever the machine has.
-template <typename Body>
-void with_threads(int count, const Body& body) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
-  tbb::task_arena(count).execute(body);
-}
 
 void expect_counts(const char* scene, const char* frame_t0, const char* frame_t1, std::size_t vf, std::size_t ee) {
   const auto frames = testing::public_frames(scene, frame_t0, frame_t1);
@@ -44,7 +36,7 @@ TEST(BoxHierarchy, PropEqualsBruteForce) {
       const auto motion = testing::random_motion(shape.vertex_count);
       RC_LOG() << motion << '\n';
       Candidates found;
-      with_threads(thread_count, [&] {
+      testing::with_threads(thread_count, [&] {
         hierarchy.refit(motion.V_t0, motion.V_t1, motion.options());
         found = hierarchy.candidates();
       });

@@ -1,0 +1,168 @@
+#include "kernel/collisions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+#include "kernel/assert.h"
+#include "kernel/box.h"
+#include "kernel/fp_env.h"
+
+namespace selvage {
+
+namespace {
+
+/// Items of one task. The blocks are the same for any number of threads, and so is the order of what they find (K7).
+/// 512 queries of some 50 ns cost far more than starting a task.
+constexpr std::size_t kBlockSize = 512;
+
+/// Calls body(item, found) for items 0 .. count-1 and joins what the blocks found in order.
+template <typename Found, typename Body>
+std::vector<Found> for_each_block(std::size_t count, const Body& body) {
+  std::vector<Found> blocks((count + kBlockSize - 1) / kBlockSize);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    const FpEnvGuard guard;
+    const std::size_t end = std::min(count, (block + 1) * kBlockSize);
+    for (std::size_t item = block * kBlockSize; item < end; ++item) body(item, blocks[block]);
+  });
+  return blocks;
+}
+
+template <std::size_t N>
+std::array<Vec3, N> points(const PositionsRef& V, const std::array<VertexId, 4>& vertices) {
+  std::array<Vec3, N> x;
+  for (std::size_t k = 0; k < N; ++k) x[k] = V.row(vertices[k]);
+  return x;
+}
+
+class CollisionFinder {
+ public:
+  CollisionFinder(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
+                  std::span<const std::uint8_t> active)
+      : mesh_(mesh), V_t0_(V_t0), V_t1_(V_t1), options_(options), active_(active) {}
+
+  CollisionReport find(const Candidates& candidates) {
+    report_.vf_candidates = static_cast<std::int64_t>(candidates.vf.size());
+    report_.ee_candidates = static_cast<std::int64_t>(candidates.ee.size());
+    join(for_each_block<Block>(candidates.vf.size(), [&](std::size_t i, Block& block) {
+      query(PairKind::kVf, candidates.vf[i].vertex, candidates.vf[i].face, block);
+    }));
+    join(for_each_block<Block>(candidates.ee.size(), [&](std::size_t i, Block& block) {
+      query(PairKind::kEe, candidates.ee[i].a, candidates.ee[i].b, block);
+    }));
+    const auto self_begin = static_cast<std::ptrdiff_t>(report_.collisions.size());
+    join(for_each_block<Block>(mesh_.faces.size(), [&](std::size_t f, Block& block) { query_face(f, block); }));
+    std::sort(report_.collisions.begin() + self_begin, report_.collisions.end(),
+              [](const auto& a, const auto& b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
+    return std::move(report_);
+  }
+
+ private:
+  struct Block {
+    std::vector<Collision> collisions;
+    std::int64_t intervals = 0, self_candidates = 0;
+  };
+
+  void query(PairKind kind, std::int32_t first, std::int32_t second, Block& block) const {
+    const auto vertices = pair_vertices(mesh_, kind, first, second);
+    CcdResult ccd;
+    switch (kind) {
+      case PairKind::kVf:
+        ccd = vf_ccd(points<4>(V_t0_, vertices), points<4>(V_t1_, vertices), options_);
+        break;
+      case PairKind::kEe:
+        ccd = ee_ccd(points<4>(V_t0_, vertices), points<4>(V_t1_, vertices), options_);
+        break;
+      case PairKind::kSelf:
+        ccd = self_ccd(points<3>(V_t0_, vertices), points<3>(V_t1_, vertices), options_);
+        break;
+    }
+    block.intervals += ccd.intervals;
+    if (ccd.verdict != CcdVerdict::kSeparated) block.collisions.push_back({kind, first, second, ccd});
+  }
+
+  /// Each corner of the face against the opposite edge.
+  void query_face(std::size_t f, Block& block) const {
+    const auto& corners = mesh_.faces[f];
+    const auto is_active = [this](VertexId v) { return active_.empty() || active_[static_cast<std::size_t>(v)] != 0; };
+    if (std::none_of(corners.begin(), corners.end(), is_active)) return;
+    std::array<Box, 3> boxes;
+    for (std::size_t k = 0; k < 3; ++k) boxes[k] = vertex_box(V_t0_, V_t1_, corners[k], options_.tolerance);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!overlap(boxes[k], united(boxes[(k + 1) % 3], boxes[(k + 2) % 3]))) continue;
+      ++block.self_candidates;
+      query(PairKind::kSelf, corners[k], static_cast<FaceId>(f), block);
+    }
+  }
+
+  void join(const std::vector<Block>& blocks) {
+    for (const Block& block : blocks) {
+      report_.collisions.insert(report_.collisions.end(), block.collisions.begin(), block.collisions.end());
+      report_.intervals += block.intervals;
+      report_.self_candidates += block.self_candidates;
+      for (const Collision& collision : block.collisions) {
+        report_.toi_lower = std::min(report_.toi_lower, collision.ccd.toi_lower);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const PositionsRef& V_t0_;
+  const PositionsRef& V_t1_;
+  const CcdOptions& options_;
+  std::span<const std::uint8_t> active_;
+  CollisionReport report_;
+};
+
+/// The proximities of one kind of pairs, in the order of the candidates.
+template <typename Candidate, typename Query>
+void append_proximities(const Mesh& mesh, const PositionsRef& V, double reach, PairKind kind,
+                        const std::vector<Candidate>& candidates, const Query& query, std::vector<PairProximity>& out) {
+  using Block = std::vector<PairProximity>;
+  const auto blocks = for_each_block<Block>(candidates.size(), [&](std::size_t i, Block& block) {
+    const auto [first, second] = candidates[i];
+    const auto vertices = pair_vertices(mesh, kind, first, second);
+    const Proximity proximity = query(points<4>(V, vertices));
+    if (!(proximity.distance_lower >= reach)) block.push_back({kind, first, second, vertices, proximity});
+  });
+  for (const Block& block : blocks) out.insert(out.end(), block.begin(), block.end());
+}
+
+}  // namespace
+
+std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first, std::int32_t second) {
+  const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+  if (kind == PairKind::kEe) {
+    return {mesh.edges[i][0], mesh.edges[i][1], mesh.edges[j][0], mesh.edges[j][1]};
+  }
+  const auto& corners = mesh.faces[j];
+  if (kind == PairKind::kVf) return {first, corners[0], corners[1], corners[2]};
+  const auto own = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), first) - corners.begin());
+  SELVAGE_ASSERT(own < 3);
+  return {first, corners[(own + 1) % 3], corners[(own + 2) % 3], first};
+}
+
+CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
+                                const PositionsRef& V_t1, const CcdOptions& options,
+                                std::span<const std::uint8_t> active) {
+  SELVAGE_VALIDATE(validate(mesh, V_t0, V_t1) == InputError::kNone);
+  SELVAGE_ASSERT(options.tolerance >= 0 && std::isfinite(options.tolerance));
+  hierarchy.refit(V_t0, V_t1, {options.tolerance, active});
+  return CollisionFinder(mesh, V_t0, V_t1, options, active).find(hierarchy.candidates());
+}
+
+std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V,
+                                            double reach, std::span<const std::uint8_t> active) {
+  SELVAGE_VALIDATE(validate(mesh, V, V) == InputError::kNone);
+  SELVAGE_ASSERT(reach >= 0 && std::isfinite(reach));
+  hierarchy.refit(V, V, {reach, active});
+  const Candidates candidates = hierarchy.candidates();
+  std::vector<PairProximity> found;
+  append_proximities(mesh, V, reach, PairKind::kVf, candidates.vf, vf_proximity, found);
+  append_proximities(mesh, V, reach, PairKind::kEe, candidates.ee, ee_proximity, found);
+  return found;
+}
+
+}  // namespace selvage

@@ -1,0 +1,249 @@
+#include "kernel/collisions.h"
+
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "tests/kernel/random_motion.h"
+#include "tests/kernel/with_threads.h"
+#include "tests/property.h"
+
+namespace selvage {
+
+namespace {
+
+template <std::size_t N>
+std::array<Vec3, N> points(const PositionsRef& V, const std::array<VertexId, 4>& vertices) {
+  std::array<Vec3, N> x;
+  for (std::size_t k = 0; k < N; ++k) x[k] = V.row(vertices[k]).transpose();
+  return x;
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof(double)) == 0; }
+
+bool same(const CcdResult& a, const CcdResult& b) {
+  bool equal = a.verdict == b.verdict && a.cause == b.cause && a.intervals == b.intervals &&
+               same_bits(a.toi_lower, b.toi_lower) && same_bits(a.gap_bound, b.gap_bound);
+  for (std::size_t k = 0; k < 4; ++k) equal = equal && same_bits(a.weights[k], b.weights[k]);
+  for (Eigen::Index k = 0; k < 3; ++k) equal = equal && same_bits(a.normal[k], b.normal[k]);
+  return equal;
+}
+
+bool same(const CollisionReport& a, const CollisionReport& b) {
+  if (a.collisions.size() != b.collisions.size() || !same_bits(a.toi_lower, b.toi_lower)) return false;
+  if (a.vf_candidates != b.vf_candidates || a.ee_candidates != b.ee_candidates) return false;
+  if (a.self_candidates != b.self_candidates || a.intervals != b.intervals) return false;
+  for (std::size_t i = 0; i < a.collisions.size(); ++i) {
+    const Collision &x = a.collisions[i], &y = b.collisions[i];
+    if (x.kind != y.kind || x.first != y.first || x.second != y.second || !same(x.ccd, y.ccd)) return false;
+  }
+  return true;
+}
+
+/// What find_collisions promises, one pair after another.
+class Reference {
+ public:
+  Reference(const Mesh& mesh, const testing::RandomMotion& motion, const CcdOptions& options)
+      : mesh_(mesh), motion_(motion), options_(options) {
+    CandidateOptions candidate_options = motion.options();
+    candidate_options.reach = options.tolerance;
+    const Candidates candidates = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t1, candidate_options);
+    report_.vf_candidates = static_cast<std::int64_t>(candidates.vf.size());
+    report_.ee_candidates = static_cast<std::int64_t>(candidates.ee.size());
+    for (const auto& [v, f] : candidates.vf) query(PairKind::kVf, v, f);
+    for (const auto& [a, b] : candidates.ee) query(PairKind::kEe, a, b);
+    for (VertexId v = 0; v < mesh.vertex_count; ++v) {
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f) query_self(v, static_cast<FaceId>(f));
+    }
+  }
+  [[nodiscard]] const CollisionReport& report() const { return report_; }
+
+ private:
+  void query(PairKind kind, std::int32_t first, std::int32_t second) {
+    const auto vertices = pair_vertices(mesh_, kind, first, second);
+    const auto ask = [&](auto function, auto n) {
+      constexpr std::size_t kCount = decltype(n)::value;
+      return function(points<kCount>(motion_.V_t0, vertices), points<kCount>(motion_.V_t1, vertices), options_);
+    };
+    using Three = std::integral_constant<std::size_t, 3>;
+    using Four = std::integral_constant<std::size_t, 4>;
+    const CcdResult ccd = kind == PairKind::kSelf ? ask(self_ccd, Three())
+                          : kind == PairKind::kVf ? ask(vf_ccd, Four())
+                                                  : ask(ee_ccd, Four());
+    report_.intervals += ccd.intervals;
+    if (ccd.verdict == CcdVerdict::kSeparated) return;
+    report_.collisions.push_back({kind, first, second, ccd});
+    report_.toi_lower = std::min(report_.toi_lower, ccd.toi_lower);
+  }
+  /// The vertex and its opposite edge as a mesh of their own: a face and a copy of the vertex that is no corner of it.
+  /// Their boxes overlap if and only if that of the copy overlaps the opposite edge's, which ee_candidates would say.
+  void query_self(VertexId v, FaceId f) {
+    const auto& corners = mesh_.faces[static_cast<std::size_t>(f)];
+    const auto own = std::find(corners.begin(), corners.end(), v);
+    if (own == corners.end()) return;
+    const auto active = [&](VertexId u) {
+      return motion_.active.empty() || motion_.active[static_cast<std::size_t>(u)] != 0;
+    };
+    if (std::none_of(corners.begin(), corners.end(), active)) return;
+    // Edge (v, v') with v' a copy of v has the box of v alone.
+    Faces F(2, 3);
+    F << 0, 1, 2, 3, 4, 5;
+    const Mesh pair = make_mesh(6, F);
+    Positions V_t0(6, 3), V_t1(6, 3);
+    const auto k = own - corners.begin();
+    const std::array<VertexId, 6> rows = {v,
+                                          v,
+                                          v,
+                                          corners[static_cast<std::size_t>((k + 1) % 3)],
+                                          corners[static_cast<std::size_t>((k + 2) % 3)],
+                                          corners[static_cast<std::size_t>((k + 2) % 3)]};
+    for (std::size_t i = 0; i < 6; ++i) {
+      V_t0.row(static_cast<Eigen::Index>(i)) = motion_.V_t0.row(rows[i]);
+      V_t1.row(static_cast<Eigen::Index>(i)) = motion_.V_t1.row(rows[i]);
+    }
+    const Candidates found = find_candidates_brute_force(pair, V_t0, V_t1, {options_.tolerance, {}});
+    if (std::find(found.vf.begin(), found.vf.end(), VfCandidate{0, 1}) == found.vf.end()) return;
+    ++report_.self_candidates;
+    query(PairKind::kSelf, v, f);
+  }
+
+  const Mesh& mesh_;
+  const testing::RandomMotion& motion_;
+  CcdOptions options_;
+  CollisionReport report_;
+};
+
+CollisionReport find(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options) {
+  BoxHierarchy hierarchy(mesh);
+  return find_collisions(mesh, hierarchy, V_t0, V_t1, options);
+}
+
+/// A face, and a large one that stands on its corner 3, a unit above the first.
+struct FaceAndVertex {
+  Mesh mesh;
+  Positions V;
+  FaceAndVertex() : V(6, 3) {
+    Faces F(2, 3);
+    F << 0, 1, 2, 3, 4, 5;
+    mesh = make_mesh(6, F);
+    V << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, -3, 1, 9, 5, 1, 9;
+  }
+};
+
+}  // namespace
+
+/// One thread after another: the same pairs, the same bits, the same counts.
+TEST(FindCollisions, PropEqualsOneQueryAfterAnother) {
+  testing::check_property(150, 8, [] {
+    const auto shape = testing::random_shape();
+    const auto motion = testing::random_motion(shape.vertex_count);
+    RC_LOG() << shape << '\n' << motion << '\n';
+    const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
+    const CcdOptions options = {motion.reach, 8};  // few intervals: what is compared is the order, not the depth
+    const Reference expected(mesh, motion, options);
+    BoxHierarchy hierarchy(mesh);
+    CollisionReport report;
+    testing::with_threads(*rc::gen::element(1, 2, 3, 8), [&] {
+      report = find_collisions(mesh, hierarchy, motion.V_t0, motion.V_t1, options, motion.active);
+    });
+    RC_ASSERT(same(report, expected.report()));
+  });
+}
+
+TEST(FindCollisions, AVertexThroughAFaceIsFoundAtItsTime) {
+  const FaceAndVertex scene;
+  Positions V_t1 = scene.V;
+  V_t1(3, 2) = -1;  // meets the face at t = 1/2
+  const CollisionReport report = find(scene.mesh, scene.V, V_t1, {1e-6, 4096});
+  ASSERT_EQ(report.collisions.size(), 1U);
+  EXPECT_EQ(report.collisions[0].kind, PairKind::kVf);
+  EXPECT_EQ(report.collisions[0].first, 3);
+  EXPECT_EQ(report.collisions[0].second, 0);
+  EXPECT_EQ(report.collisions[0].ccd.cause, CcdCause::kMotion);
+  EXPECT_LE(report.toi_lower, 0.5);
+  EXPECT_GT(report.toi_lower, 0.499);
+}
+
+TEST(FindCollisions, AStepWithoutMotionFindsWhatIsNear) {
+  FaceAndVertex scene;
+  EXPECT_TRUE(find(scene.mesh, scene.V, scene.V, {0.99, 4096}).collisions.empty());
+  const CollisionReport near = find(scene.mesh, scene.V, scene.V, {1.01, 4096});
+  ASSERT_EQ(near.collisions.size(), 1U);
+  EXPECT_EQ(near.collisions[0].ccd.cause, CcdCause::kEnd);
+  EXPECT_EQ(near.toi_lower, 1);
+  scene.V(3, 2) = 0;
+  EXPECT_EQ(find(scene.mesh, scene.V, scene.V, {0, 4096}).toi_lower, 0);
+}
+
+TEST(FindCollisions, AVertexThroughItsOppositeEdgeIsASelfCollision) {
+  Faces F(1, 3);
+  F << 0, 1, 2;
+  const Mesh mesh = make_mesh(3, F);
+  Positions V_t0(3, 3), V_t1(3, 3);
+  V_t0 << 0, 1, 0, -1, 0, 0, 1, 0, 0;
+  V_t1 << 0, -1, 0, -1, 0, 0, 1, 0, 0;
+  const CollisionReport report = find(mesh, V_t0, V_t1, {1e-6, 4096});
+  ASSERT_EQ(report.collisions.size(), 1U);
+  EXPECT_EQ(report.collisions[0].kind, PairKind::kSelf);
+  EXPECT_EQ(report.collisions[0].first, 0);
+  EXPECT_EQ(report.collisions[0].second, 0);
+  EXPECT_LE(report.toi_lower, 0.5);
+  EXPECT_GT(report.toi_lower, 0.499);
+  V_t1 << 0, 0x1p-21, 0, -1, 0, 0, 1, 0, 0;  // no touch, but within tolerance at the end
+  const CollisionReport near = find(mesh, V_t0, V_t1, {1e-6, 4096});
+  ASSERT_EQ(near.collisions.size(), 1U);
+  EXPECT_EQ(near.collisions[0].kind, PairKind::kSelf);
+  EXPECT_EQ(near.collisions[0].ccd.cause, CcdCause::kEnd);
+  BoxHierarchy hierarchy(mesh);
+  EXPECT_TRUE(find_collisions(mesh, hierarchy, V_t0, V_t1, {}, std::vector<std::uint8_t>(3, 0)).collisions.empty());
+}
+
+TEST(PairVertices, AreInQueryOrder) {
+  Faces F(2, 3);
+  F << 4, 0, 1, 2, 1, 3;
+  const Mesh mesh = make_mesh(5, F);
+  using Four = std::array<VertexId, 4>;
+  EXPECT_EQ(pair_vertices(mesh, PairKind::kVf, 2, 0), (Four{2, 4, 0, 1}));
+  EXPECT_EQ(pair_vertices(mesh, PairKind::kEe, 0, 3), (Four{0, 1, 2, 3}));  // edges 01, 12, 13, 23, 04, 14
+  EXPECT_EQ(pair_vertices(mesh, PairKind::kSelf, 4, 0), (Four{4, 0, 1, 4}));
+  EXPECT_EQ(pair_vertices(mesh, PairKind::kSelf, 1, 1), (Four{1, 3, 2, 1}));
+}
+
+/// Exactly the pairs with distance_lower < reach, whether or not their boxes are asked; nothing nearer is left out.
+TEST(FindProximities, PropFindsEveryPairNearerThanReach) {
+  testing::check_property(150, 9, [] {
+    const auto shape = testing::random_shape();
+    const auto motion = testing::random_motion(shape.vertex_count);
+    RC_LOG() << shape << '\n' << motion << '\n';
+    const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
+    BoxHierarchy hierarchy(mesh);
+    std::vector<PairProximity> found;
+    testing::with_threads(*rc::gen::element(1, 2, 3, 8),
+                          [&] { found = find_proximities(mesh, hierarchy, motion.V_t0, motion.reach, motion.active); });
+    // All pairs there are: those whose boxes overlap when grown beyond the domain.
+    const CandidateOptions everything = {8 * kMaxCoordinate, motion.active};
+    const Candidates all = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t0, everything);
+    std::size_t next = 0;
+    const auto check = [&](PairKind kind, std::int32_t first, std::int32_t second, auto query) {
+      const auto vertices = pair_vertices(mesh, kind, first, second);
+      const Proximity expected = query(points<4>(motion.V_t0, vertices));
+      const bool listed =
+          next < found.size() && found[next].kind == kind && found[next].first == first && found[next].second == second;
+      if (!listed) {
+        RC_ASSERT(expected.distance_upper >= motion.reach);
+        return;
+      }
+      const PairProximity& pair = found[next++];
+      RC_ASSERT(expected.distance_lower < motion.reach);
+      RC_ASSERT(pair.vertices == vertices);
+      RC_ASSERT(pair.proximity.weights == expected.weights);
+      RC_ASSERT(pair.proximity.distance == expected.distance);
+      RC_ASSERT(pair.proximity.distance_lower == expected.distance_lower);
+    };
+    for (const auto& [v, f] : all.vf) check(PairKind::kVf, v, f, vf_proximity);
+    for (const auto& [a, b] : all.ee) check(PairKind::kEe, a, b, ee_proximity);
+    RC_ASSERT(next == found.size());
+  });
+}
+
+}  // namespace selvage
