@@ -1,0 +1,34 @@
+// A query kept as bits: text with hex floats, so that a failure survives compilers, generators and shrinkers (F3).
+//   selvage-case 1 vf                                   format version, kind of pair
+//   seed prop_ccd_no_miss:77123                         where it came from
+//   options tolerance=0x1p-20 max_intervals=4096
+//   p 0x1.9p+6 -0x1.2p+3 0x0p+0  0x1.8p+6 0x0p+0 0x1p-4 a point at t = 0, then at t = 1; vf: p a b c, ee: a b c d,
+//   ...                                                 self: p a b
+//   expect touches                                      the exact answer: touches, or apart
+// Everything from '#' to the end of a line is a comment.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/motion_query.h"
+#include "io/error.h"
+
+namespace selvage::fuzz {
+
+struct Case {
+  MotionQuery query;
+  std::string seed;
+  bool touches = false;  ///< whether the features touch at some t in [0,1], exactly
+};
+
+[[nodiscard]] std::string format_case(const Case& kept);
+/// Throws io::Error naming `name` and the line.
+[[nodiscard]] Case parse_case(std::string_view text, const std::string& name);
+[[nodiscard]] Case read_case(const std::filesystem::path& file);
+/// All *.case files of a folder, by name. Throws io::Error where one cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> case_files(const std::filesystem::path& folder);
+
+}  // namespace selvage::fuzz

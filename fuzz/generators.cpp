@@ -1,0 +1,132 @@
+#include "fuzz/generators.h"
+
+#include <cmath>
+
+#include "fuzz/query_makers.h"
+
+namespace selvage::fuzz {
+namespace {
+
+using Bands = std::array<std::optional<HitBand>, 3>;
+
+constexpr HitBand kAlways{1, 1};
+constexpr Bands every_kind(HitBand band) { return {band, band, band}; }
+
+// Contacts that are exact by construction: one class for each time, place and grid.
+void add_contacts(std::vector<QueryClass>& classes) {
+  constexpr std::array<const char*, 3> kTimes{"start", "middle", "end"};
+  constexpr std::array<const char*, 3> kPlaces{"interior", "edge", "vertex"};
+  constexpr std::array<const char*, 2> kGrids{"lattice", "uniform"};
+  for (std::size_t time = 0; time < kTimes.size(); ++time) {
+    for (std::size_t place = 0; place < kPlaces.size(); ++place) {
+      for (std::size_t grid = 0; grid < kGrids.size(); ++grid) {
+        const std::string name = std::string("contact-") + kTimes[time] + "-" + kPlaces[place] + "-" + kGrids[grid];
+        const auto make = [time, place, grid](ChoiceSource& source, PairKind kind) {
+          return make::contact(source, kind, static_cast<ContactTime>(time), static_cast<ContactPlace>(place),
+                               static_cast<make::Grid>(grid));
+        };
+        classes.push_back({name, make, every_kind(kAlways)});
+      }
+    }
+  }
+}
+
+auto lattice_of(std::uint32_t radius) {
+  return [radius](ChoiceSource& source, PairKind kind) { return make::lattice(source, kind, radius); };
+}
+
+auto scaled_by(int exponent_first, int exponent_last) {
+  return [=](ChoiceSource& source, PairKind kind) { return make::scaled(source, kind, exponent_first, exponent_last); };
+}
+
+auto mixed_by(int exponent_radius) {
+  return [=](ChoiceSource& source, PairKind kind) { return make::mixed_coordinates(source, kind, exponent_radius); };
+}
+
+std::vector<QueryClass> make_classes() {
+  std::vector<QueryClass> classes;
+  add_contacts(classes);
+  const std::vector<QueryClass> others = {
+      {"near-miss", make::near_miss, Bands{HitBand{0.324, 0.438}, HitBand{0.331, 0.447}, HitBand{0.02, 0.026}}},
+      {"rounded-contact", make::rounded_contact,
+       Bands{HitBand{0.708, 0.958}, HitBand{0.73, 0.98}, HitBand{0.597, 0.808}}},
+      {"lattice-1", lattice_of(1), Bands{HitBand{0.273, 0.369}, HitBand{0.411, 0.556}, HitBand{0.157, 0.212}}},
+      {"lattice-2", lattice_of(2), Bands{HitBand{0.113, 0.153}, HitBand{0.237, 0.321}, HitBand{0.041, 0.056}}},
+      {"lattice-3", lattice_of(3), Bands{HitBand{0.082, 0.111}, HitBand{0.195, 0.263}, HitBand{0.013, 0.017}}},
+      {"lattice-ulp", make::lattice_ulp, Bands{HitBand{0.357, 0.483}, HitBand{0.422, 0.572}, HitBand{0.158, 0.214}}},
+      {"degenerate", make::degenerate, Bands{HitBand{0.402, 0.544}, HitBand{0.521, 0.705}, HitBand{0.428, 0.579}}},
+      {"in-plane", make::in_plane, Bands{HitBand{0.499, 0.675}, HitBand{0.668, 0.904}, HitBand{0.371, 0.501}}},
+      {"same-velocity", make::same_velocity,
+       Bands{HitBand{0.432, 0.584}, HitBand{0.441, 0.597}, HitBand{0.437, 0.592}}},
+      {"no-motion", make::no_motion, Bands{HitBand{0.436, 0.59}, HitBand{0.447, 0.604}, HitBand{0.427, 0.577}}},
+      {"rigid-rotation", make::rigid_rotation,
+       Bands{HitBand{0.67, 0.906}, HitBand{0.67, 0.907}, HitBand{0.659, 0.892}}},
+      {"sliver", make::sliver, Bands{HitBand{0.698, 0.944}, HitBand{0.696, 0.941}, HitBand{0.647, 0.875}}},
+      {"needle", make::needle, Bands{HitBand{0.721, 0.976}, HitBand{0.728, 0.98}, HitBand{0.649, 0.878}}},
+      {"short-motion", make::short_motion, Bands{HitBand{0.706, 0.956}, HitBand{0.703, 0.951}, HitBand{0.648, 0.877}}},
+      {"huge-motion", make::huge_motion, Bands{HitBand{0.712, 0.963}, HitBand{0.707, 0.956}, HitBand{0.649, 0.879}}},
+      {"near-coplanar", make::near_coplanar, Bands{HitBand{0.068, 0.092}, HitBand{0.186, 0.251}, std::nullopt}},
+      {"double-root", make::double_root, Bands{HitBand{0.721, 0.976}, HitBand{0.724, 0.98}, HitBand{0.649, 0.878}}},
+      {"triple-root", make::triple_root, Bands{HitBand{0.698, 0.945}, HitBand{0.698, 0.944}, HitBand{0.65, 0.88}}},
+      {"end-at-tolerance", make::end_at_tolerance,
+       Bands{HitBand{0.421, 0.57}, HitBand{0.426, 0.576}, HitBand{0.42, 0.568}}, true},
+      {"scaled", scaled_by(-340, 340), Bands{HitBand{0.642, 0.868}, HitBand{0.641, 0.867}, HitBand{0.581, 0.786}}},
+      {"huge", scaled_by(341, 985),
+       Bands{HitBand{0.632, 0.856}, HitBand{0.639, 0.865}, HitBand{0.578, 0.782}}},  // up to kMaxCoordinate = 2^1000
+      {"subnormal", scaled_by(-1074, -1040),
+       Bands{HitBand{0.643, 0.869}, HitBand{0.651, 0.881}, HitBand{0.563, 0.761}}},
+      {"mixed-axes", make::mixed_axes, Bands{HitBand{0.637, 0.862}, HitBand{0.637, 0.861}, HitBand{0.57, 0.771}}},
+      {"mixed-coordinates", mixed_by(30), Bands{HitBand{0.131, 0.177}, HitBand{0.169, 0.229}, std::nullopt}},
+      {"any-exponent", mixed_by(900), Bands{HitBand{0.05, 0.35}, HitBand{0.05, 0.35}, std::nullopt}, false, 64},
+      {"uniform", make::uniform, Bands{HitBand{0.059, 0.08}, HitBand{0.175, 0.236}, std::nullopt}},
+  };
+  classes.insert(classes.end(), others.begin(), others.end());
+  return classes;
+}
+
+/// A coordinate distance of two end positions: often the exact distance of aligned features.
+double axis_distance(ChoiceSource& source, const MotionQuery& query) {
+  const std::size_t other = 1 + source.n(static_cast<std::uint32_t>(point_count(query.kind)) - 1);
+  return (query.x_t1[0] - query.x_t1[other]).cwiseAbs()[source.range(0, 2)];
+}
+
+void choose_options(ChoiceSource& source, MotionQuery& query) {
+  if (query.options.tolerance == 0) {
+    switch (source.n(8)) {
+      case 4:
+        query.options.tolerance = 1e-6;
+        break;
+      case 5:
+        query.options.tolerance = std::ldexp(extent(query), -source.range(1, 50));
+        break;
+      case 6:
+        query.options.tolerance = std::ldexp(extent(query), source.range(-4, 2));
+        break;
+      case 7:
+        query.options.tolerance = axis_distance(source, query);
+        break;
+      default:
+        break;
+    }
+  }
+  if (source.one_in(32)) query.options.max_intervals = source.range(1, 64);
+}
+
+}  // namespace
+
+const std::vector<QueryClass>& query_classes() {
+  static const std::vector<QueryClass> classes = make_classes();
+  return classes;
+}
+
+MotionQuery make_query(const QueryClass& query_class, PairKind kind, ChoiceSource& source) {
+  MotionQuery query = query_class.make(source, kind);
+  if (kind == PairKind::kSelf) {
+    query.x_t0[3] = query.x_t0[0];
+    query.x_t1[3] = query.x_t1[0];
+  }
+  choose_options(source, query);
+  return query;
+}
+
+}  // namespace selvage::fuzz

@@ -1,0 +1,105 @@
+#include "fuzz/case_file.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "fuzz/generators.h"
+
+namespace selvage::fuzz {
+namespace {
+
+const char* const kGood =
+    "selvage-case 1 vf  # a comment\n"
+    "\n"
+    "seed somewhere:7\n"
+    "options tolerance=0x1p-20 max_intervals=64\n"
+    "p 0x1.9p+6 -0x1.2p+3 0x0p+0   0x1.8p+6 -0x0p+0 0x0.0000000000001p-1022\n"
+    "a 0 1 2   3 4 5.5\n"
+    "b 0x1p+0 0x1p+0 0x1p+0 0x1p+0 0x1p+0 0x1p+0\n"
+    "c 0x1p+1000 -0x1p+1000 0x1p+0 0x1p+0 0x1p+0 0x1p+0\n"
+    "expect touches\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+void expect_error(const std::string& text, const std::string& words) {
+  try {
+    (void)parse_case(text, "x.case");
+    ADD_FAILURE() << "accepted:\n" << text;
+  } catch (const io::Error& error) {
+    EXPECT_EQ(error.kind(), io::ErrorKind::kBadInput);
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+TEST(CaseFile, ReadsWhatPeopleWrite) {
+  const Case kept = parse_case(kGood, "x.case");
+  EXPECT_EQ(kept.query.kind, PairKind::kVf);
+  EXPECT_EQ(kept.seed, "somewhere:7");
+  EXPECT_EQ(kept.query.options.tolerance, 0x1p-20);
+  EXPECT_EQ(kept.query.options.max_intervals, 64);
+  EXPECT_EQ(kept.query.x_t0[0], Vec3(100, -9, 0));
+  EXPECT_TRUE(std::signbit(kept.query.x_t1[0].y()));
+  EXPECT_EQ(kept.query.x_t1[0].z(), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(kept.query.x_t1[1], Vec3(3, 4, 5.5));
+  EXPECT_EQ(kept.query.x_t0[3].y(), -0x1p+1000);
+  EXPECT_TRUE(kept.touches);
+}
+
+TEST(CaseFile, KeepsEveryBitOfEveryClass) {
+  for (const QueryClass& query_class : query_classes()) {
+    for (const PairKind kind : kPairKinds) {
+      if (!query_class.band(kind)) continue;
+      for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        ChoiceSource source = ChoiceSource::from_seed(seed);
+        const Case kept{make_query(query_class, kind, source), query_class.name, source.coin()};
+        const Case again = parse_case(format_case(kept), "again");
+        ASSERT_EQ(again.query.kind, kind);
+        ASSERT_EQ(again.seed, kept.seed);
+        ASSERT_EQ(again.touches, kept.touches);
+        ASSERT_EQ(again.query.options.max_intervals, kept.query.options.max_intervals);
+        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+        ASSERT_EQ(bits(again.query.options.tolerance), bits(kept.query.options.tolerance));
+        for (std::size_t i = 0; i < 4; ++i) {
+          for (int axis = 0; axis < 3; ++axis) {
+            ASSERT_EQ(bits(again.query.x_t0[i][axis]), bits(kept.query.x_t0[i][axis]));
+            ASSERT_EQ(bits(again.query.x_t1[i][axis]), bits(kept.query.x_t1[i][axis]));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(CaseFile, NamesTheLineOfWhatIsWrong) {
+  expect_error("", "x.case:0: the case ends too early");
+  expect_error(replaced(kGood, "selvage-case 1", "selvage-case 2"), "x.case:1: expected '1'");
+  expect_error(replaced(kGood, " vf", " fv"), "x.case:1: the kind of pair");
+  expect_error(replaced(kGood, "seed somewhere:7", "seed"), "x.case:3: a word is missing");
+  expect_error(replaced(kGood, "tolerance=0x1p-20", "tolerance="), "x.case:4: ");
+  expect_error(replaced(kGood, "max_intervals=64", "max_intervals=0"), "x.case:4: '0' is not a positive count");
+  expect_error(replaced(kGood, "0x1.9p+6", "0x1.9q+6"), "x.case:5: '0x1.9q+6' is not a finite number");
+  expect_error(replaced(kGood, "0x1.9p+6", "nan"), "x.case:5: ");
+  expect_error(replaced(kGood, "0x1.9p+6", "--1"), "x.case:5: ");
+  expect_error(replaced(kGood, "0x1.9p+6", "1e999"), "x.case:5: ");
+  expect_error(replaced(kGood, "5.5", "5.5 6"), "x.case:6: unexpected '6'");
+  expect_error(replaced(kGood, "a 0 1 2", "b 0 1 2"), "x.case:6: expected 'a'");
+  expect_error(replaced(kGood, "touches", "maybe"), "x.case:9: the answer is");
+  expect_error(kGood + std::string("more\n"), "x.case:10: nothing may follow");
+}
+
+TEST(CaseFile, EveryTruncationIsAnError) {
+  const std::string whole = kGood;
+  for (std::size_t length = 0; length + 3 < whole.size(); ++length) {
+    EXPECT_THROW((void)parse_case(whole.substr(0, length), "cut"), io::Error) << length;
+  }
+}
+
+}  // namespace
+}  // namespace selvage::fuzz
