@@ -1,8 +1,10 @@
 // The program: one line per subcommand. What each does is in NAME_command.cpp.
 #include <CLI/CLI.hpp>
 
+#include "cli/bench_command.h"
 #include "cli/command.h"
 #include "cli/exit_code.h"
+#include "cli/fuzz_command.h"
 #include "cli/interrupt.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
@@ -16,6 +18,8 @@ int main(int argc, char** argv) {
   program.require_subcommand(0, 1);  // one is required, but an unknown name shall be named: see below
 
   Job job;
+  add_bench_command(program, job);
+  add_fuzz_command(program, job);
   add_verify_command(program, job);
 
   try {
