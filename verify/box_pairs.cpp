@@ -70,6 +70,7 @@ BoxTree::BoxTree(std::span<const Box> boxes, const Lattice& lattice) {
     boxes_[i] = boxes[static_cast<std::size_t>(entries[i].index)];
     levels_.front()[i / kWidth].set(i % kWidth, quantized(boxes_[i]));
   });
+  for (const BoxBlock& block : levels_.front()) block_bounds_.push_back(block.bounds());
   while (levels_.back().size() > 1) {
     const std::vector<BoxBlock>& below = levels_.back();
     std::vector<BoxBlock> level((below.size() + kWidth - 1) / kWidth);

@@ -26,13 +26,13 @@ class BoxTree {
   /// `block`; over all blocks: every unordered pair i != j once, in a fixed order.
   template <class Visit>
   void visit_pairs_within(std::size_t block, Visit&& visit) const {
-    visit_blocks(levels_.front()[block].bounds(), block,
+    visit_blocks(block_bounds_[block], block,
                  [&](std::size_t other) { visit_block_pair<true>(block, *this, other, visit); });
   }
   /// Calls visit(i, j) once for every box i of `block` and box j of `other` that overlap.
   template <class Visit>
   void visit_pairs_between(std::size_t block, const BoxTree& other, Visit&& visit) const {
-    other.visit_blocks(levels_.front()[block].bounds(), 0,
+    other.visit_blocks(block_bounds_[block], 0,
                        [&](std::size_t other_block) { visit_block_pair<false>(block, other, other_block, visit); });
   }
 
@@ -46,6 +46,7 @@ class BoxTree {
   void visit_block_pair(std::size_t block, const BoxTree& other, std::size_t other_block, Visit& visit) const;
 
   std::vector<std::vector<BoxBlock>> levels_;  // levels_[l + 1] block b place p bounds levels_[l] block 8 b + p
+  std::vector<LatticeBox> block_bounds_;       // of levels_[0]
   std::vector<Box> boxes_;                     // in tree order
   std::vector<std::int32_t> order_;            // tree order -> index of the caller
 };
@@ -81,7 +82,7 @@ void BoxTree::visit_blocks(const LatticeBox& box, std::size_t first, Visit&& vis
 template <bool within, class Visit>
 void BoxTree::visit_block_pair(std::size_t block, const BoxTree& other, std::size_t other_block, Visit& visit) const {
   const BoxBlock &mine = levels_.front()[block], &theirs = other.levels_.front()[other_block];
-  unsigned waiting = mine.overlap_mask(theirs.bounds());
+  unsigned waiting = mine.overlap_mask(other.block_bounds_[other_block]);
   for (; waiting != 0; waiting &= waiting - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(waiting));
     unsigned mask = theirs.overlap_mask(mine.get(i));

@@ -13,7 +13,7 @@ Point along(const Point& a, const Point& b, double s) {
   return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
 }
 
-/// Only guesses at the nearest points follow: whichever direction they give, gap_lower judges it.
+/// Only guesses at the nearest points follow: whichever direction they give, gaps() judges it.
 Point nearest_on_segment(const Point& p, const Point& a, const Point& b) {
   const Point edge = difference(b, a);
   const double s = dot(difference(p, a), edge) / dot(edge, edge);
@@ -63,12 +63,12 @@ bool exceeds(double gap, const Point& u, double d) {
 
 bool triage_vf_farther(const std::array<Point, 4>& x, double d) {
   const Point u = from_nearest_on_triangle(x[0], x[1], x[2], x[3]);
-  return exceeds(gap_lower(u, Local<1>(x[0], {x[0]}), Local<3>(x[0], {x[1], x[2], x[3]})), u, d);
+  return exceeds(gaps(u, Local<1>(x[0], {x[0]}), Local<3>(x[0], {x[1], x[2], x[3]})).forward, u, d);
 }
 
 bool triage_ee_farther(const std::array<Point, 4>& x, double d) {
   const Point u = between_nearest_on_edges(x[0], x[1], x[2], x[3]);
-  return exceeds(gap_lower(u, Local<2>(x[0], {x[0], x[1]}), Local<2>(x[0], {x[2], x[3]})), u, d);
+  return exceeds(gaps(u, Local<2>(x[0], {x[0], x[1]}), Local<2>(x[0], {x[2], x[3]})).forward, u, d);
 }
 
 }  // namespace selvage::verify

@@ -16,6 +16,10 @@ struct Matched {
   std::size_t shared = 0;
 };
 
+bool shares(const std::array<std::int32_t, 3>& face, std::int32_t v) {
+  return face[0] == v || face[1] == v || face[2] == v;
+}
+
 Matched match(const std::array<std::int32_t, 3>& face_a, const std::array<std::int32_t, 3>& face_b) {
   Matched matched;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -31,10 +35,10 @@ Matched match(const std::array<std::int32_t, 3>& face_a, const std::array<std::i
   return matched;
 }
 
-bool triage_none(std::size_t shared, const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
-  if (shared == 0) return triage_apart(a, b);
+/// REQUIRES corners as in Matched.
+bool triage_none_beyond_shared(std::size_t shared, const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
   if (shared == 1) return triage_apart_beyond_vertex(a[0], {a[1], a[2]}, {b[1], b[2]});
-  return triage_apart_beyond_edge(a[0], a[1], a[2], b[2]);
+  return shared == 2 && triage_apart_beyond_edge(a[0], a[1], a[2], b[2]);
 }
 
 OverlapKind decide(std::size_t shared, TrianglePair& pair, const Corners& t, const Corners& u) {
@@ -53,11 +57,13 @@ OverlapKind decide(std::size_t shared, TrianglePair& pair, const Corners& t, con
 OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
                             const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b) {
   const FpGuard guard;
+  const bool share_none = !shares(face_a, face_b[0]) && !shares(face_a, face_b[1]) && !shares(face_a, face_b[2]);
+  if (share_none && triage_apart(a, b)) return {OverlapKind::kNone, false};
   const Matched matched = match(face_a, face_b);
   if (matched.shared == 3) return {OverlapKind::kSame, false};
   const std::array<Point, 3> p = {a[matched.a[0]], a[matched.a[1]], a[matched.a[2]]};
   const std::array<Point, 3> q = {b[matched.b[0]], b[matched.b[1]], b[matched.b[2]]};
-  if (triage_none(matched.shared, p, q)) return {OverlapKind::kNone, false};
+  if (triage_none_beyond_shared(matched.shared, p, q)) return {OverlapKind::kNone, false};
 
   const std::array<Point, 6> points = {p[0], p[1], p[2], q[0], q[1], q[2]};
   Predicates signs(points);

@@ -3,6 +3,7 @@
 #include "verify/check.h"
 #include "verify/distance_check.h"
 #include "verify/exact_overlap.h"
+#include "verify/face_slabs.h"
 #include "verify/part_trees.h"
 #include "verify/predicates.h"
 #include "verify/violation.h"
@@ -38,9 +39,13 @@ class FrameCheck {
   CheckResult run() {
     if (!V_.empty()) {
       const Lattice lattice = Lattice::over(bounding_box(V_));
+      const FaceSlabs slabs(topology_.triangles, V_);
       const PartTrees faces(topology_.faces, lattice, [&](std::int32_t f) { return bounding_box(corners(f)); });
       faces.tally_within(options_.check_bodies, options_.max_violations, tally_,
-                         [&](std::int32_t f, std::int32_t g, Tally& tally) { check_pair(f, g, tally); });
+                         [&](std::int32_t f, std::int32_t g, Tally& tally) {
+                           ++tally.pairs.overlap;
+                           if (!slabs.triage_apart(f, g)) check_pair(f, g, tally);
+                         });
     }
     check_areas(topology_.faces.cloth);
     if (options_.check_bodies) check_areas(topology_.faces.body);
@@ -58,7 +63,6 @@ class FrameCheck {
     if (g < f) std::swap(f, g);
     const OverlapAnswer answer =
         exact_overlap(topology_.triangles[at(f)], corners(f), topology_.triangles[at(g)], corners(g));
-    ++tally.pairs.overlap;
     if (answer.exact_used) ++tally.pairs.exact;
     if (answer.kind != OverlapKind::kNone) tally.add({EventKind::kOverlap, {f, g}, kind_name(answer.kind)});
   }

@@ -183,6 +183,13 @@ TEST(FrameCheck, IsEveryPairOfATangledSoup) {
     ASSERT_EQ(result.violations_total.overlap, overlaps);
     ASSERT_EQ(result.violations_total.self, degenerate);
     ASSERT_EQ(result.violations.size(), static_cast<std::size_t>(overlaps + degenerate));
+    for (const double scale : {0x1p-1074, 0x1p-537, 0x1p-358, 0x1p+341, 0x1p+1020}) {
+      io::MeshData scaled = mesh;
+      for (Point& p : scaled.points) {
+        for (double& x : p) x *= scale;
+      }
+      ASSERT_EQ(texts(check(scaled)), texts(result)) << scale;
+    }
   }
 }
 
