@@ -71,9 +71,11 @@ bool Search::certify(const TickInterval& interval, const Polygon& at_begin, cons
   if (precise_cubic_ && is_definite(*precise_cubic_, interval)) return true;
   const Tick middle = interval.begin + (interval.end - interval.begin) / 2;
   const auto closest = closest_point(motion_.kind, polygon(middle));
-  if (separates(motion_, at_begin, at_end, closest.direction)) {
-    separating_ = closest.direction;
-    return true;
+  for (const Double3& n : {closest.direction, closest.plane_normal}) {
+    if (separates(motion_, at_begin, at_end, n)) {
+      separating_ = n;
+      return true;
+    }
   }
   const auto direction = separating_direction(motion_, at_begin, at_end, closest.point);
   if (direction) separating_ = *direction;
@@ -161,7 +163,7 @@ Double3 Search::approach_normal(Tick tick) const {
     const Tick earlier = tick > (Tick{1} << back) ? tick - (Tick{1} << back) : 0;
     const Polygon at = polygon(earlier);
     const auto closest = closest_point(motion_.kind, at);
-    const double lower = distance_lower(motion_, at, closest.direction);
+    const double lower = distance_lower(motion_, at, closest);
     if (earlier == 0 || lower > kGoodBracket * gap_upper(earlier, at, closest)) return closest.direction;
   }
   return {};
@@ -187,8 +189,7 @@ void Search::answer_end() {
   result_.verdict = CcdVerdict::kSeparated;
   if (options_.tolerance == 0) return;  // no touch at t = 1 is a distance above zero
   const auto closest = closest_point(motion_.kind, motion_.t1);
-  const double lower = std::max(distance_lower(motion_, motion_.t1, closest.direction),
-                                distance_lower(motion_, motion_.t1, normalize_exponent(closest.point)));
+  const double lower = distance_lower(motion_, motion_.t1, closest);
   if (times_power_lower(lower, motion_.exponent) > options_.tolerance) return;
   result_.verdict = CcdVerdict::kCollides;
   result_.cause = CcdCause::kEnd;

@@ -17,22 +17,44 @@ struct Nearest {
   const Triple<Real>* edge = nullptr;
 };
 
-/// Two edges that span the polygon's plane: v_across = v - shear u is orthogonal to u, to rounding even where the edges
-/// are nearly parallel (orthogonalised twice; Kahan: twice is enough).
+/// Two edges from one corner that span the polygon's plane, the shorter one first: v_across = v - shear u is orthogonal
+/// to u, to rounding even where the edges are nearly parallel (orthogonalised twice; Kahan: twice is enough).
 template <class Real>
 struct PlaneFrame {
+  std::array<std::uint8_t, 4> corner;  // at the base, at the end of u, at the end of v, opposite (ee)
   Triple<Real> u, v_across;
   Real u_squared{}, v_squared{}, shear{};
   bool valid = false;
 };
 
+/// At the corner nearest to the origin, where the differences are smallest and so are their errors.
 template <class Real>
-PlaneFrame<Real> make_frame(const Triple<Real>& u, const Triple<Real>& v) {
-  PlaneFrame<Real> frame{u, v, dot(u, u)};
+PlaneFrame<Real> make_frame(PairKind kind, const DifferencePolygon<Real>& polygon, std::size_t base) {
+  const Triple<Real>&u = polygon.edge_u, &v = polygon.edge_v, &w = polygon.edge_w;
+  PlaneFrame<Real> frame;
+  if (kind == PairKind::kEe) {
+    frame.corner = {static_cast<std::uint8_t>(base), static_cast<std::uint8_t>(base ^ 2U),
+                    static_cast<std::uint8_t>(base ^ 1U), static_cast<std::uint8_t>(base ^ 3U)};
+    frame.u = (base & 2U) == 0 ? u : -u;
+    frame.v_across = (base & 1U) == 0 ? v : -v;
+  } else if (base == 0) {
+    frame = {{0, 1, 2, 3}, u, v};
+  } else if (base == 1) {
+    frame = {{1, 0, 2, 3}, -u, w};
+  } else {
+    frame = {{2, 0, 1, 3}, -v, -w};
+  }
+  frame.u_squared = dot(frame.u, frame.u);
+  const Real other_squared = dot(frame.v_across, frame.v_across);
+  if (other_squared < frame.u_squared) {
+    std::swap(frame.u, frame.v_across);
+    std::swap(frame.corner[1], frame.corner[2]);
+    frame.u_squared = other_squared;
+  }
   if (!(leading(frame.u_squared) > 0)) return frame;
   for (int pass = 0; pass < 2; ++pass) {
-    const Real k = dot(u, frame.v_across) / frame.u_squared;
-    frame.v_across = frame.v_across - scaled(k, u);
+    const Real k = dot(frame.u, frame.v_across) / frame.u_squared;
+    frame.v_across = frame.v_across - scaled(k, frame.u);
     frame.shear = frame.shear + k;
   }
   frame.v_squared = dot(frame.v_across, frame.v_across);
@@ -62,12 +84,17 @@ Triple<Real> weighted_sum(const DifferencePolygon<Real>& polygon, const std::arr
   return (scaled(w[0], c[0]) + scaled(w[1], c[1])) + (scaled(w[2], c[2]) + scaled(w[3], c[3]));
 }
 
+/// Within rounding the feature of higher dimension is taken: exactly its point is nearer, and its direction is
+/// orthogonal to more of the polygon.
+constexpr double kTie = 1 + 0x1p-50;
+
 template <class Real>
-void consider_corner(Nearest<Real>& nearest, const DifferencePolygon<Real>& polygon, std::size_t corner) {
+bool consider_corner(Nearest<Real>& nearest, const DifferencePolygon<Real>& polygon, std::size_t corner) {
   const double distance_squared = leading(dot(polygon.corner[corner], polygon.corner[corner]));
-  if (!(distance_squared < nearest.distance_squared)) return;
+  if (!(distance_squared < nearest.distance_squared)) return false;
   nearest = {distance_squared, polygon.corner[corner], {}, Feature::kCorner, nullptr};
   nearest.corner_weights[corner] = Real(1);
+  return true;
 }
 
 /// The foot of the perpendicular, where it lies within the edge, seen from its nearer end.
@@ -82,19 +109,19 @@ void consider_edge(Nearest<Real>& nearest, const DifferencePolygon<Real>& polygo
   const Triple<Real> foot =
       near_first ? polygon.corner[first] + scaled(t, edge) : polygon.corner[second] - scaled(t, edge);
   const double distance_squared = leading(dot(foot, foot));
-  if (!(distance_squared < nearest.distance_squared)) return;
+  if (!(distance_squared < kTie * nearest.distance_squared)) return;
   nearest = {distance_squared, foot, {}, Feature::kEdge, &edge};
   nearest.corner_weights[first] = near_first ? Real(1) - t : t;
   nearest.corner_weights[second] = near_first ? t : Real(1) - t;
 }
 
-/// Steps of the least-squares problem min |corner 0 + alpha u + beta v|. The residual is recomputed from the corners,
-/// so each step shrinks the error by the condition of the frame times the roundoff.
+/// Steps of the least-squares problem min |base + alpha u + beta v|. The residual is recomputed from the corners, so
+/// each step shrinks the error by the condition of the frame times the roundoff.
 template <class Real>
 void consider_interior(Nearest<Real>& nearest, PairKind kind, const DifferencePolygon<Real>& polygon,
                        const PlaneFrame<Real>& frame) {
   Real alpha{}, beta{};
-  Triple<Real> point = polygon.corner[0];
+  Triple<Real> point = polygon.corner[frame.corner[0]];
   std::array<Real, 4> weights = {};
   for (int step = 0; step < 3; ++step) {
     const Real across = -dot(point, frame.v_across) / frame.v_squared;
@@ -104,15 +131,20 @@ void consider_interior(Nearest<Real>& nearest, PairKind kind, const DifferencePo
     if (!(leading(alpha) >= 0 && leading(beta) >= 0)) return;
     if (kind == PairKind::kVf) {
       if (!(leading(alpha_rest - beta) >= 0)) return;
-      weights = {alpha_rest - beta, alpha, beta, Real(0)};
+      weights[frame.corner[0]] = alpha_rest - beta;
+      weights[frame.corner[1]] = alpha;
+      weights[frame.corner[2]] = beta;
     } else {
       if (!(leading(alpha_rest) >= 0 && leading(beta_rest) >= 0)) return;
-      weights = {alpha_rest * beta_rest, alpha_rest * beta, alpha * beta_rest, alpha * beta};
+      weights[frame.corner[0]] = alpha_rest * beta_rest;
+      weights[frame.corner[1]] = alpha * beta_rest;
+      weights[frame.corner[2]] = alpha_rest * beta;
+      weights[frame.corner[3]] = alpha * beta;
     }
     point = weighted_sum(polygon, weights);
   }
   const double distance_squared = leading(dot(point, point));
-  if (distance_squared < nearest.distance_squared) {
+  if (distance_squared < kTie * nearest.distance_squared) {
     nearest = {distance_squared, point, weights, Feature::kInterior, nullptr};
   }
 }
@@ -131,7 +163,10 @@ template <class Real>
 ClosestPoint<Real> closest_point(PairKind kind, const DifferencePolygon<Real>& polygon) {
   Nearest<Real> nearest;
   PlaneFrame<Real> frame;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(kind)); ++i) consider_corner(nearest, polygon, i);
+  std::size_t base = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(kind)); ++i) {
+    if (consider_corner(nearest, polygon, i)) base = i;
+  }
   if (kind == PairKind::kEe) {
     consider_edge(nearest, polygon, 0, 1, polygon.edge_v);
     consider_edge(nearest, polygon, 2, 3, polygon.edge_v);
@@ -145,16 +180,19 @@ ClosestPoint<Real> closest_point(PairKind kind, const DifferencePolygon<Real>& p
     consider_edge(nearest, polygon, 1, 2, polygon.edge_w);
   }
   if (kind != PairKind::kSelf) {
-    frame = make_frame(polygon.edge_u, polygon.edge_v);
+    frame = make_frame(kind, polygon, base);
     if (frame.valid) consider_interior(nearest, kind, polygon, frame);
   }
 
-  ClosestPoint<Real> result{point_weights(kind, nearest.corner_weights), nearest.point, nearest.point};
+  ClosestPoint<Real> result{point_weights(kind, nearest.corner_weights), nearest.point, nearest.point, {}};
+  if (frame.valid) {
+    result.plane_normal = normalize_exponent(frame_normal(frame));
+    if (leading(dot(result.plane_normal, polygon.corner[base])) < 0) result.plane_normal = -result.plane_normal;
+  }
   if (nearest.feature == Feature::kEdge) {
     result.direction = orthogonalised(nearest.point, *nearest.edge, Real(dot(*nearest.edge, *nearest.edge)));
   } else if (nearest.feature == Feature::kInterior) {
-    result.direction = frame_normal(frame);
-    if (leading(dot(result.direction, polygon.corner[0])) < 0) result.direction = -result.direction;
+    result.direction = result.plane_normal;
   }
   result.direction = normalize_exponent(result.direction);
   return result;

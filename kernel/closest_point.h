@@ -16,6 +16,9 @@ struct ClosestPoint {
   /// corner. As good as the features allow, however near they are: the difference of two corners, the perpendicular of
   /// an edge orthogonalised against it, or the normal of the polygon.
   Triple<Real> direction;
+  /// The polygon's normal on the side of the origin, in the same form; zero if the polygon has none. The better
+  /// direction where the nearest point lies within rounding of the interior.
+  Triple<Real> plane_normal;
 };
 
 /// Over all features: corners, edges, interior. Zero-length edges, collinear corners and parallel edges are all right.

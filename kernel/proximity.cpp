@@ -37,10 +37,9 @@ Proximity proximity(PairKind kind, const std::array<Vec3, 4>& x) {
   const PairMotion<double> motion = make_pair_motion<double>(kind, points, points);
   const auto closest = closest_point(kind, motion.t0);
   const double upper = distance_upper(motion, motion.t0, false, closest.weights);
-  const double lower = std::max(distance_lower(motion, motion.t0, closest.direction),
-                                distance_lower(motion, motion.t0, normalize_exponent(closest.point)));
-  // sqrt((upper - lower)(upper + lower)): four roundings.
-  const double error = std::sqrt((upper - lower) * (upper + lower)) * (1 + 8 * kUnitRoundoff);
+  const double lower = distance_lower(motion, motion.t0, closest);
+  // Two roots, because the product under one could underflow; under 8 roundings.
+  const double error = std::sqrt(upper - lower) * std::sqrt(upper + lower) * (1 + 8 * kUnitRoundoff);
 
   Proximity result;
   result.distance_lower = times_power_lower(lower, motion.exponent);

@@ -1,6 +1,5 @@
 #include "kernel/separation.h"
 
-#include "kernel/closest_point.h"
 #include "kernel/power_of_two.h"
 #include "kernel/rounding.h"
 
@@ -60,6 +59,7 @@ std::optional<Triple<Real>> separating_direction(const PairMotion<Real>& motion,
 }
 
 template double support_error(const Double3&, const Double3&);
+template double support_error(const Triple<DoubleDouble>&, const Double3&);
 template bool separates(const PairMotion<double>&, const DifferencePolygon<double>&, const DifferencePolygon<double>&,
                         const Double3&);
 template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
@@ -71,11 +71,15 @@ template std::optional<Triple<DoubleDouble>> separating_direction(const PairMoti
                                                                   const DifferencePolygon<DoubleDouble>&,
                                                                   Triple<DoubleDouble>);
 
-double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon, const Double3& n) {
-  const double margin = leading(support(motion, polygon, polygon, n).least) - support_error(n, motion.extent);
-  if (!(margin > 0)) return 0;
-  // The difference, the norm, the quotient and this product: under 8 roundings.
-  return margin / norm(n) * (1 - 8 * kUnitRoundoff);
+double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
+                      const ClosestPoint<double>& closest) {
+  double lower = 0;
+  for (const Double3& n : {closest.direction, closest.plane_normal}) {
+    const double margin = support(motion, polygon, polygon, n).least - support_error(n, motion.extent);
+    // The difference, the norm, the quotient and this product: under 8 roundings.
+    if (margin > 0) lower = std::max(lower, margin / norm(n) * (1 - 8 * kUnitRoundoff));
+  }
+  return lower;
 }
 
 double distance_upper(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon, bool blended,

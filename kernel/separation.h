@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "kernel/pair_motion.h"
+#include "kernel/closest_point.h"
 
 namespace selvage::detail {
 
@@ -24,10 +24,10 @@ template <class Real>
                                                                const DifferencePolygon<Real>& begin,
                                                                const DifferencePolygon<Real>& end, Triple<Real> point);
 
-/// PROVED: the features of this instant (t = 0 or t = 1) are at least this far apart, scaled; 0 if `n` does not
-/// separate.
+/// PROVED: the features are at least this far apart at the instant of `polygon`, scaled; 0 if no direction of `closest`
+/// separates them.
 [[nodiscard]] double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
-                                    const Double3& n);
+                                    const ClosestPoint<double>& closest);
 
 /// PROVED: the features come within this distance, scaled, at the instant of `polygon`. `blended`: the instant is
 /// neither t = 0 nor t = 1. `weights` as in ClosestPoint.
@@ -38,6 +38,7 @@ template <class Real>
 [[nodiscard]] double norm(const Double3& v);
 
 extern template double support_error(const Double3&, const Double3&);
+extern template double support_error(const Triple<DoubleDouble>&, const Double3&);
 extern template bool separates(const PairMotion<double>&, const DifferencePolygon<double>&,
                                const DifferencePolygon<double>&, const Double3&);
 extern template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,

@@ -1,0 +1,226 @@
+// Every bound of kernel/rounding.h against exact rationals, with a record of how much of it is used: a bound that is
+// exceeded is wrong, one that is never approached is loose.
+#include "kernel/rounding.h"
+
+#include <gtest/gtest.h>
+
+#include "kernel/closest_point.h"
+#include "kernel/coplanarity.h"
+#include "kernel/power_of_two.h"
+#include "kernel/separation.h"
+#include "tests/kernel/exact.h"
+#include "tests/kernel/random_points.h"
+
+namespace selvage {
+
+using detail::Double3;
+using detail::DoubleDouble;
+using detail::PairMotion;
+using detail::PairPoints;
+using testing::exact;
+using testing::Random;
+using testing::Rational;
+using testing::Rational3;
+
+namespace {
+
+constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe, PairKind::kSelf};
+
+/// The largest share of a bound that was observed.
+class Sharpness {
+ public:
+  void note(const Rational& error, double bound) {
+    EXPECT_TRUE(abs(error) <= exact(bound)) << "bound " << bound;
+    if (bound > 0) most_ = std::max(most_, testing::ratio(error, bound));
+  }
+  void expect_at_least(double share) const {
+    ::testing::Test::RecordProperty("sharpness", std::to_string(most_));
+    EXPECT_GE(most_, share);
+  }
+
+ private:
+  double most_ = 0;
+};
+
+/// Points of one magnitude or of mixed ones, sometimes small differences at a large offset.
+PairPoints random_points(Random& random, int exponent) {
+  PairPoints points;
+  const Double3 offset = random.chance(2) ? random.point(exponent, exponent + 1) : Double3{};
+  const int last = std::max(exponent - random.integer(0, 40), -1073),
+            first = std::max(last - random.integer(1, 4), -1074);
+  for (Double3& p : points) {
+    p = random.point(first, last);
+    p = p + offset;
+  }
+  return points;
+}
+
+struct Sample {
+  PairKind kind;
+  PairPoints x_t0, x_t1;
+};
+
+Sample random_sample(Random& random, int first_exponent, int last_exponent) {
+  const int exponent = random.integer(first_exponent, last_exponent);
+  return {kKinds[random.integer(0, 2)], random_points(random, exponent), random_points(random, exponent)};
+}
+
+template <class Real>
+Real complement(const Real& t) {
+  return Real(1) - t;
+}
+
+template <class Real>
+Real random_time(Random& random);
+template <>
+double random_time(Random& random) {
+  return detail::time_of(random.bits() >> 12);
+}
+template <>
+DoubleDouble random_time(Random& random) {
+  const double offset = static_cast<double>(random.bits() >> 16) * 0x1p-100;
+  return detail::two_sum(random_time<double>(random), offset);
+}
+
+template <class Real>
+void check_supports(int cases, double least_share) {
+  Random random(11);
+  Sharpness sharpness;
+  for (int i = 0; i < cases; ++i) {
+    const Sample s = random_sample(random, -1070, 990);
+    const auto motion = detail::make_pair_motion<Real>(s.kind, s.x_t0, s.x_t1);
+    const Real t = random_time<Real>(random);
+    const auto polygon = detail::polygon_at(motion, complement(t), t);
+    const Double3 n_leading = random.chance(2) ? random.point() : random.point(-60, 0);
+    const detail::Triple<Real> n = {Real(n_leading.x), Real(n_leading.y), Real(n_leading.z)};
+    const double bound = detail::support_error(n, motion.extent);
+    const auto corners = testing::exact_corners(s.kind, testing::exact_points(s.x_t0, s.x_t1, exact(t)));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(detail::corner_count(s.kind)); ++k) {
+      const Rational real = testing::scaled_exactly(dot(exact(n), corners[k]), -motion.exponent);
+      sharpness.note(exact(detail::dot(n, polygon.corner[k])) - real, bound);
+    }
+  }
+  sharpness.expect_at_least(least_share);
+}
+
+/// Bernstein coefficients of 3 det[u, v, r] for vectors that move linearly.
+std::array<Rational, 4> exact_cubic(const Rational3& u0, const Rational3& u1, const Rational3& v0, const Rational3& v1,
+                                    const Rational3& r0, const Rational3& r1) {
+  const auto det = [](const Rational3& a, const Rational3& b, const Rational3& c) { return dot(cross(a, b), c); };
+  return {3 * det(u0, v0, r0), det(u1, v0, r0) + det(u0, v1, r0) + det(u0, v0, r1),
+          det(u1, v1, r0) + det(u1, v0, r1) + det(u0, v1, r1), 3 * det(u1, v1, r1)};
+}
+
+std::array<Rational, 4> exact_cubic(const Sample& s, int exponent) {
+  std::array<Rational3, 4> a = testing::exact_points(s.x_t0), b = testing::exact_points(s.x_t1);
+  for (auto* x : {&a, &b}) {
+    for (Rational3& p : *x) {
+      for (Rational& c : p.axis) c = testing::scaled_exactly(c, -exponent);
+    }
+  }
+  if (s.kind == PairKind::kVf) {
+    return exact_cubic(a[1] - a[2], b[1] - b[2], a[1] - a[3], b[1] - b[3], a[0] - a[1], b[0] - b[1]);
+  }
+  return exact_cubic(a[1] - a[0], b[1] - b[0], a[2] - a[3], b[2] - b[3], a[0] - a[2], b[0] - b[2]);
+}
+
+/// The blossom of a cubic: its Bernstein coefficients over [t0, t1].
+std::array<Rational, 4> restricted(const std::array<Rational, 4>& c, const Rational& t0, const Rational& t1) {
+  std::array<Rational, 4> result;
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::array<Rational, 4> level = c;
+    for (std::size_t step = 0; step < 3; ++step) {
+      const Rational t = step < k ? t1 : t0;
+      for (std::size_t i = 0; i < 3 - step; ++i) level[i] = (1 - t) * level[i] + t * level[i + 1];
+    }
+    result[k] = level[0];
+  }
+  return result;
+}
+
+template <class Real>
+void check_cubics(int cases, double least_share) {
+  Random random(12);
+  Sharpness sharpness;
+  for (int i = 0; i < cases; ++i) {
+    Sample s = random_sample(random, -1070, 990);
+    if (s.kind == PairKind::kSelf) s.kind = PairKind::kVf;
+    const auto motion = detail::make_pair_motion<Real>(s.kind, s.x_t0, s.x_t1);
+    const auto cubic = detail::coplanarity_cubic(motion);
+    const auto real = exact_cubic(s, motion.exponent);
+    for (std::size_t k = 0; k < 4; ++k) sharpness.note(exact(cubic.coefficient[k]) - real[k], cubic.error_bound);
+    const detail::Tick first = random.bits() >> 12,
+                       last = first + ((random.bits() >> 12) % (detail::kTicks - first + 1));
+    const auto local = detail::local_coefficients(cubic, {first, last});
+    const auto real_local = restricted(real, exact(detail::time_of(first)), exact(detail::time_of(last)));
+    for (std::size_t k = 0; k < 4; ++k) sharpness.note(exact(local[k]) - real_local[k], cubic.error_bound);
+  }
+  sharpness.expect_at_least(least_share);
+}
+
+}  // namespace
+
+TEST(SupportError, HoldsInDoublesAtEveryMagnitude) { check_supports<double>(20000, 0.3); }
+TEST(SupportError, HoldsInDoubleDoublesAtEveryMagnitude) { check_supports<DoubleDouble>(8000, 0.01); }
+TEST(DeterminantError, HoldsInDoublesAtEveryMagnitude) { check_cubics<double>(6000, 0.05); }
+TEST(DeterminantError, HoldsInDoubleDoublesAtEveryMagnitude) { check_cubics<DoubleDouble>(3000, 0.001); }
+
+TEST(SupportError, ScalesWithTheExtentAndTheDirection) {
+  const Double3 n = {0.5, -0.25, 1}, extent = {0.75, 0.5, 0.125};
+  const double bound = detail::support_error(n, extent);
+  EXPECT_EQ(detail::support_error(detail::scaled(2.0, n), extent), 2 * bound);
+  EXPECT_EQ(detail::support_error(n, detail::scaled(0.5, extent)), 0.5 * bound);
+}
+
+TEST(NormError, HoldsAtEveryMagnitude) {
+  Random random(13);
+  Sharpness sharpness;
+  for (int i = 0; i < 20000; ++i) {
+    const int exponent = random.integer(-1000, 900);
+    const Double3 v = random.chance(4) ? random.point(exponent, exponent + 80) : random.point(exponent, exponent + 2);
+    const Rational squared = dot(exact(v), exact(v));
+    const Rational computed = exact(detail::norm(v)), bound = exact(detail::kNormError);
+    // |computed - real| <= bound real, squared: exact without a root.
+    EXPECT_TRUE(testing::squared(computed) <= squared * testing::squared(1 + bound));
+    EXPECT_TRUE(testing::squared(computed) >= squared * testing::squared(1 - bound));
+    sharpness.note(testing::squared(computed) / squared - 1, 2.01 * detail::kNormError);
+  }
+  sharpness.expect_at_least(0.3);
+}
+
+TEST(DoubleDouble, SumAndProductKeepTheirBounds) {
+  Random random(14);
+  Sharpness sums, products;
+  for (int i = 0; i < 40000; ++i) {
+    const auto number = [&random] {
+      const double high = random.magnitude(-30, 1);
+      return detail::two_sum(high, high * random.uniform() * std::ldexp(1.0, -random.integer(53, 70)));
+    };
+    const DoubleDouble a = number(), b = number();
+    const Rational sum = exact(a) + exact(b), product = exact(a) * exact(b);
+    sums.note(exact(a + b) - sum, std::fabs(sum.get_d()) * (3.01 * 0x1p-106) + 0x1p-1000);
+    products.note(exact(a * b) - product, std::fabs(product.get_d()) * (7.01 * 0x1p-106) + 0x1p-1000);
+  }
+  sums.expect_at_least(0.3);
+  products.expect_at_least(0.3);
+}
+
+TEST(ScalingByPowersOfTwo, RoundsTheStatedWay) {
+  Random random(15);
+  for (int i = 0; i < 20000; ++i) {
+    const double value = std::fabs(random.magnitude(-1074, 1000));
+    const int e = random.integer(-1073, 1000);
+    const Rational real = testing::scaled_exactly(exact(value), e);
+    if (real >= testing::scaled_exactly(1, 1023)) continue;
+    EXPECT_TRUE(exact(detail::times_power_upper(value, e)) >= real);
+    EXPECT_TRUE(exact(detail::times_power_lower(value, e)) <= real);
+    EXPECT_TRUE(abs(exact(detail::times_power(value, e)) - real) <= testing::scaled_exactly(1, -1074));
+    if (real >= testing::scaled_exactly(1, -1022)) {
+      EXPECT_EQ(exact(detail::times_power(value, e)), real);
+    }
+    const double unit = detail::times_power(value, -detail::exponent_of(value));
+    EXPECT_TRUE(unit >= 0.5 && unit < 1);
+  }
+}
+
+}  // namespace selvage
