@@ -20,6 +20,7 @@ class FittedBoxes {
              const CandidateOptions& options);
 
   [[nodiscard]] const Box& vertex(VertexId v) const { return vertices_[static_cast<std::size_t>(v)]; }
+  [[nodiscard]] const Box& cluster(TreeRef ref) const { return clusters_[static_cast<std::size_t>(~ref)]; }
   /// Rows as in FaceClusters::faces and ::edges; the key is feature * 2^32 + row.
   [[nodiscard]] const BoxColumns& faces() const { return faces_; }
   [[nodiscard]] const BoxColumns& edges() const { return edges_; }

@@ -8,21 +8,18 @@
 
 #include "kernel/fp_env.h"
 #include "kernel/pair_buffer.h"
+#include "kernel/words.h"
 
 namespace selvage {
 
 namespace {
 
-using Words = std::vector<std::uint64_t>;
-
 TreeRef tree_ref(std::uint64_t word) { return static_cast<TreeRef>(static_cast<std::uint32_t>(word)); }
 
-/// Appends what `find` writes behind the words that are there; it gets the room and returns how many it wrote.
-template <typename Find>
-void append(Words& words, std::size_t count_max, const Find& find) {
-  const std::size_t size = words.size();
-  words.resize(size + count_max + kVectorSlack);
-  words.resize(size + find(words.data() + size));
+/// Appends what find_overlaps finds.
+void append_overlaps(const BoxColumns& boxes, std::size_t begin, std::size_t end, const Box& box,
+                     std::uint64_t first_key, Words& words) {
+  words.keep(find_overlaps(boxes, begin, end, box, first_key, words.room(end - begin + kVectorSlack)));
 }
 
 /// Possible partners of a cluster's features, in ascending order.
@@ -50,7 +47,7 @@ struct Partners {
 
 struct Workspace {
   PairBuffer pairs;
-  Words open, clusters, keys;
+  Words open, clusters, keys, spare;
   Partners<3> faces;
   Partners<2> edges;
 };
@@ -78,12 +75,8 @@ class PairFinder {
     const std::size_t begin = FaceClusters::kFanOut * static_cast<std::size_t>(ref);
     const std::size_t end = begin + clusters_.nodes[static_cast<std::size_t>(ref)].child_count;
     const std::size_t size = out.size();
-    append(out, end - begin,
-           [&](std::uint64_t* room) { return find_overlaps(boxes_.children(), begin, end, box, 0, room); });
-    if (!active_only) return;
-    const auto first = out.begin() + static_cast<std::ptrdiff_t>(size);
-    out.erase(std::remove_if(first, out.end(), [&](std::uint64_t word) { return !boxes_.is_active(tree_ref(word)); }),
-              out.end());
+    append_overlaps(boxes_.children(), begin, end, box, 0, out);
+    if (active_only) out.erase_if(size, [&](std::uint64_t word) { return !boxes_.is_active(tree_ref(word)); });
   }
 
   /// `frontier`: nodes and clusters that hold every cluster whose box overlaps that of a cluster below node n.
@@ -98,7 +91,7 @@ class PairFinder {
       for (const std::uint64_t word : frontier) {
         if (tree_ref(word) >= 0) {
           expand(tree_ref(word), box, active_only, below);
-        } else {
+        } else if (overlap(boxes_.cluster(tree_ref(word)), box) && (!active_only || boxes_.is_active(tree_ref(word)))) {
           below.push_back(word);
         }
       }
@@ -113,11 +106,10 @@ class PairFinder {
 
   void find_in_cluster(std::size_t c, const Box& box, const Words& frontier, bool active_only) {
     Workspace& work = workspaces_.local();
-    work.open = frontier;
+    work.open.assign(frontier);
     work.clusters.clear();
     while (!work.open.empty()) {
-      const std::uint64_t word = work.open.back();
-      work.open.pop_back();
+      const std::uint64_t word = work.open.pop_back();
       if (tree_ref(word) < 0) {
         work.clusters.push_back(static_cast<std::uint64_t>(~tree_ref(word)));
       } else {
@@ -131,15 +123,13 @@ class PairFinder {
   /// Ascending keys of the rows of `clusters` that overlap `box` and stand for first_feature or a later one.
   template <typename Id>
   static void find_keys(const Words& clusters, const PerCluster<Id>& rows, const BoxColumns& boxes, const Box& box,
-                        std::int32_t first_feature, Words& keys) {
+                        std::int32_t first_feature, Words& keys, Words& spare) {
     keys.clear();
     const std::uint64_t first_key = static_cast<std::uint64_t>(first_feature) << 32;
     for (const std::uint64_t c : clusters) {
-      const std::size_t begin = rows.begin[c], end = rows.begin[c + 1];
-      append(keys, end - begin,
-             [&](std::uint64_t* room) { return find_overlaps(boxes, begin, end, box, first_key, room); });
+      append_overlaps(boxes, rows.begin[c], rows.begin[c + 1], box, first_key, keys);
     }
-    std::sort(keys.begin(), keys.end());
+    keys.sort_by_high_half(spare);
   }
 
   /// Answers for all of a cluster's features: `find(feature, partners)` for each, with the partners it may have.
@@ -149,9 +139,9 @@ class PairFinder {
              const Find& find) const {
     const auto list_partners = [&] {
       partners.reuse(keys.size());
-      for (std::size_t row = 0; row < keys.size(); ++row) {
-        const std::uint64_t feature = keys[row] >> 32;
-        partners.set(row, boxes, static_cast<std::size_t>(keys[row] & 0xffffffff), feature, corners[feature]);
+      std::size_t row = 0;
+      for (const std::uint64_t key : keys) {
+        partners.set(row++, boxes, static_cast<std::size_t>(key & 0xffffffff), key >> 32, corners[key >> 32]);
       }
     };
     if (std::any_of(own.begin(), own.end(), is_active)) {
@@ -161,7 +151,7 @@ class PairFinder {
       }
     }
     if (std::all_of(own.begin(), own.end(), is_active)) return;
-    std::erase_if(keys, [&](std::uint64_t key) { return !boxes_.is_active(corners[key >> 32]); });
+    keys.erase_if(0, [&](std::uint64_t key) { return !boxes_.is_active(corners[key >> 32]); });
     list_partners();
     for (const Id id : own) {
       if (!is_active(id)) find(id);
@@ -192,7 +182,7 @@ class PairFinder {
     if (own.empty()) return;
     Box all;
     for (const VertexId v : own) all.merge(boxes_.vertex(v));
-    find_keys(work.clusters, clusters_.faces, boxes_.faces(), all, 0, work.keys);
+    find_keys(work.clusters, clusters_.faces, boxes_.faces(), all, 0, work.keys, work.spare);
     const auto is_active = [&](VertexId v) { return boxes_.is_active(std::array{v}); };
     match(own, is_active, boxes_.faces(), mesh_.faces, work.keys, work.faces, [&](VertexId v) {
       vf_[static_cast<std::size_t>(v)] = find_partners(work.faces, 0, boxes_.vertex(v), std::array{v}, v, work.pairs);
@@ -206,7 +196,7 @@ class PairFinder {
     const auto box = [&](EdgeId e) { return united(boxes_.vertex(ends(e)[0]), boxes_.vertex(ends(e)[1])); };
     Box all;
     for (const EdgeId e : own) all.merge(box(e));
-    find_keys(work.clusters, clusters_.edges, boxes_.edges(), all, own.front() + 1, work.keys);
+    find_keys(work.clusters, clusters_.edges, boxes_.edges(), all, own.front() + 1, work.keys, work.spare);
     const auto is_active = [&](EdgeId e) { return boxes_.is_active(ends(e)); };
     match(own, is_active, boxes_.edges(), mesh_.edges, work.keys, work.edges, [&](EdgeId e) {
       ee_[static_cast<std::size_t>(e)] =
