@@ -50,7 +50,7 @@ void Words::sort_by_high_half(Words& spare) {
     any |= word;
     all &= word;
   }
-  const int bits = std::bit_width((any ^ all) >> 32);
+  const int bits = static_cast<int>(std::bit_width((any ^ all) >> 32));
   const int pass_count = (bits + kDigitBitsMax - 1) / kDigitBitsMax;
   const int digit_bits = (bits + pass_count - 1) / pass_count;
   const std::size_t digit_count = std::size_t{1} << digit_bits;
