@@ -2,15 +2,42 @@
 // signs. Formulation and proof of completeness: docs/guarantee.md, "Checker: motion".
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "verify/dyadic.h"
+#include "verify/exact_motion.h"
 #include "verify/instant.h"
 
 namespace selvage::verify {
 
 /// x(t) = x_t0 s + x_t1 t, in whole numbers.
 using MovingPoint = FormVector;
+
+/// The paths in whole numbers: a common power of two scales all coordinates and changes no contact.
+template <std::size_t N>
+std::array<MovingPoint, N> moving_points(const std::array<Point, N>& x_t0, const std::array<Point, N>& x_t1) {
+  std::array<double, 6 * N> values{};
+  std::array<mpz_class, 6 * N> integers;
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      values[6 * i + 2 * k] = x_t0[i][k];
+      values[6 * i + 2 * k + 1] = x_t1[i][k];
+    }
+  }
+  scale_to_integers(values, integers);
+  std::array<MovingPoint, N> points;
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      points[i][k].degree = 1;
+      points[i][k].c[0] = std::move(integers[6 * i + 2 * k]);
+      points[i][k].c[1] = std::move(integers[6 * i + 2 * k + 1]);
+    }
+  }
+  return points;
+}
 
 /// A first touch, and whether it is transversal (MotionKind::kCross).
 struct FirstTouch {
