@@ -111,7 +111,7 @@ std::optional<std::size_t> PlyElement::find(std::initializer_list<std::string_vi
 }
 
 PlyHeader parse_ply_header(LineReader& lines) {
-  if (lines.next().value_or("") != "ply") lines.fail("the first line is not \"ply\"; is this a PLY file?");
+  if (lines.next().value_or("") != "ply") lines.fail_at(1, "the first line is not \"ply\"; is this a PLY file?");
   PlyHeader header;
   bool has_format = false;
   for (;;) {

@@ -44,7 +44,7 @@ Json parse_json(std::string_view text, const Source& source) {
     const auto lines_before =
         std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
     const std::size_t line = source.line.value_or(1) + static_cast<std::size_t>(lines_before);
-    bad_input_at_line(source.name, line, "not valid JSON (" + std::string(error.what()) + "); correct it");
+    bad_input_at_line(source.name, line, "not valid JSON; correct it");
   } catch (const Json::out_of_range&) {
     source.fail("a number is outside the range of double; correct it");
   }

@@ -2,45 +2,48 @@
 
 #include <gtest/gtest.h>
 
-// gtest before RapidCheck's bridge
-#include <rapidcheck/gtest.h>
-
 #include "io/byte_order.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"
+#include "tests/property.h"
 
 namespace selvage::io {
 namespace {
 
+using testing::check_property;
 using testing::dictionary;
 using testing::expect_error;
 using testing::npy;
 using testing::numbers;
 using testing::same_bits;
 
-RC_GTEST_PROP(Npy, prop_float64_comes_back_bit_for_bit, ()) {
-  const Points points = *testing::finite_points();
-  const NpyPoints read = parse_npy_points(npy_bytes(points, Precision::kFloat64, "a"), "a");
-  RC_ASSERT(same_bits(read.points, points));
-  RC_ASSERT(read.precision == Precision::kFloat64);
+TEST(Npy, prop_float64_comes_back_bit_for_bit) {
+  check_property(300, 1, [] {
+    const Points points = *testing::finite_points();
+    const NpyPoints read = parse_npy_points(npy_bytes(points, Precision::kFloat64, "a"), "a");
+    RC_ASSERT(same_bits(read.points, points));
+    RC_ASSERT(read.precision == Precision::kFloat64);
+  });
 }
 
-RC_GTEST_PROP(Npy, prop_float32_comes_back_exactly_or_is_refused, ()) {
-  Points points = *testing::finite_points();
-  bool is_lattice = true;
-  for (const auto& point : points) {
-    for (const double x : point) is_lattice = is_lattice && testing::to_lattice(x) == x;
-  }
-  if (!is_lattice) {
-    expect_error(ErrorKind::kBadInput, "float32 lattice", [&] { (void)npy_bytes(points, Precision::kFloat32, "a"); });
-  }
-  for (auto& point : points) {
-    for (double& x : point) x = testing::to_lattice(x);
-  }
-  const NpyPoints read = parse_npy_points(npy_bytes(points, Precision::kFloat32, "a"), "a");
-  RC_ASSERT(same_bits(read.points, points));
-  RC_ASSERT(read.precision == Precision::kFloat32);
+TEST(Npy, prop_float32_comes_back_exactly_or_is_refused) {
+  check_property(300, 2, [] {
+    Points points = *testing::finite_points();
+    bool is_lattice = true;
+    for (const auto& point : points) {
+      for (const double x : point) is_lattice = is_lattice && testing::to_lattice(x) == x;
+    }
+    if (!is_lattice) {
+      expect_error(ErrorKind::kBadInput, "float32 lattice", [&] { (void)npy_bytes(points, Precision::kFloat32, "a"); });
+    }
+    for (auto& point : points) {
+      for (double& x : point) x = testing::to_lattice(x);
+    }
+    const NpyPoints read = parse_npy_points(npy_bytes(points, Precision::kFloat32, "a"), "a");
+    RC_ASSERT(same_bits(read.points, points));
+    RC_ASSERT(read.precision == Precision::kFloat32);
+  });
 }
 
 TEST(Npy, TrianglesComeBack) {

@@ -1,16 +1,15 @@
 #include <gtest/gtest.h>
 
-// gtest before RapidCheck's bridge
-#include <rapidcheck/gtest.h>
-
 #include "io/byte_order.h"
 #include "io/mesh_reader.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"
+#include "tests/property.h"
 
 namespace selvage::io {
 namespace {
 
+using testing::check_property;
 using testing::expect_error;
 using testing::same_bits;
 
@@ -44,31 +43,35 @@ std::string binary_ply(const Points& points, std::endian order, const std::strin
              data);
 }
 
-RC_GTEST_PROP(Ply, prop_binary_doubles_come_back_bit_for_bit, ()) {
-  const Points points = *testing::finite_points();
-  RC_PRE(points.size() >= 3);
-  const Triangles face = {{2, 0, 1}};
-  for (const std::endian order : {std::endian::little, std::endian::big}) {
-    const MeshData mesh =
-        parse_ply(binary_ply<double, std::uint8_t, std::int32_t>(points, order, "float64", "uint8", "int32"), "a.ply");
-    RC_ASSERT(same_bits(mesh.points, points));
-    RC_ASSERT(mesh.triangles == face);
-    RC_ASSERT(mesh.precision == Precision::kFloat64);
-  }
+TEST(Ply, prop_binary_doubles_come_back_bit_for_bit) {
+  check_property(300, 4, [] {
+    const Points points = *testing::finite_points();
+    RC_PRE(points.size() >= 3);
+    const Triangles face = {{2, 0, 1}};
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+      const MeshData mesh = parse_ply(
+          binary_ply<double, std::uint8_t, std::int32_t>(points, order, "float64", "uint8", "int32"), "a.ply");
+      RC_ASSERT(same_bits(mesh.points, points));
+      RC_ASSERT(mesh.triangles == face);
+      RC_ASSERT(mesh.precision == Precision::kFloat64);
+    }
+  });
 }
 
-RC_GTEST_PROP(Ply, prop_binary_floats_come_back_exactly, ()) {
-  Points points = *testing::finite_points();
-  RC_PRE(points.size() >= 3);
-  for (auto& point : points) {
-    for (double& x : point) x = testing::to_lattice(x);
-  }
-  for (const std::endian order : {std::endian::little, std::endian::big}) {
-    const MeshData mesh =
-        parse_ply(binary_ply<float, std::uint32_t, std::uint16_t>(points, order, "float", "uint", "ushort"), "a.ply");
-    RC_ASSERT(same_bits(mesh.points, points));
-    RC_ASSERT(mesh.precision == Precision::kFloat32);
-  }
+TEST(Ply, prop_binary_floats_come_back_exactly) {
+  check_property(300, 5, [] {
+    Points points = *testing::finite_points();
+    RC_PRE(points.size() >= 3);
+    for (auto& point : points) {
+      for (double& x : point) x = testing::to_lattice(x);
+    }
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+      const MeshData mesh =
+          parse_ply(binary_ply<float, std::uint32_t, std::uint16_t>(points, order, "float", "uint", "ushort"), "a.ply");
+      RC_ASSERT(same_bits(mesh.points, points));
+      RC_ASSERT(mesh.precision == Precision::kFloat32);
+    }
+  });
 }
 
 TEST(Ply, AllIntegerTypesByBothNames) {

@@ -10,10 +10,12 @@
 #include "io/rational.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"
+#include "tests/property.h"
 
 namespace selvage::io {
 namespace {
 
+using testing::check_property;
 using testing::expect_error;
 
 /// Product of a decimal number and a digit, as on paper.
@@ -52,26 +54,30 @@ RationalFault fault(const std::string& n, const std::string& d) {
   return parse_rational(n, d, value);
 }
 
-RC_GTEST_PROP(Rational, prop_every_double_comes_back, ()) {
-  const double value = *testing::finite_double();
-  auto [numerator, denominator] = rational_of(value);
-  const int factor = *rc::gen::inRange(1, 8);  // not in lowest terms
-  if (std::signbit(value)) numerator.insert(0, 1, '-');
-  const std::string sign = numerator[0] == '-' ? "-" : "";
-  const double read = rational(sign + times(numerator.substr(sign.size()), factor), times(denominator, factor));
-  RC_ASSERT(read == value);
-  RC_ASSERT(value != 0 || !std::signbit(read));
+TEST(Rational, prop_every_double_comes_back) {
+  check_property(300, 6, [] {
+    const double value = *testing::finite_double();
+    auto [numerator, denominator] = rational_of(value);
+    const int factor = *rc::gen::inRange(1, 8);  // not in lowest terms
+    if (std::signbit(value)) numerator.insert(0, 1, '-');
+    const std::string sign = numerator[0] == '-' ? "-" : "";
+    const double read = rational(sign + times(numerator.substr(sign.size()), factor), times(denominator, factor));
+    RC_ASSERT(read == value);
+    RC_ASSERT(value != 0 || !std::signbit(read));
+  });
 }
 
-RC_GTEST_PROP(Rational, prop_the_middle_between_two_doubles_is_refused, ()) {
-  const double value = std::abs(*testing::finite_double());
-  RC_PRE(std::isnormal(value));
-  int exponent = 0;
-  const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(value, &exponent), 53));
-  const std::string middle = std::to_string(2 * mantissa + 1);
-  exponent -= 54;
-  RC_ASSERT(fault(times_power_of_two(middle, exponent), times_power_of_two("1", -exponent)) ==
-            RationalFault::kNotDouble);
+TEST(Rational, prop_the_middle_between_two_doubles_is_refused) {
+  check_property(300, 7, [] {
+    const double value = std::abs(*testing::finite_double());
+    RC_PRE(std::isnormal(value));
+    int exponent = 0;
+    const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    const std::string middle = std::to_string(2 * mantissa + 1);
+    exponent -= 54;
+    RC_ASSERT(fault(times_power_of_two(middle, exponent), times_power_of_two("1", -exponent)) ==
+              RationalFault::kNotDouble);
+  });
 }
 
 TEST(Rational, EdgesOfTheDoubles) {
