@@ -49,7 +49,7 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
     const auto closest = closest_point(motion.kind, polygon_within(motion, middle));
     ++examined;
     if (separates(motion, at_begin, at_end, closest.direction) ||
-        separates(motion, at_begin, at_end, closest.plane_normal) ||
+        separates(motion, at_begin, at_end, closest.plane_normal) || winds_apart(motion, at_begin, at_end) ||
         separating_direction(motion, at_begin, at_end, closest.point)) {
       begin = end;
       at_begin = at_end;

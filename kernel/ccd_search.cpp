@@ -77,6 +77,7 @@ bool Search::certify(const TickInterval& interval, const Polygon& at_begin, cons
       return true;
     }
   }
+  if (winds_apart(motion_, at_begin, at_end)) return true;
   const auto direction = separating_direction(motion_, at_begin, at_end, closest.point);
   if (direction) separating_ = *direction;
   return direction.has_value();

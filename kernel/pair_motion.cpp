@@ -42,6 +42,11 @@ Double3 extent_of(const DifferencePolygon<Real>& polygon) {
   return max(max(abs(leading(c[0])), abs(leading(c[1]))), max(abs(leading(c[2])), abs(leading(c[3]))));
 }
 
+template <class Real>
+Double3 edge_extent_of(const DifferencePolygon<Real>& polygon) {
+  return max(max(abs(leading(polygon.edge_u)), abs(leading(polygon.edge_v))), abs(leading(polygon.edge_w)));
+}
+
 template <class Real, class Map>
 void for_each_vector(DifferencePolygon<Real>& polygon, Map map) {
   for (Triple<Real>& corner : polygon.corner) map(corner);
@@ -77,6 +82,7 @@ PairMotion<Real> make_pair_motion(PairKind kind, const PairPoints& x_t0, const P
   for_each_vector(motion.t0, scale);
   for_each_vector(motion.t1, scale);
   motion.extent = max(extent_of(motion.t0), extent_of(motion.t1));
+  motion.edge_extent = max(edge_extent_of(motion.t0), edge_extent_of(motion.t1));
   return motion;
 }
 

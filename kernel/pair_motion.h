@@ -31,6 +31,7 @@ struct PairMotion {
   PairKind kind = PairKind::kVf;
   DifferencePolygon<Real> t0, t1;  ///< scaled by 2^-exponent
   Double3 extent;                  ///< >= |corner difference| along each axis, over both ends
+  Double3 edge_extent;             ///< >= |edge| along each axis, over all edges and both ends
   int exponent = 0;                ///< the largest |component| of a corner difference is in [0.5, 1) * 2^exponent
   bool exact_scaling = true;       ///< no value lost bits to underflow: a scaled zero is an exact zero
 };

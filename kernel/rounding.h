@@ -60,4 +60,10 @@ inline constexpr double kDeterminantError = 10.25 * kUnit<Real>;
 template <class Real>
 inline constexpr double kBlossomError = 6.25 * kUnit<Real>;
 
+/// A component d_i e_j - d_j e_i of the cross product of an interpolated corner and an interpolated edge: the points 3
+/// + 3, the product 1, the difference 1, and 1 for the sum of two in a middle coefficient; relative to D_i E_j + D_j
+/// E_i (the extents of corners and edges), twice for the doubled middle coefficient.
+template <class Real>
+inline constexpr double kWindingError = (2 * kPointRoundings + 3.25) * kUnit<Real>;
+
 }  // namespace selvage::detail

@@ -30,6 +30,24 @@ Support<Real> support(const PairMotion<Real>& motion, const DifferencePolygon<Re
   return result;
 }
 
+/// Which signs the quadratics along each axis keep over an interval.
+class Signs {
+ public:
+  /// Bernstein coefficients, the middle one doubled; `bound` is the error of the outer ones.
+  void add(std::size_t axis, double first, double middle_doubled, double last, double bound, bool along) {
+    const bool positive = first > bound && middle_doubled > 2 * bound && last > bound;
+    const bool negative = first < -bound && middle_doubled < -2 * bound && last < -bound;
+    positive_[axis] |= along ? positive : negative;
+    negative_[axis] |= along ? negative : positive;
+  }
+  [[nodiscard]] bool opposite() const {
+    return (positive_[0] && negative_[0]) || (positive_[1] && negative_[1]) || (positive_[2] && negative_[2]);
+  }
+
+ private:
+  std::array<bool, 3> positive_ = {}, negative_ = {};
+};
+
 }  // namespace
 
 template <class Real>
@@ -41,6 +59,42 @@ template <class Real>
 bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin, const DifferencePolygon<Real>& end,
                const Triple<Real>& n) {
   return leading(support(motion, begin, end, n).least) > support_error(n, motion.extent);
+}
+
+template <class Real>
+bool winds_apart(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                 const DifferencePolygon<Real>& end) {
+  const Double3 &d = motion.extent, &e = motion.edge_extent;
+  const Double3 minors = {d.y * e.z + d.z * e.y, d.z * e.x + d.x * e.z, d.x * e.y + d.y * e.x};
+  const Double3 bound =
+      scaled(kWindingError<Real>, minors) + Double3{kUnderflowError, kUnderflowError, kUnderflowError};
+  Signs signs;
+  const auto add = [&](std::size_t corner, const Triple<Real>& edge_begin, const Triple<Real>& edge_end, bool along) {
+    const Triple<Real>&x0 = begin.corner[corner], &x1 = end.corner[corner];
+    const Double3 first = leading(cross(x0, edge_begin)), last = leading(cross(x1, edge_end));
+    const Double3 middle_doubled = leading(cross(x0, edge_end) + cross(x1, edge_begin));
+    signs.add(0, first.x, middle_doubled.x, last.x, bound.x, along);
+    signs.add(1, first.y, middle_doubled.y, last.y, bound.y, along);
+    signs.add(2, first.z, middle_doubled.z, last.z, bound.z, along);
+  };
+  switch (motion.kind) {  // around the polygon; `along` tells whether the edge is stored in that direction
+    case PairKind::kVf:
+      add(0, begin.edge_u, end.edge_u, true);
+      add(1, begin.edge_w, end.edge_w, true);
+      add(2, begin.edge_v, end.edge_v, false);
+      break;
+    case PairKind::kEe:
+      add(0, begin.edge_v, end.edge_v, true);
+      add(1, begin.edge_u, end.edge_u, true);
+      add(3, begin.edge_v, end.edge_v, false);
+      add(2, begin.edge_u, end.edge_u, false);
+      break;
+    case PairKind::kSelf:  // there and back
+      add(0, begin.edge_u, end.edge_u, true);
+      add(1, begin.edge_u, end.edge_u, false);
+      break;
+  }
+  return signs.opposite();
 }
 
 template <class Real>
@@ -64,6 +118,10 @@ template bool separates(const PairMotion<double>&, const DifferencePolygon<doubl
                         const Double3&);
 template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
                         const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+template bool winds_apart(const PairMotion<double>&, const DifferencePolygon<double>&,
+                          const DifferencePolygon<double>&);
+template bool winds_apart(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                          const DifferencePolygon<DoubleDouble>&);
 template std::optional<Double3> separating_direction(const PairMotion<double>&, const DifferencePolygon<double>&,
                                                      const DifferencePolygon<double>&, Double3);
 template std::optional<Triple<DoubleDouble>> separating_direction(const PairMotion<DoubleDouble>&,

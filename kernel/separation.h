@@ -17,6 +17,14 @@ template <class Real>
 [[nodiscard]] bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
                              const DifferencePolygon<Real>& end, const Triple<Real>& n);
 
+/// PROVED when true: no touch while t goes from the instant of `begin` to the instant of `end`. Touching features have
+/// the origin in their polygon, so that the cross products corner x edge around it are all multiples of one vector by
+/// factors
+/// >= 0. Two that keep opposite signs along one axis exclude that. Follows rotations, where a fixed direction cannot.
+template <class Real>
+[[nodiscard]] bool winds_apart(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                               const DifferencePolygon<Real>& end);
+
 /// Gilbert's algorithm (1966) from `point`, a point of the swept hull: walks toward the hull's point nearest to the
 /// origin, which is the best direction there is. The first direction that separates, if one appears in time.
 template <class Real>
@@ -43,6 +51,10 @@ extern template bool separates(const PairMotion<double>&, const DifferencePolygo
                                const DifferencePolygon<double>&, const Double3&);
 extern template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
                                const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+extern template bool winds_apart(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                 const DifferencePolygon<double>&);
+extern template bool winds_apart(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                                 const DifferencePolygon<DoubleDouble>&);
 extern template std::optional<Double3> separating_direction(const PairMotion<double>&, const DifferencePolygon<double>&,
                                                             const DifferencePolygon<double>&, Double3);
 extern template std::optional<Triple<DoubleDouble>> separating_direction(const PairMotion<DoubleDouble>&,
