@@ -22,6 +22,13 @@ constexpr Tick kPreciseWidth = Tick{1} << 32;
 /// A contact with weights above this lies inside both features, so that a sign change of the cubic makes it a real one.
 constexpr double kInnerWeight = 0x1p-20;
 
+/// What the cubic in double-double arithmetic says of an interval; nothing where there is none.
+struct CubicSigns {
+  bool definite = false;       ///< PROVED: no root in the interval
+  bool nonzero_begin = false;  ///< PROVED: no root at its begin
+  std::optional<double> root;  ///< where it passes from one sign to the other, as a fraction of the interval
+};
+
 class Search {
  public:
   Search(PairKind kind, const PairPoints& x_t0, const PairPoints& x_t1, const CcdOptions& options)
@@ -35,13 +42,14 @@ class Search {
   [[nodiscard]] bool has_cubic() const { return motion_.kind != PairKind::kSelf; }
   [[nodiscard]] Polygon polygon(Tick tick) const;
   [[nodiscard]] double gap_upper(Tick tick, const Polygon& at, const ClosestPoint<double>& closest) const;
+  [[nodiscard]] bool is_apart(Tick tick, const Polygon& at) const;
   [[nodiscard]] bool limit_reached() const { return result_.intervals >= options_.max_intervals; }
 
   bool clear(const TickInterval& interval);
   bool certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end);
   void look_precisely();
-  [[nodiscard]] std::optional<double> simple_root(const TickInterval& interval) const;
-  std::optional<Tick> first_contact(const TickInterval& interval, const Polygon& at_begin, std::optional<double> root);
+  [[nodiscard]] CubicSigns cubic_signs(const TickInterval& interval) const;
+  std::optional<Tick> first_contact(const TickInterval& interval, const Polygon& at_begin, const CubicSigns& signs);
   void answer_contact(Tick tick);
   void answer_end();
   Double3 approach_normal(Tick tick) const;
@@ -66,9 +74,13 @@ double Search::gap_upper(Tick tick, const Polygon& at, const ClosestPoint<double
   return distance_upper(motion_, at, tick != 0 && tick != kTicks, closest.weights);
 }
 
+/// Whether the gap is wide enough for halving an interval that begins here to be of use.
+bool Search::is_apart(Tick tick, const Polygon& at) const {
+  return gap_upper(tick, at, closest_point(motion_.kind, at)) > kNoGap;
+}
+
 bool Search::certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end) {
   if (!is_zero(separating_) && separates(motion_, at_begin, at_end, separating_)) return true;
-  if (precise_cubic_ && is_definite(*precise_cubic_, interval)) return true;
   const Tick middle = interval.begin + (interval.end - interval.begin) / 2;
   const auto closest = closest_point(motion_.kind, polygon(middle));
   for (const Double3& n : {closest.direction, closest.plane_normal}) {
@@ -93,26 +105,29 @@ void Search::look_precisely() {
   if (largest > cubic.error_bound) precise_cubic_ = cubic;
 }
 
-/// Where the cubic passes from one sign to the other within the interval, as a fraction of it.
-std::optional<double> Search::simple_root(const TickInterval& interval) const {
-  if (!precise_cubic_) return std::nullopt;
+CubicSigns Search::cubic_signs(const TickInterval& interval) const {
+  CubicSigns signs;
+  if (!precise_cubic_) return signs;
   const auto local = local_coefficients(*precise_cubic_, interval);
-  const double first = leading(local[0]), last = leading(local[3]), bound = precise_cubic_->error_bound;
-  const bool changes_sign = (first > bound && last < -bound) || (first < -bound && last > bound);
-  if (!changes_sign) return std::nullopt;
-  return root_fraction({first, leading(local[1]), leading(local[2]), last});
+  const std::array<double, 4> c = {leading(local[0]), leading(local[1]), leading(local[2]), leading(local[3])};
+  const double bound = precise_cubic_->error_bound;
+  const auto [least, greatest] = std::minmax({c[0], c[1], c[2], c[3]});
+  signs.definite = least > bound || greatest < -bound;
+  signs.nonzero_begin = std::fabs(c[0]) > bound;
+  if ((c[0] > bound && c[3] < -bound) || (c[0] < -bound && c[3] > bound)) signs.root = root_fraction(c);
+  return signs;
 }
 
 /// The first tick of the interval that cannot be proved free of touch by any means; nothing where it is free.
 std::optional<Tick> Search::first_contact(const TickInterval& interval, const Polygon& at_begin,
-                                          std::optional<double> root) {
+                                          const CubicSigns& signs) {
   const auto closest = closest_point(motion_.kind, at_begin);
   if (gap_upper(interval.begin, at_begin, closest) == 0) return interval.begin;
   const auto& w = closest.weights;
   const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
-  if (root && least_weight > kInnerWeight) return interval.begin;
+  if (signs.root && least_weight > kInnerWeight) return interval.begin;
   look_precisely();
-  return first_precise_contact(*precise_motion_, interval, root.value_or(0), result_.intervals);
+  return first_precise_contact(*precise_motion_, interval, signs.root.value_or(0), result_.intervals);
 }
 
 /// Depth first, from left to right: everything before `begin` is certified at all times.
@@ -131,21 +146,26 @@ bool Search::clear(const TickInterval& interval) {
     const TickInterval piece = {begin, ends[depth - 1]};
     const Tick width = piece.end - piece.begin;
     const Polygon at_end = polygon(piece.end);
-    if (!certify(piece, at_begin, at_end)) {
-      if (width <= kPreciseWidth) look_precisely();
-      const std::optional<double> root = simple_root(piece);
-      if (root && width > kNarrowWidth) {
-        // The tick of the root and its neighbours: the pieces beside these are then free of roots.
-        const Tick at_root = begin + static_cast<Tick>(*root * static_cast<double>(width));
-        if (at_root + 2 < piece.end) ends[depth++] = at_root + 2;
-        if (at_root > begin + 1) ends[depth++] = at_root - 1;
-        continue;
-      }
-      if (width > 1 && !root && gap_upper(begin, at_begin, closest_point(motion_.kind, at_begin)) > kNoGap) {
-        ends[depth++] = begin + width / 2;
-        continue;
-      }
-      if (const auto tick = first_contact(piece, at_begin, root)) {
+    CubicSigns signs = cubic_signs(piece);
+    bool free = signs.definite || certify(piece, at_begin, at_end);
+    if (!free && !precise_motion_ && width <= kPreciseWidth) {
+      look_precisely();
+      signs = cubic_signs(piece);
+      free = signs.definite;
+    }
+    if (!free && signs.root && width > kNarrowWidth) {
+      // The tick of the root and its neighbours: the pieces beside these are then free of roots.
+      const Tick at_root = begin + static_cast<Tick>(*signs.root * static_cast<double>(width));
+      if (at_root + 2 < piece.end) ends[depth++] = at_root + 2;
+      if (at_root > begin + 1) ends[depth++] = at_root - 1;
+      continue;
+    }
+    if (!free && !signs.root && width > 1 && (signs.nonzero_begin || is_apart(begin, at_begin))) {
+      ends[depth++] = begin + width / 2;
+      continue;
+    }
+    if (!free) {
+      if (const auto tick = first_contact(piece, at_begin, signs)) {
         answer_contact(*tick);
         return false;
       }
