@@ -6,6 +6,7 @@
 #include "cli/exit_code.h"
 #include "cli/fuzz_command.h"
 #include "cli/interrupt.h"
+#include "cli/render_command.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   Job job;
   add_bench_command(program, job);
   add_fuzz_command(program, job);
+  add_render_command(program, job);
   add_verify_command(program, job);
 
   try {

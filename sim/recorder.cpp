@@ -44,7 +44,12 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
       fingerprint_(scene_fingerprint(simulation.scene(), simulation.world())) {
   const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / "checkpoint.bin") : std::nullopt;
   if (!checkpoint) {
-    writer_.truncate(0);
+    if (writer_.frame_count() > 1) {
+      throw io::Error(io::ErrorKind::kBadInput, folder_.string() +
+                                                    ": holds frames but no checkpoint.bin; choose an "
+                                                    "empty folder");
+    }
+    writer_.truncate(0);  // killed between the first frame and the first checkpoint
     append();
     save_checkpoint();
     return;

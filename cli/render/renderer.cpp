@@ -1,0 +1,211 @@
+#include "cli/render/renderer.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "cli/render/depth_map.h"
+#include "cli/render/triangle_raster.h"
+
+namespace selvage::cli {
+namespace {
+
+constexpr int kSamples = 2;  // a side: 2 by 2 a pixel
+constexpr int kSkyLights = 24, kSkyMapSize = 384, kSunMapSize = 1536;
+constexpr std::int32_t kNoFace = -1;
+
+// Linear light. Warm and cool differ in hue and in brightness, so that they survive greyscale and colour blindness.
+const Vec3 kClothFront(0.68, 0.14, 0.045), kClothBack(0.035, 0.17, 0.36), kBody(0.40, 0.40, 0.42);
+const Vec3 kHorizon(0.80, 0.83, 0.87), kZenith(0.70, 0.76, 0.84);
+const Vec3 kSunColour = 2.1 * Vec3(1.0, 0.95, 0.86), kSkyColour = 0.95 * Vec3(0.88, 0.94, 1.0);
+
+struct Light {
+  Vec3 direction, colour;
+  DepthMap shadow;
+};
+
+// The sun, and a spiral of directions over the upper half sphere (the golden angle spreads them evenly).
+std::vector<Light> make_lights(const RenderSurface& surface, const View& view, const Bounds& stage) {
+  Bounds region = stage;
+  const Vec3 reach = Vec3::Constant(0.6 * stage.radius());  // bodies around the cloth cast shadows on it
+  region.add(stage.lower - reach);
+  region.add(stage.upper + reach);
+  const Vec3 up = up_of(view), east(1, 0, 0), north = up.cross(east);
+  const auto towards = [&](double azimuth, double height) {
+    return Vec3(std::sqrt(1 - height * height) * (std::cos(azimuth) * east + std::sin(azimuth) * north) + height * up);
+  };
+  std::vector<Light> lights;
+  const double sun_azimuth = (view.azimuth_deg - 62) * std::numbers::pi / 180;  // over the viewer's left shoulder
+  lights.push_back(
+      {towards(sun_azimuth, 0.72), kSunColour, DepthMap(surface, towards(sun_azimuth, 0.72), region, kSunMapSize)});
+  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < kSkyLights; ++i) {
+    const Vec3 direction = towards(golden_angle * i, 0.08 + 0.9 * (i + 0.5) / kSkyLights);
+    lights.push_back({direction, 2.0 / kSkyLights * kSkyColour, DepthMap(surface, direction, region, kSkyMapSize)});
+  }
+  return lights;
+}
+
+struct Sample {
+  std::int32_t face = kNoFace;
+  double depth = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< on the face, in space
+};
+
+// A corner of a clipped triangle: where it is, and its weights on the whole triangle.
+struct Corner {
+  Vec3 camera;
+  Eigen::Vector3d weight;
+};
+
+// Nearest face at every sample. Faces that reach behind the near plane are cut there.
+class DepthBuffer {
+ public:
+  DepthBuffer(const RenderSurface& surface, const Camera& camera, int width, int height)
+      : camera_(camera),
+        width_(width),
+        height_(height),
+        samples_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    std::vector<Vec3> seen;
+    for (const Vec3& point : surface.points) seen.push_back(camera.to_camera(point));
+    for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+      std::vector<Corner> polygon;
+      for (std::size_t k = 0; k < 3; ++k) {
+        polygon.push_back({seen[static_cast<std::size_t>(surface.triangles[f][k])],
+                           Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k))});
+      }
+      polygon = clip(polygon);
+      for (std::size_t k = 2; k < polygon.size(); ++k) {
+        draw(static_cast<std::int32_t>(f), {polygon[0], polygon[k - 1], polygon[k]});
+      }
+    }
+  }
+  [[nodiscard]] const Sample& at(int x, int y) const {
+    return samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
+
+ private:
+  [[nodiscard]] std::vector<Corner> clip(const std::vector<Corner>& polygon) const {
+    std::vector<Corner> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Corner &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+      const double a = from.camera.z() - camera_.near_depth(), b = to.camera.z() - camera_.near_depth();
+      if (a >= 0) kept.push_back(from);
+      if ((a < 0) != (b < 0)) {
+        const double s = a / (a - b);
+        kept.push_back({from.camera + s * (to.camera - from.camera), from.weight + s * (to.weight - from.weight)});
+      }
+    }
+    return kept;
+  }
+
+  void draw(std::int32_t face, const std::array<Corner, 3>& corner) {
+    std::array<Eigen::Vector2d, 3> screen;
+    for (std::size_t k = 0; k < 3; ++k) screen[k] = camera_.to_screen(corner[k].camera);
+    for_each_covered(screen, width_, height_, [&](int x, int y, const Eigen::Vector3d& flat) {
+      // Weights in space are those on the screen divided by the depths.
+      Eigen::Vector3d w(flat[0] / corner[0].camera.z(), flat[1] / corner[1].camera.z(), flat[2] / corner[2].camera.z());
+      const double depth = 1 / w.sum();
+      w *= depth;
+      Sample& sample =
+          samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+      if (!(depth < sample.depth)) return;
+      sample = {face, depth, w[0] * corner[0].weight + w[1] * corner[1].weight + w[2] * corner[2].weight};
+    });
+  }
+
+  const Camera& camera_;
+  int width_, height_;
+  std::vector<Sample> samples_;
+};
+
+class Shader {
+ public:
+  Shader(const RenderSurface& surface, const Camera& camera, const View& view, const Bounds& stage)
+      : surface_(surface), camera_(camera), lights_(make_lights(surface, view, stage)), stage_(stage) {}
+
+  [[nodiscard]] Vec3 background(double height) const { return kHorizon + height * (kZenith - kHorizon); }
+
+  [[nodiscard]] Vec3 colour(const Sample& sample, double height) const {
+    if (sample.face == kNoFace) return background(height);
+    const auto& t = surface_.triangles[static_cast<std::size_t>(sample.face)];
+    std::array<Vec3, 3> corner;
+    Vec3 point = Vec3::Zero(), smooth = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = surface_.points[static_cast<std::size_t>(t[k])];
+      point += sample.weight[static_cast<Eigen::Index>(k)] * corner[k];
+      smooth += sample.weight[static_cast<Eigen::Index>(k)] * surface_.normals[static_cast<std::size_t>(t[k])];
+    }
+    const Vec3 to_eye = (camera_.eye() - point).normalized();
+    Vec3 flat = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    const bool front = flat.dot(to_eye) >= 0;
+    if (!front) flat = -flat;
+    if (smooth.dot(flat) < 0) smooth = -smooth;
+    const Vec3 normal = smooth.norm() > 0 ? smooth.normalized() : flat;
+    const bool body = surface_.is_body[static_cast<std::size_t>(sample.face)] != 0;
+    const Vec3 lit = albedo(body, front).cwiseProduct(light_at(point, normal));
+    return body ? fade(lit, point, height) : lit;
+  }
+
+ private:
+  [[nodiscard]] static Vec3 albedo(bool body, bool front) { return body ? kBody : (front ? kClothFront : kClothBack); }
+
+  [[nodiscard]] Vec3 light_at(const Vec3& point, const Vec3& normal) const {
+    Vec3 sum = 0.10 * kSkyColour;  // light that came by more than one reflection
+    for (const Light& light : lights_) {
+      const double cosine = normal.dot(light.direction);
+      if (cosine > 0) sum += cosine * light.shadow.light_at(point, normal) * light.colour;
+    }
+    return sum;
+  }
+
+  // A wide floor goes over into the background far from the cloth instead of ending in an edge.
+  [[nodiscard]] Vec3 fade(const Vec3& lit, const Vec3& point, double height) const {
+    const double distance = (point - stage_.center()).norm() / stage_.radius();
+    const double s = std::clamp((distance - 1.2) / 1.8, 0.0, 1.0);
+    return lit + s * s * (3 - 2 * s) * (background(height) - lit);
+  }
+
+  const RenderSurface& surface_;
+  const Camera& camera_;
+  std::vector<Light> lights_;
+  Bounds stage_;
+};
+
+// Linear light to 8 bits: the curve x / (1 + x) scaled so that 1 stays below white, then the sRGB transfer function.
+std::uint8_t to_byte(double linear) {
+  const double mapped = linear * (1 + linear / 9) / (1 + linear);
+  const double srgb = mapped <= 0.0031308 ? 12.92 * mapped : 1.055 * std::pow(mapped, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(srgb, 0.0, 1.0)));
+}
+
+}  // namespace
+
+io::Picture render(const RenderSurface& surface, const View& view, const Stage& stage, int width, int height) {
+  const int samples_wide = kSamples * width, samples_high = kSamples * height;
+  const Camera camera(view, stage, samples_wide, samples_high);
+  const DepthBuffer buffer(surface, camera, samples_wide, samples_high);
+  const Shader shader(surface, camera, view, stage.bounds);
+  io::Picture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height * 3))};
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      Vec3 sum = Vec3::Zero();
+      for (int j = 0; j < kSamples; ++j) {
+        for (int i = 0; i < kSamples; ++i) {
+          const int row = kSamples * y + j;
+          sum += shader.colour(buffer.at(kSamples * x + i, row), 1 - double(row) / samples_high);
+        }
+      }
+      for (int k = 0; k < 3; ++k) {
+        picture.rgb[static_cast<std::size_t>((y * width + x) * 3 + k)] = to_byte(sum[k] / (kSamples * kSamples));
+      }
+    }
+  });
+  return picture;
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,48 @@
+#include "cli/render/surface.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+namespace selvage::cli {
+
+RenderSurface make_render_surface(const io::MeshData& mesh) {
+  RenderSurface surface;
+  for (const auto& point : mesh.points) surface.points.emplace_back(point[0], point[1], point[2]);
+  surface.triangles = mesh.triangles;
+  surface.is_body.assign(mesh.triangles.size(), 0);
+  for (const io::Group& group : mesh.groups) {
+    if (group.role != io::Group::Role::kBody) continue;
+    std::fill(surface.is_body.begin() + group.face_begin, surface.is_body.begin() + group.face_end, std::uint8_t{1});
+  }
+  surface.normals.assign(surface.points.size(), Vec3::Zero());
+  for (const auto& t : mesh.triangles) {
+    const Vec3 &a = surface.points[static_cast<std::size_t>(t[0])], &b = surface.points[static_cast<std::size_t>(t[1])],
+               &c = surface.points[static_cast<std::size_t>(t[2])];
+    const Vec3 normal = (b - a).cross(c - a);
+    for (const std::int32_t corner : t) surface.normals[static_cast<std::size_t>(corner)] += normal;
+  }
+  for (Vec3& normal : surface.normals) normal.normalize();
+  return surface;
+}
+
+void Bounds::add(const Vec3& point) {
+  lower = lower.cwiseMin(point);
+  upper = upper.cwiseMax(point);
+}
+
+void Stage::add_cloth(const RenderSurface& surface) {
+  const bool all = std::find(surface.is_body.begin(), surface.is_body.end(), 0) == surface.is_body.end();
+  std::vector<std::uint8_t> wanted(surface.points.size());
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+    if (surface.is_body[f] != 0 && !all) continue;
+    for (const std::int32_t corner : surface.triangles[f]) wanted[static_cast<std::size_t>(corner)] = 1;
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i] == 0) continue;
+    points.push_back(surface.points[i]);
+    bounds.add(surface.points[i]);
+  }
+}
+
+}  // namespace selvage::cli

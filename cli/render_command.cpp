@@ -1,0 +1,72 @@
+#include "cli/render_command.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/render/contact_sheet.h"
+#include "cli/terminal.h"
+
+namespace selvage::cli {
+namespace {
+
+struct RenderArguments {
+  std::vector<std::filesystem::path> sources;
+  std::filesystem::path picture;
+  std::vector<std::size_t> frames;
+  std::size_t tiles = 12;
+  int columns = 4;
+  int width = 1600;
+  View view;
+};
+
+ExitCode render_sequence(const RenderArguments& arguments) {
+  const std::unique_ptr<io::SequenceReader> sequence = io::open_sequence(arguments.sources);
+  SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};
+  if (options.frames.empty()) options.frames = spread_frames(*sequence, arguments.tiles);
+  for (const std::size_t frame : options.frames) {
+    if (frame >= sequence->frame_count()) {
+      throw UsageError(fmt::format("--frames {}: the sequence has {} frames, from 0", frame, sequence->frame_count()));
+    }
+  }
+  if (options.frames.empty()) throw io::Error(io::ErrorKind::kBadInput, "the sequence has no frames; nothing to draw");
+  ProgressBar bar("drawing");
+  io::write_png(arguments.picture, render_sheet(*sequence, options,
+                                                [&](std::size_t done, std::size_t total) { bar.update(done, total); }));
+  return ExitCode::kClean;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Job& job) {
+  CLI::App& command =
+      add_command(program, "render", "Draw frames of a sequence on one picture: cloth warm in front and cool behind",
+                  "selvage render demo/curtain -o sheet.png");
+  const auto arguments = std::make_shared<RenderArguments>();
+  command.add_option("sequence", arguments->sources, "A sequence folder, an .npz file, or mesh files in order")
+      ->required();
+  command.add_option("-o,--output", arguments->picture, "The PNG file")->required();
+  CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")->delimiter(',');
+  command.add_option("--tiles", arguments->tiles, "How many frames, spread evenly in time")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->excludes(frames);
+  command.add_option("--columns", arguments->columns, "Tiles a row")->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--width", arguments->width, "Pixels of the whole sheet")
+      ->check(CLI::Range(200, 20000))
+      ->capture_default_str();
+  command.add_option("--azimuth", arguments->view.azimuth_deg, "Where the camera stands about the up axis, degrees")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  command.add_option("--elevation", arguments->view.elevation_deg, "The camera's height above the horizon, degrees")
+      ->check(CLI::Range(-89.0, 89.0))
+      ->capture_default_str();
+  command.add_option("--up", arguments->view.up, "The axis that points up")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, UpAxis>{{"y", UpAxis::kY}, {"z", UpAxis::kZ}}));
+  command.callback([arguments, &job] { job = [arguments] { return render_sequence(*arguments); }; });
+}
+
+}  // namespace selvage::cli
