@@ -7,6 +7,7 @@
 #include "cli/fuzz_command.h"
 #include "cli/interrupt.h"
 #include "cli/render_command.h"
+#include "cli/sim_command.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
 
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   add_bench_command(program, job);
   add_fuzz_command(program, job);
   add_render_command(program, job);
+  add_sim_command(program, job);
   add_verify_command(program, job);
 
   try {

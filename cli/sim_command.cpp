@@ -1,0 +1,163 @@
+#include "cli/sim_command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "cli/interrupt.h"
+#include "cli/terminal.h"
+#include "sim/recorder.h"
+#include "sim/scene_reader.h"
+#include "sim/step.h"
+#include "verify/check.h"
+
+namespace selvage::cli {
+namespace {
+
+struct SimArguments {
+  std::filesystem::path scene, output;
+  std::optional<std::int64_t> frames;
+  std::optional<std::size_t> threads;
+  io::SequenceKind record = io::SequenceKind::kFrames;
+  bool resume = false;
+};
+
+std::string part_of_face(const sim::World& world, std::int32_t face) {
+  for (const io::Group& group : world.groups) {
+    if (face >= group.face_begin && face < group.face_end) return group.name;
+  }
+  return "?";
+}
+
+std::string part_of_vertex(const sim::World& world, VertexId vertex) {
+  return part_of_face(world, world.mesh.vertex_owner[static_cast<std::size_t>(vertex)]);
+}
+
+// S1 begins with an intersection-free state, so the start is decided exactly and refused with a witness.
+void refuse_intersecting_start(const sim::Simulation& simulation) {
+  const sim::World& world = simulation.world();
+  std::vector<std::uint8_t> is_body(world.triangles.size());
+  for (const io::Group& group : world.groups) {
+    if (group.role != io::Group::Role::kBody) continue;
+    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
+  }
+  std::vector<verify::Point> V(static_cast<std::size_t>(simulation.x().rows()));
+  for (std::size_t i = 0; i < V.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    V[i] = {simulation.x()(row, 0), simulation.x()(row, 1), simulation.x()(row, 2)};
+  }
+  verify::CheckOptions options;
+  options.max_violations = 1;
+  const verify::CheckResult result = verify::check_frame({world.triangles, is_body}, V, options);
+  if (result.violations_total.total() == 0) return;
+  const verify::Violation& first = result.violations.at(0);
+  std::string vertices;
+  std::string parts;
+  for (const std::int32_t vertex : first.vertices) {
+    if (vertex < 0) continue;
+    vertices += fmt::format("{}{}", vertices.empty() ? "" : ", ", vertex);
+    const std::string part = part_of_vertex(world, vertex);
+    if (parts.find("\"" + part + "\"") == std::string::npos) {
+      parts += fmt::format("{}\"{}\"", parts.empty() ? "" : " and ", part);
+    }
+  }
+  throw io::Error(io::ErrorKind::kBadInput,
+                  fmt::format("{}: the start has {} intersecting pairs; the first is of {} at vertices {}: move them "
+                              "apart",
+                              simulation.scene().file.string(), result.violations_total.total(), parts, vertices));
+}
+
+void print_witness(const sim::Simulation& simulation, const sim::CollisionStepReport& report) {
+  fmt::print(stderr, "stopped at {:.6f} s: no position of the cloth is safe between its scripted bodies",
+             simulation.clock().time_s());
+  if (report.witness) {
+    const sim::World& world = simulation.world();
+    const Collision& pair = *report.witness;
+    std::string parts;
+    for (const VertexId vertex : pair_vertices(world.mesh, pair.kind, pair.first, pair.second)) {
+      parts += fmt::format("{}{} ({})", parts.empty() ? "" : ", ", vertex, part_of_vertex(world, vertex));
+    }
+    fmt::print(stderr, "; witness: {} at vertices {}", pair.kind == PairKind::kEe ? "edge-edge" : "vertex-face", parts);
+  }
+  fmt::print(stderr, "\nmove the bodies apart, or set squeeze = \"yield\" to let them wait\n");
+}
+
+void print_totals(const sim::RunTotals& totals) {
+  fmt::print("{} frames, {} steps ({} tried with a longer step first)\n", totals.frames, totals.steps, totals.halvings);
+  fmt::print("repulsions {}, frictions {}\n", totals.repulsions, totals.frictions);
+  fmt::print("steps with collisions {}, impulse rounds {}, zone rounds {} (largest zone {} vertices)\n",
+             totals.steps_with_collisions, totals.impulse_rounds, totals.zone_rounds, totals.largest_zone_vertices);
+  fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}\n", totals.fail_safe_vertices,
+             totals.pairs_below_tolerance, totals.waiting_bodies);
+  fmt::print("seconds: dynamics {:.1f}, collision step {:.1f}, final velocity {:.1f}, recording {:.1f}\n",
+             totals.dynamics_s, totals.collision_s, totals.velocity_s, totals.record_s);
+}
+
+ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
+  const std::int64_t frame_count = simulation.scene().time.frame_count;
+  ProgressBar bar("simulating");
+  while (simulation.clock().state().frame < frame_count) {
+    bar.update(static_cast<std::size_t>(simulation.clock().state().frame), static_cast<std::size_t>(frame_count));
+    if (interrupted()) {
+      recorder.finish(sim::RunEnd::kInterrupted);
+      return ExitCode::kInterrupted;
+    }
+    const sim::StepResult step = simulation.step();
+    if (step.report.status == sim::StepStatus::kInvalidInput) {
+      throw io::Error(io::ErrorKind::kBadInput,
+                      fmt::format("{}: at {:.6f} s {}; lower dynamics_step_s or raise damping_ratio",
+                                  simulation.scene().file.string(), simulation.clock().time_s(),
+                                  describe(step.report.input_error)));
+    }
+    if (step.report.status == sim::StepStatus::kStopped) {
+      recorder.finish(sim::RunEnd::kStopped);
+      print_witness(simulation, step.report);
+      return ExitCode::kViolation;
+    }
+    recorder.record(step);
+  }
+  recorder.finish(sim::RunEnd::kComplete);
+  return ExitCode::kClean;
+}
+
+ExitCode simulate(const SimArguments& arguments) {
+  std::optional<tbb::global_control> limit;
+  if (arguments.threads) limit.emplace(tbb::global_control::max_allowed_parallelism, *arguments.threads);
+  sim::Scene scene = sim::read_scene(arguments.scene);
+  if (arguments.frames) scene.time.frame_count = *arguments.frames;
+  sim::Simulation simulation(scene);
+  refuse_intersecting_start(simulation);
+  fmt::print(stderr, "{}", sim::describe(simulation.scene(), simulation.world()));
+  sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION);
+  if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
+  const ExitCode code = run(simulation, recorder);
+  print_totals(recorder.totals());
+  return code;
+}
+
+}  // namespace
+
+void add_sim_command(CLI::App& program, Job& job) {
+  CLI::App& command = add_command(program, "sim", "Simulate a scene; every step is certified free of intersections",
+                                  "selvage sim sim/scenes/demo.toml -o demo/curtain --record steps");
+  const auto arguments = std::make_shared<SimArguments>();
+  command.add_option("scene", arguments->scene, "The scene file (docs/scenes.md)")->required();
+  command.add_option("-o,--output", arguments->output, "The sequence folder to write")->required();
+  command.add_option("--frames", arguments->frames, "Frames to simulate, instead of what the scene says")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{999'999}));
+  command.add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--record", arguments->record, "frames, or steps: all that was certified")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, io::SequenceKind>{
+          {"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}}));
+  command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");
+  command.callback([arguments, &job] { job = [arguments] { return simulate(*arguments); }; });
+}
+
+}  // namespace selvage::cli
