@@ -1,0 +1,184 @@
+#include "sim/recorder.h"
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "io/sequence.h"
+#include "tests/sim/small_scene.h"
+
+namespace selvage {
+
+using namespace sim;
+using testing::ScratchFolder;
+using testing::small_scene_text;
+
+namespace {
+
+constexpr int kFrames = 8;
+const char* const kProducer = "test";
+
+std::string slurp(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+bool same_bits(const io::Points& points, const Positions& x) {
+  return points.size() == static_cast<std::size_t>(x.rows()) &&
+         std::memcmp(points.data(), x.data(), points.size() * sizeof(points[0])) == 0;
+}
+
+// Steps until `frames` whole frames are done, or `step_limit` steps; finishes the recording only if asked to.
+void run(Simulation& simulation, Recorder& recorder, std::int64_t frames, int step_limit = 1 << 20) {
+  while (simulation.clock().state().frame < frames && step_limit-- > 0) {
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    recorder.record(step);
+  }
+}
+
+class RecorderTest : public ::testing::Test {
+ protected:
+  ScratchFolder folder_;
+  Scene scene_ = testing::write_and_read_scene(folder_.path() / "small.toml", small_scene_text(kFrames));
+};
+
+}  // namespace
+
+TEST_F(RecorderTest, WritesTheBitsThatWereSimulated) {
+  Simulation simulation(scene_);
+  std::vector<Positions> states = {simulation.x()};
+  std::vector<double> times = {0};
+  {
+    Recorder recorder(folder_.path() / "steps", simulation, io::SequenceKind::kSteps, false, kProducer);
+    while (simulation.clock().state().frame < kFrames) {
+      recorder.record(simulation.step());
+      states.push_back(simulation.x());
+      times.push_back(simulation.clock().time_s());
+    }
+    recorder.finish(RunEnd::kComplete);
+  }
+  const auto sequence = io::open_sequence({folder_.path() / "steps"});
+  ASSERT_EQ(sequence->frame_count(), states.size());
+  EXPECT_EQ(sequence->kind(), io::SequenceKind::kSteps);
+  ASSERT_EQ(sequence->groups().size(), 3u);
+  EXPECT_EQ(sequence->groups()[1].role, io::Group::Role::kBody);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    EXPECT_EQ(sequence->time(i), times[i]);
+    EXPECT_TRUE(same_bits(sequence->frame(i).points, states[i])) << "frame " << i;
+  }
+  EXPECT_EQ(sequence->frame(0).triangles, simulation.world().triangles);
+}
+
+TEST_F(RecorderTest, FramesAreTheStepsThatEndAFrame) {
+  Simulation simulation(scene_);
+  std::vector<Positions> states = {simulation.x()};
+  {
+    Recorder recorder(folder_.path() / "frames", simulation, io::SequenceKind::kFrames, false, kProducer);
+    while (simulation.clock().state().frame < kFrames) {
+      recorder.record(simulation.step());
+      if (simulation.clock().at_frame()) states.push_back(simulation.x());
+    }
+  }
+  const auto sequence = io::open_sequence({folder_.path() / "frames"});
+  ASSERT_EQ(sequence->frame_count(), std::size_t{kFrames} + 1);
+  for (std::size_t i = 0; i < states.size(); ++i) EXPECT_TRUE(same_bits(sequence->frame(i).points, states[i]));
+}
+
+TEST_F(RecorderTest, AKilledRunResumesWithTheSameBits) {
+  for (const io::SequenceKind kind : {io::SequenceKind::kSteps, io::SequenceKind::kFrames}) {
+    const auto whole = folder_.path() / "whole", torn = folder_.path() / "torn";
+    std::filesystem::remove_all(whole);
+    std::filesystem::remove_all(torn);
+    Simulation uninterrupted(scene_);
+    Recorder complete(whole, uninterrupted, kind, false, kProducer);
+    run(uninterrupted, complete, kFrames);
+    // Killed twice: once before the first frame is whole, once later in the middle of a frame.
+    for (const int steps : {1, 9, 1 << 20}) {
+      Simulation simulation(scene_);
+      Recorder recorder(torn, simulation, kind, true, kProducer);
+      run(simulation, recorder, kFrames, steps);
+      if (steps < 1 << 20) continue;
+      const auto a = io::open_sequence({whole}), b = io::open_sequence({torn});
+      ASSERT_EQ(a->frame_count(), b->frame_count());
+      for (std::size_t i = 0; i < a->frame_count(); ++i) {
+        EXPECT_EQ(slurp(whole / a->frame_name(i)), slurp(torn / b->frame_name(i)));
+        EXPECT_EQ(a->frame(i).points, b->frame(i).points) << "frame " << i;
+        EXPECT_EQ(a->time(i), b->time(i));
+      }
+      EXPECT_EQ(recorder.totals().steps, complete.totals().steps);
+      EXPECT_EQ(recorder.totals().repulsions, complete.totals().repulsions);
+      EXPECT_EQ(recorder.totals().halvings, complete.totals().halvings);
+      EXPECT_GT(recorder.totals().repulsions, 0) << "contacts on both sides of a kill";
+    }
+  }
+}
+
+TEST_F(RecorderTest, AnInterruptedRunResumesInTheMiddleOfAFrame) {
+  const auto torn = folder_.path() / "torn";
+  Simulation whole(scene_);
+  while (whole.clock().state().frame < kFrames) (void)whole.step();
+  {
+    Simulation simulation(scene_);
+    Recorder recorder(torn, simulation, io::SequenceKind::kFrames, false, kProducer);
+    run(simulation, recorder, kFrames, 11);
+    ASSERT_FALSE(simulation.clock().at_frame());
+    recorder.finish(RunEnd::kInterrupted);
+    EXPECT_NE(slurp(torn / "run.json").find("\"end\": \"interrupted\""), std::string::npos);
+  }
+  Simulation simulation(scene_);
+  Recorder recorder(torn, simulation, io::SequenceKind::kFrames, true, kProducer);
+  EXPECT_TRUE(recorder.resumed());
+  EXPECT_FALSE(simulation.clock().at_frame());
+  run(simulation, recorder, kFrames);
+  EXPECT_EQ(simulation.x(), whole.x());
+}
+
+TEST_F(RecorderTest, RefusesWhatIsNotItsOwn) {
+  const auto output = folder_.path() / "out";
+  {
+    Simulation simulation(scene_);
+    Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
+    run(simulation, recorder, 2);
+  }
+  Simulation simulation(scene_);
+  EXPECT_THROW(Recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer), io::Error) << "not --resume";
+
+  const Scene other =
+      testing::write_and_read_scene(folder_.path() / "other.toml", small_scene_text(kFrames, "drag_1_s = 1\n"));
+  Simulation other_simulation(other);
+  EXPECT_THROW(Recorder(output, other_simulation, io::SequenceKind::kFrames, true, kProducer), io::Error);
+
+  const auto file = output / "checkpoint.bin";
+  const std::string good = slurp(file);
+  for (const std::size_t position : {std::size_t{3}, std::size_t{40}, good.size() / 2, good.size() - 1}) {
+    std::string bad = good;
+    bad[position] = static_cast<char>(bad[position] ^ 1);
+    std::ofstream(file, std::ios::binary) << bad;
+    EXPECT_THROW((void)read_checkpoint(file), io::Error) << "byte " << position;
+    std::ofstream(file, std::ios::binary) << good.substr(0, position);
+    EXPECT_THROW((void)read_checkpoint(file), io::Error) << "cut at " << position;
+  }
+  std::ofstream(file, std::ios::binary) << good;
+  EXPECT_TRUE(read_checkpoint(file).has_value());
+  EXPECT_EQ(io::open_sequence({output})->frame_count(), 3u) << "nothing was lost by the refusals";
+}
+
+TEST_F(RecorderTest, RunJsonHasTheTotals) {
+  Simulation simulation(scene_);
+  Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
+  run(simulation, recorder, 2);
+  recorder.finish(RunEnd::kComplete);
+  const std::string json = slurp(folder_.path() / "out" / "run.json");
+  for (const std::string& part :
+       {std::string("\"schema\": \"selvage.run/1\""), std::string("\"frames\": 2,"),
+        std::string("\"end\": \"complete\""), "\"steps\": " + std::to_string(recorder.totals().steps) + ","}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace selvage

@@ -1,0 +1,266 @@
+#include "sim/step.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "tests/sim/small_scene.h"
+#include "verify/check.h"
+
+namespace selvage {
+
+using namespace sim;
+using testing::ScratchFolder;
+using testing::small_scene_text;
+
+namespace {
+
+Scene small_scene(int frames, const std::string& extra = "", const std::string& collision = "") {
+  return parse_scene(small_scene_text(frames, extra, collision), "small.toml");
+}
+
+std::vector<verify::Point> points_of(const Positions& x) {
+  std::vector<verify::Point> points;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
+  return points;
+}
+
+// Exactly: the frame, and the motion that led to it.
+std::int64_t violations(const World& world, const Positions& x_t0, const Positions& x_t1) {
+  std::vector<std::uint8_t> is_body(world.triangles.size());
+  for (const io::Group& group : world.groups) {
+    for (FaceId f = group.face_begin; f < group.face_end; ++f) {
+      is_body[static_cast<std::size_t>(f)] = group.role == io::Group::Role::kBody;
+    }
+  }
+  const verify::Surface surface{world.triangles, is_body};
+  return verify::check_frame(surface, points_of(x_t1), {}).violations_total.total() +
+         verify::check_motion(surface, points_of(x_t0), points_of(x_t1), {}).violations_total.total();
+}
+
+}  // namespace
+
+TEST(Simulation, EveryStepOfADrapeIsExactlyFreeAndBodiesFollowTheirScripts) {
+  Simulation simulation(small_scene(14));
+  const World& world = simulation.world();
+  std::int64_t repulsions = 0, fail_safe_vertices = 0;
+  while (simulation.clock().state().frame < 14) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    EXPECT_EQ(violations(world, before, simulation.x()), 0) << "at " << simulation.clock().time_s() << " s";
+    repulsions += step.report.repulsions;
+    fail_safe_vertices += step.report.fail_safe_vertices;
+    Positions scripted = simulation.x();
+    for (const Collider& body : world.colliders) body.place_at(simulation.clock().time_s(), false, scripted);
+    EXPECT_EQ(scripted, simulation.x()) << "S4";
+  }
+  EXPECT_GT(repulsions, 100) << "the cloth has met the ball";
+  EXPECT_EQ(fail_safe_vertices, 0);
+}
+
+TEST(Simulation, SameBitsForAnyThreadCount) {
+  Positions reference;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Simulation simulation(small_scene(9));
+    while (simulation.clock().state().frame < 9) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+    if (threads == 1) reference = simulation.x();
+    EXPECT_EQ(simulation.x(), reference) << threads << " threads";
+  }
+}
+
+TEST(Simulation, Float32StatesLieOnTheLattice) {
+  Simulation simulation(small_scene(8, "", "precision = \"float32\"\n"));
+  const auto on_lattice = [&] { return simulation.x() == Positions(simulation.x().cast<float>().cast<double>()); };
+  EXPECT_TRUE(on_lattice());
+  while (simulation.clock().state().frame < 8) {
+    ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+    ASSERT_TRUE(on_lattice());
+  }
+}
+
+TEST(Simulation, StepsAreHalvedWhereRepulsionsAreNotEnough) {
+  // Half a metre a step at first: the cloth would jump over the thickness of the floor.
+  Simulation simulation(parse_scene(R"(
+[time]
+frames_per_s = 10
+frames = 3
+min_step_s = 0.003
+[[cloth]]
+sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
+position_m = [0, 0, 0.5]
+velocity_m_s = [0, 0, -6]
+density_kg_m2 = 0.3
+stretch_n_m = 40
+shear_n_m = 20
+[[body]]
+sheet = {nx = 2, ny = 2, width_m = 6, height_m = 6}
+)",
+                                    "fall.toml"));
+  const StepResult first = simulation.step();
+  ASSERT_EQ(first.report.status, StepStatus::kSafe);
+  EXPECT_GT(first.halvings, 0);
+  EXPECT_LT(first.dt_s, 0.1);
+  EXPECT_EQ(first.report.first_collisions, 0) << "half steps until the cloth has not reached the floor";
+  double shortest = 1;
+  while (simulation.clock().state().frame < 3) {
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    shortest = std::min(shortest, step.dt_s);
+    EXPECT_TRUE(step.report.first_collisions == 0 || step.dt_s < 0.00625) << "collisions at the shortest step only";
+  }
+  EXPECT_EQ(shortest, 0.1 / 32);
+  EXPECT_GT(simulation.x().topRows(16).col(2).minCoeff(), 0);
+}
+
+TEST(Simulation, PinsHoldAndLetGo) {
+  Simulation simulation(parse_scene(R"(
+gravity_m_s2 = [0, 0, -9.81]
+[time]
+frames = 20
+[[cloth]]
+sheet = {nx = 5, ny = 5, width_m = 0.4, height_m = 0.4}
+density_kg_m2 = 0.3
+stretch_n_m = 40
+shear_n_m = 20
+damping_ratio = 0.2
+[[cloth.pin]]
+edge = "top"
+release_s = 0.4
+)",
+                                    "pins.toml"));
+  const Positions start = simulation.x();
+  while (simulation.clock().time_s() < 0.4) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+  EXPECT_EQ(Positions(simulation.x().middleRows(20, 5)), Positions(start.middleRows(20, 5)));
+  EXPECT_LT(simulation.x()(2, 2), -0.05) << "the free edge has swung down";
+  while (simulation.clock().state().frame < 20) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+  EXPECT_LT(simulation.x()(22, 2), start(22, 2) - 0.1) << "free fall since the release";
+}
+
+namespace {
+
+// Two boxes close on a sheet between them.
+Scene squeeze_scene(const std::string& policy) {
+  return parse_scene("squeeze = \"" + policy + R"("
+[time]
+frames = 10
+max_step_s = 0.01
+min_step_s = 0.004
+[[cloth]]
+sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
+density_kg_m2 = 0.3
+stretch_n_m = 40
+shear_n_m = 20
+[[body]]
+name = "anvil"
+box = {size_m = [1, 1, 0.1]}
+position_m = [0, 0, -0.06]
+[[body]]
+name = "hammer"
+box = {size_m = [1, 1, 0.1]}
+[[body.key]]
+time_s = 0
+position_m = [0, 0, 0.08]
+[[body.key]]
+time_s = 0.2
+position_m = [0, 0, 0.04]
+)",
+                     "squeeze.toml");
+}
+
+}  // namespace
+
+TEST(Simulation, StopsWithAWitnessWhereBodiesSqueeze) {
+  Simulation simulation(squeeze_scene("stop"));
+  StepResult step;
+  Positions before;
+  do {
+    before = simulation.x();
+    step = simulation.step();
+  } while (step.report.status == StepStatus::kSafe && simulation.clock().state().frame < 10);
+  ASSERT_EQ(step.report.status, StepStatus::kStopped);
+  EXPECT_TRUE(step.report.witness.has_value());
+  EXPECT_EQ(simulation.x(), before) << "nothing is advanced";
+}
+
+TEST(Simulation, BodiesWaitUnderYieldAndTheClothStaysFree) {
+  Simulation simulation(squeeze_scene("yield"));
+  std::size_t waits = 0;
+  while (simulation.clock().state().frame < 10) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    ASSERT_EQ(violations(simulation.world(), before, simulation.x()), 0);
+    waits += step.report.waiting_bodies.size();
+  }
+  EXPECT_GT(waits, 0u);
+}
+
+TEST(World, PartsAreInOrderAndPinsAreColliders) {
+  const Scene scene = small_scene(1);
+  const World world = build_world(scene);
+  ASSERT_EQ(world.groups.size(), 3u);
+  EXPECT_EQ(world.groups[0].name, "sheet");
+  EXPECT_EQ(world.groups[2].role, io::Group::Role::kBody);
+  EXPECT_EQ(world.groups[2].face_end, static_cast<FaceId>(world.triangles.size()));
+  EXPECT_EQ(world.cloth_vertex_count, 196);
+  EXPECT_NEAR(1 / world.inverse_mass[0], 0.3 * 0.49 / 196, 1e-15);
+  EXPECT_EQ(world.inverse_mass.back(), 0);
+  EXPECT_EQ(world.body_count, 2);
+}
+
+TEST(World, DescriptionNamesOnlyWhatIsModelled) {
+  const Scene full = small_scene(1);
+  const std::string all = describe(full, build_world(full));
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "ball"}) {
+    EXPECT_NE(all.find(part), std::string::npos) << part;
+  }
+  const Scene bare = parse_scene(R"(
+strain_limit = 0
+strain_rate_limit = 0
+[time]
+frames = 1
+[[cloth]]
+sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
+density_kg_m2 = 0.3
+stretch_n_m = 40
+)",
+                                 "bare.toml");
+  const std::string least = describe(bare, build_world(bare));
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "body", "pin", "drag"}) {
+    EXPECT_EQ(least.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(World, RefusesAnUnstableDynamicsStep) {
+  std::string text = small_scene_text(1);
+  text.replace(text.find("[time]\n"), 7, "[time]\ndynamics_step_s = 0.02\n");
+  EXPECT_THROW((void)build_world(parse_scene(text, "small.toml")), io::Error);
+}
+
+TEST(World, ReadsMeshFilesBesideTheScene) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path() / "two.obj") << "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 100 100 0\nf 1 2 3\nf 2 4 3\n";
+  const Scene scene = testing::write_and_read_scene(folder.path() / "mesh.toml", R"(
+[time]
+frames = 1
+[[cloth]]
+mesh = {file = "two.obj", scale = 0.01}
+density_kg_m2 = 0.5
+stretch_n_m = 40
+bend_n_m = 1
+masses = "area"
+[[cloth.pin]]
+vertices = [3]
+)");
+  const World world = build_world(scene);
+  EXPECT_EQ(world.x_t0(3, 0), 1);
+  EXPECT_EQ(world.springs.springs().size(), 6u);
+  EXPECT_NEAR(1 / world.inverse_mass[1], 0.5 / 3, 1e-15);
+  EXPECT_EQ(world.colliders.at(0).vertices(), std::vector<VertexId>{3});
+  Scene beyond = scene;
+  beyond.cloths[0].pins[0].vertices = {4};
+  EXPECT_THROW((void)build_world(beyond), io::Error);
+}
+
+}  // namespace selvage
