@@ -1,14 +1,14 @@
 #include "verify/contact.h"
 
 #include <array>
+#include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace selvage::verify {
 namespace {
 
 // Legend. n: normal of the triangle, or of the plane of both edges; f: the coplanarity cubic, n . (a difference between
-// the features); c: lambda n for every weight lambda (barycentric; or along each edge, and one minus that).
+// the features); lambda: the weights of a point of contact (barycentric; or along each edge, and one minus that).
 // g, h: the point p is on the closed segment (x, y) iff g = (p-x) x (p-y) = 0 and h = (p-x) . (p-y) <= 0, also where x
 // = y.
 
@@ -43,13 +43,53 @@ std::optional<Instant> first_time_inside(const OnSegment& condition) {
   return std::nullopt;
 }
 
-/// One vertex-face or edge-edge pair.
-struct Pair {
-  FormVector n;
-  Form f;
-  std::vector<FormVector> c;
-  std::vector<OnSegment> boundary;  ///< features with n = 0 meet iff one of these holds
+/// The point `point` and the segment from `from` to `to`, by their places in a pair.
+struct BoundaryCase {
+  std::size_t point, from, to;
 };
+
+/// Point x[0] and triangle x[1], x[2], x[3]: x[0] = x[1] + alpha e1 + beta e2 in their plane.
+struct VfPair {
+  static constexpr std::array<BoundaryCase, 3> kBoundary = {{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}}};
+
+  explicit VfPair(std::span<const MovingPoint, 4> points)
+      : x(points), e1(x[2] - x[1]), e2(x[3] - x[1]), r(x[0] - x[1]), n(cross(e1, e2)), f(dot(n, r)) {}
+
+  /// lambda n_k for every weight lambda.
+  [[nodiscard]] std::array<Form, 3> weights(std::size_t k) const {
+    Form beta = cross_component(e1, r, k), alpha = cross_component(r, e2, k);
+    Form rest = n[k] - alpha - beta;
+    return {std::move(rest), std::move(alpha), std::move(beta)};
+  }
+
+  std::span<const MovingPoint, 4> x;
+  FormVector e1, e2, r, n;
+  Form f;
+};
+
+/// Edges (x[0], x[1]) and (x[2], x[3]): x[0] + alpha u = x[2] + beta v in their plane.
+struct EePair {
+  static constexpr std::array<BoundaryCase, 4> kBoundary = {{{0, 2, 3}, {1, 2, 3}, {2, 0, 1}, {3, 0, 1}}};
+
+  explicit EePair(std::span<const MovingPoint, 4> points)
+      : x(points), u(x[1] - x[0]), v(x[3] - x[2]), w(x[2] - x[0]), n(cross(u, v)), f(dot(n, w)) {}
+
+  /// lambda n_k for lambda = alpha, 1 - alpha, beta, 1 - beta.
+  [[nodiscard]] std::array<Form, 4> weights(std::size_t k) const {
+    Form alpha = cross_component(w, v, k), beta = cross_component(w, u, k);
+    Form alpha_rest = n[k] - alpha, beta_rest = n[k] - beta;
+    return {std::move(alpha), std::move(alpha_rest), std::move(beta), std::move(beta_rest)};
+  }
+
+  std::span<const MovingPoint, 4> x;
+  FormVector u, v, w, n;
+  Form f;
+};
+
+template <class Pair>
+OnSegment on_boundary(const Pair& pair, const BoundaryCase& boundary) {
+  return on_segment(pair.x[boundary.point], pair.x[boundary.from], pair.x[boundary.to]);
+}
 
 struct Contact {
   bool touches = false;
@@ -57,41 +97,46 @@ struct Contact {
 };
 
 /// REQUIRES f = 0 at the instant.
+template <class Pair>
 Contact contact_at(const Pair& pair, Instant& instant) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int orientation = instant.sign_of(pair.n[k]);
     if (orientation == 0) continue;
-    // Projection along axis k is one-to-one on the plane of contact, where c_k = lambda n_k.
+    // Projection along axis k is one-to-one on the plane of contact, where the weights have the sign of lambda.
     Contact contact{true, true};
-    for (const FormVector& c : pair.c) {
-      const int sign = instant.sign_of(c[k]);
+    for (const Form& weight : pair.weights(k)) {
+      const int sign = instant.sign_of(weight);
       if (sign == -orientation) return {};
       if (sign == 0) contact.is_interior = false;
     }
     return contact;
   }
-  for (const OnSegment& condition : pair.boundary) {
-    if (holds(condition, instant)) return {true, false};
+  // n = 0: the features meet iff a point of one's boundary is on a boundary segment of the other.
+  for (const BoundaryCase& boundary : Pair::kBoundary) {
+    if (holds(on_boundary(pair, boundary), instant)) return {true, false};
   }
   return {};
 }
 
-/// The first time inside (0,1) at which a condition holds. REQUIRES that none does at t = 0.
-std::optional<Instant> first_time_inside(std::span<const OnSegment> conditions) {
+/// The first time inside (0,1) at which a point is on a boundary segment. REQUIRES that none is at t = 0.
+template <class Pair>
+std::optional<Instant> first_boundary_time_inside(const Pair& pair) {
   std::optional<Instant> first;
-  for (const OnSegment& condition : conditions) {
-    std::optional<Instant> instant = first_time_inside(condition);
+  for (const BoundaryCase& boundary : Pair::kBoundary) {
+    std::optional<Instant> instant = first_time_inside(on_boundary(pair, boundary));
     if (instant && (!first || compare(*instant, *first) < 0)) first = std::move(instant);
   }
   return first;
 }
 
+template <class Pair>
 std::optional<FirstTouch> first_touch(const Pair& pair) {
+  if (pair.f.is_definite()) return std::nullopt;
   Instant start = Instant::start(), end = Instant::end();
   if (start.sign_of(pair.f) == 0 && contact_at(pair, start).touches) return FirstTouch{start, false};
   if (pair.f.is_zero()) {
     // Coplanar throughout: a contact that begins inside (0,1) begins at the boundary of a feature, or where n = 0.
-    if (auto instant = first_time_inside(pair.boundary)) return FirstTouch{std::move(*instant), false};
+    if (auto instant = first_boundary_time_inside(pair)) return FirstTouch{std::move(*instant), false};
   } else {
     for (Instant& root : roots_inside(pair.f)) {
       const Contact contact = contact_at(pair, root);
@@ -107,31 +152,8 @@ std::optional<FirstTouch> first_touch(const Pair& pair) {
 
 }  // namespace
 
-std::optional<FirstTouch> first_vf_touch(std::span<const MovingPoint, 4> x) {
-  const MovingPoint &q = x[0], &v0 = x[1], &v1 = x[2], &v2 = x[3];
-  const FormVector e1 = v1 - v0, e2 = v2 - v0, r = q - v0;
-  Pair pair;
-  pair.n = cross(e1, e2);
-  pair.f = dot(pair.n, r);
-  if (pair.f.is_definite()) return std::nullopt;
-  const FormVector c2 = cross(e1, r), c1 = cross(r, e2);
-  pair.c = {pair.n - c1 - c2, c1, c2};
-  pair.boundary = {on_segment(q, v0, v1), on_segment(q, v0, v2), on_segment(q, v1, v2)};
-  return first_touch(pair);
-}
-
-std::optional<FirstTouch> first_ee_touch(std::span<const MovingPoint, 4> x) {
-  const MovingPoint &a0 = x[0], &a1 = x[1], &b0 = x[2], &b1 = x[3];
-  const FormVector u = a1 - a0, v = b1 - b0, w = b0 - a0;
-  Pair pair;
-  pair.n = cross(u, v);
-  pair.f = dot(pair.n, w);
-  if (pair.f.is_definite()) return std::nullopt;
-  const FormVector along_a = cross(w, v), along_b = cross(w, u);
-  pair.c = {along_a, pair.n - along_a, along_b, pair.n - along_b};
-  pair.boundary = {on_segment(a0, b0, b1), on_segment(a1, b0, b1), on_segment(b0, a0, a1), on_segment(b1, a0, a1)};
-  return first_touch(pair);
-}
+std::optional<FirstTouch> first_vf_touch(std::span<const MovingPoint, 4> x) { return first_touch(VfPair(x)); }
+std::optional<FirstTouch> first_ee_touch(std::span<const MovingPoint, 4> x) { return first_touch(EePair(x)); }
 
 std::optional<FirstTouch> first_self_touch(std::span<const MovingPoint, 3> x) {
   const OnSegment condition = on_segment(x[0], x[1], x[2]);

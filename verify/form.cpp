@@ -31,23 +31,45 @@ Form operator-(const Form& a, const Form& b) {
   return difference;
 }
 
-Form operator*(const Form& a, const Form& b) {
-  Form product{a.degree + b.degree, {}};
+FormVector operator-(const FormVector& a, const FormVector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+namespace {
+
+/// sum += sign * a * b, for a sign of 1 or -1.
+void add_product(Form& sum, const Form& a, const Form& b, int sign) {
+  const auto accumulate = sign > 0 ? mpz_addmul : mpz_submul;
   for (std::size_t i = 0; i <= a.degree; ++i) {
     for (std::size_t j = 0; j <= b.degree; ++j) {
-      mpz_addmul(product.c[i + j].get_mpz_t(), a.c[i].get_mpz_t(), b.c[j].get_mpz_t());
+      accumulate(sum.c[i + j].get_mpz_t(), a.c[i].get_mpz_t(), b.c[j].get_mpz_t());
     }
   }
+}
+
+}  // namespace
+
+Form operator*(const Form& a, const Form& b) {
+  Form product{a.degree + b.degree, {}};
+  add_product(product, a, b, 1);
   return product;
 }
 
-FormVector operator-(const FormVector& a, const FormVector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-FormVector cross(const FormVector& a, const FormVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+Form cross_component(const FormVector& a, const FormVector& b, std::size_t k) {
+  const std::size_t y = (k + 1) % 3, z = (k + 2) % 3;
+  Form component{a[y].degree + b[z].degree, {}};
+  add_product(component, a[y], b[z], 1);
+  add_product(component, a[z], b[y], -1);
+  return component;
 }
 
-Form dot(const FormVector& a, const FormVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+FormVector cross(const FormVector& a, const FormVector& b) {
+  return {cross_component(a, b, 0), cross_component(a, b, 1), cross_component(a, b, 2)};
+}
+
+Form dot(const FormVector& a, const FormVector& b) {
+  Form sum{a[0].degree + b[0].degree, {}};
+  for (std::size_t k = 0; k < 3; ++k) add_product(sum, a[k], b[k], 1);
+  return sum;
+}
 
 int sign_changes(const Form& form) {
   int changes = 0, last = 0;
@@ -61,13 +83,6 @@ int sign_changes(const Form& form) {
 
 int sign_after_start(const Form& form) {
   for (std::size_t i = 0; i <= form.degree; ++i) {
-    if (form.c[i] != 0) return sgn(form.c[i]);
-  }
-  return 0;
-}
-
-int sign_before_end(const Form& form) {
-  for (std::size_t i = form.degree + 1; i-- > 0;) {
     if (form.c[i] != 0) return sgn(form.c[i]);
   }
   return 0;

@@ -32,13 +32,14 @@ struct Form {
 using FormVector = std::array<Form, 3>;
 [[nodiscard]] FormVector operator-(const FormVector& a, const FormVector& b);
 [[nodiscard]] FormVector cross(const FormVector& a, const FormVector& b);
+/// One of its components.
+[[nodiscard]] Form cross_component(const FormVector& a, const FormVector& b, std::size_t k);
 [[nodiscard]] Form dot(const FormVector& a, const FormVector& b);
 
 /// Sign changes of the coefficients, zeros left out.
 [[nodiscard]] int sign_changes(const Form& form);
-/// The sign just after t = 0, and just before t = 1: of the first and the last non-zero coefficient.
+/// The sign just after t = 0: of the first non-zero coefficient.
 [[nodiscard]] int sign_after_start(const Form& form);
-[[nodiscard]] int sign_before_end(const Form& form);
 /// The sign at t = numerator / 2^log2_denominator.
 [[nodiscard]] int sign_at(const Form& form, const mpz_class& numerator, unsigned long log2_denominator);
 

@@ -71,11 +71,12 @@ bool Instant::is_odd_root_of(const Form& form) const {
 
 std::vector<Instant> roots_inside(const Form& form) {
   std::vector<Instant> roots;
-  if (sign_changes(form) == 0) return roots;
-  // Depth first, left before right. An interval with a single sign change has one root. Since the form is square-free,
-  // small enough intervals have at most one change (Vincent's theorem), so this ends.
+  const int changes_of_whole = sign_changes(form);
+  if (changes_of_whole == 0) return roots;
+  // Depth first, left before right. An interval with a single sign change has one root, a simple one. For a square-free
+  // form small enough intervals have at most one change (Vincent's theorem), so this ends.
   Instant whole;
-  whole.defining_ = square_free_part(form);
+  whole.defining_ = changes_of_whole == 1 ? form : square_free_part(form);
   whole.local_ = whole.defining_;
   whole.is_dyadic_ = false;
   std::vector<Instant> pending{std::move(whole)};

@@ -7,7 +7,7 @@
 
 namespace selvage::verify {
 
-/// Either the dyadic rational numerator / 2^log2_denominator, or the only root of a square-free form in the open
+/// Either the dyadic rational numerator / 2^log2_denominator, or the only root, a simple one, of a form in the open
 /// interval from there to (numerator + 1) / 2^log2_denominator. Refining narrows the interval, not the number.
 class Instant {
  public:

@@ -175,9 +175,9 @@ std::array<int, N> weights(Draw& draw, int total) {
 constexpr int kWeightTotal = 3;
 constexpr int kDenominators[] = {1, 2, 3, 5, 8};
 
-/// A motion with sum signed_weights[i] x_i = 0 at a drawn time. Points have zero weight or are free, but for one:
-/// `moved`, whose weight is not zero and whose last position is solved for. It is whole because all others are
-/// multiples of the denominator of the solution.
+/// A motion with sum signed_weights[i] x_i = 0 at a drawn time. All positions are free but one: the last of `moved`,
+/// whose weight is not zero, is solved for. It is whole because all others are multiples of the denominator of the
+/// solution.
 PlantedHit plant(Draw& draw, int range, const std::array<int, 4>& signed_weights, std::size_t moved) {
   const int denominator = kDenominators[draw.integer(0, static_cast<int>(std::size(kDenominators)) - 1)];
   const int numerator = draw.integer(1, denominator);
