@@ -100,24 +100,6 @@ int sign_at(const Form& form, const mpz_class& numerator, unsigned long log2_den
   return sgn(value);
 }
 
-namespace {
-
-/// Substitutes s -> s_s * s + s_t * t and t -> t_s * s + t_t * t: Horner on forms, as sign_at.
-struct Substitution {
-  mpz_class s_s, s_t, t_s, t_t;
-};
-Form substitute(const Form& form, const Substitution& by) {
-  const Form s{1, {by.s_s, by.s_t}}, t{1, {by.t_s, by.t_t}};
-  Form value{0, {form.c[form.degree]}}, s_power{0, {mpz_class(1)}};
-  for (std::size_t i = form.degree; i-- > 0;) {
-    s_power = s_power * s;
-    value = value * t + Form{0, {form.c[i]}} * s_power;
-  }
-  return value;
-}
-
-}  // namespace
-
 // On [0, 1/2]: t = t'/2 and s = s' + t'/2; doubled, s = 2s' + t': first s -> s + t by additions, then s -> 2s by
 // shifts.
 Form left_half(Form form) {
@@ -139,9 +121,12 @@ Form right_half(Form form) {
   return form;
 }
 
-Form restrict_to(const Form& form, const mpz_class& numerator, unsigned long log2_denominator) {
-  const mpz_class denominator = mpz_class(1) << log2_denominator;
-  return substitute(form, {denominator - numerator, denominator - numerator - 1, numerator, numerator + 1});
+Form restrict_to(Form form, const mpz_class& numerator, unsigned long log2_denominator) {
+  for (unsigned long bit = log2_denominator; bit-- > 0;) {
+    const bool is_right = mpz_tstbit(numerator.get_mpz_t(), bit) != 0;
+    form = is_right ? right_half(std::move(form)) : left_half(std::move(form));
+  }
+  return form;
 }
 
 namespace {

@@ -47,7 +47,8 @@ using FormVector = std::array<Form, 3>;
 [[nodiscard]] Form left_half(Form form);
 [[nodiscard]] Form right_half(Form form);
 /// The form on [numerator, numerator + 1] / 2^log2_denominator as a form on [0,1], times a positive constant.
-[[nodiscard]] Form restrict_to(const Form& form, const mpz_class& numerator, unsigned long log2_denominator);
+/// REQUIRES an interval inside [0,1]. Cost: a halving for every level.
+[[nodiscard]] Form restrict_to(Form form, const mpz_class& numerator, unsigned long log2_denominator);
 
 /// A form with exactly the common roots of a and b in (0,1), each as often as in both. REQUIRES not both zero.
 [[nodiscard]] Form common_divisor(const Form& a, const Form& b);
