@@ -20,14 +20,10 @@ Instant Instant::dyadic(mpz_class numerator, unsigned long log2_denominator) {
   return instant;
 }
 
-Instant Instant::half(bool is_right) const {
-  Instant instant;
-  instant.defining_ = defining_;
-  instant.local_ = is_right ? right_half(local_) : left_half(local_);
-  instant.numerator_ = numerator_ * 2 + (is_right ? 1 : 0);
-  instant.log2_denominator_ = log2_denominator_ + 1;
-  instant.is_dyadic_ = false;
-  return instant;
+void Instant::descend(bool is_right) {
+  local_ = is_right ? right_half(std::move(local_)) : left_half(std::move(local_));
+  numerator_ = numerator_ * 2 + (is_right ? 1 : 0);
+  ++log2_denominator_;
 }
 
 void Instant::refine() {
@@ -35,7 +31,7 @@ void Instant::refine() {
   if (middle == 0) {
     *this = dyadic(numerator_ * 2 + 1, log2_denominator_ + 1);
   } else {
-    *this = half(middle == sign_after_start(local_));
+    descend(middle == sign_after_start(local_));
   }
 }
 
@@ -82,11 +78,14 @@ std::vector<Instant> roots_inside(const Form& form) {
     const int changes = piece.is_dyadic_ ? 1 : sign_changes(piece.local_);
     if (changes == 1) roots.push_back(std::move(piece));
     if (changes <= 1) continue;
-    pending.push_back(piece.half(true));
+    Instant right = piece;
+    right.descend(true);
+    pending.push_back(std::move(right));
     if (sign_at_middle(piece.local_) == 0) {
       pending.push_back(Instant::dyadic(piece.numerator_ * 2 + 1, piece.log2_denominator_ + 1));
     }
-    pending.push_back(piece.half(false));
+    piece.descend(false);
+    pending.push_back(std::move(piece));
   }
   return roots;
 }

@@ -31,8 +31,8 @@ class Instant {
   friend int compare(Instant& a, Instant& b);
 
  private:
-  /// One half of the interval; the root need not be there.
-  [[nodiscard]] Instant half(bool is_right) const;
+  /// To one half of the interval; the root need not be there.
+  void descend(bool is_right);
 
   Form defining_;  ///< on [0,1]; unless dyadic
   Form local_;     ///< the same on the interval, which has one sign change
