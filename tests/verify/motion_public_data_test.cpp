@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "io/mesh_reader.h"
 #include "io/query_csv.h"
 #include "tests/public_data.h"
+#include "verify/check.h"
 #include "verify/second_opinion.h"
 
 namespace selvage::verify {
@@ -51,6 +53,38 @@ TEST(PublicTruths, AgreeOnEveryErlebenQuery) {
   }
   EXPECT_EQ(queries, 2500);
   EXPECT_GT(positives, 0);
+}
+
+/// Candidate pairs (boxes of the whole motion overlap, no common vertex) and those that touch, as published.
+struct RealMotion {
+  const char *folder, *first, *last;
+  PairCounts pairs;
+  std::int64_t vf_touches, ee_touches;
+};
+
+TEST(PublicTruths, AgreeOnRealFramePairs) {
+  const auto data = selvage::testing::public_data();
+  if (!data) GTEST_SKIP() << "no public data: set SELVAGE_DATA";
+  const std::vector<RealMotion> motions = {
+      {"cloth-ball", "cloth_ball92.ply", "cloth_ball93.ply", {1'655'541, 5'197'332, 0, 0, 0}, 19'032, 94'822},
+      {"rod-twist", "3036.ply", "3037.ply", {448'270, 2'041'334, 0, 0, 0}, 765, 4'179},
+  };
+  for (const RealMotion& motion : motions) {
+    SCOPED_TRACE(motion.folder);
+    const fs::path folder = *data / "ccd/scalable-ccd" / motion.folder / "frames";
+    if (!fs::is_directory(folder)) GTEST_SKIP() << "no frames in " << folder;
+    const io::MeshData first = io::read_mesh(folder / motion.first), last = io::read_mesh(folder / motion.last);
+    CheckOptions options;
+    options.max_violations = 10;
+    const CheckResult result = check_motion(Surface{first.triangles, {}}, first.points, last.points, options);
+    EXPECT_EQ(result.pairs.vf, motion.pairs.vf);
+    EXPECT_EQ(result.pairs.ee, motion.pairs.ee);
+    EXPECT_EQ(result.violations_total.vf, motion.vf_touches);
+    EXPECT_EQ(result.violations_total.ee, motion.ee_touches);
+    EXPECT_EQ(result.violations_total.self, 0);
+    // The filter is there to keep exact arithmetic off real motions.
+    EXPECT_LT(result.pairs.exact * 1000, result.pairs.vf + result.pairs.ee);
+  }
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ void expect_agreement(std::span<const Family> families, int range, int count) {
 
 TEST(SecondOpinion, AgreesOnLattices) {
   for (const int range : {1, 2, 3, 10}) {
-    expect_agreement(testing::lattice_families(), range, setting("SELVAGE_AGREEMENT_CASES", 60));
+    expect_agreement(testing::lattice_families(), range, setting("SELVAGE_AGREEMENT_CASES", 40));
   }
 }
 
