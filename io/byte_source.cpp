@@ -56,7 +56,8 @@ class PieceSource final : public ByteSource {
 }  // namespace
 
 std::string ByteSource::read(std::uint64_t offset, std::uint64_t count) const {
-  std::string bytes(offset < size() ? std::min(count, size() - offset) : 0, '\0');
+  if (offset >= size()) return {};  // a falsified offset may be so large that no pointer reaches it
+  std::string bytes(std::min(count, size() - offset), '\0');
   read(offset, bytes.data(), bytes.size());
   return bytes;
 }

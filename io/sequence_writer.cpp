@@ -99,7 +99,9 @@ struct SequenceWriter::Impl {
     const std::string faces = npy_bytes(header.triangles);
     write_atomically(folder / kFacesFile, faces);
     rewrite_list();
-    write_atomically(folder / kHeaderFile, to_json(describe(header, crc32(faces))));
+    const std::string json = to_json(describe(header, crc32(faces)));
+    (void)parse_sequence_json(json, folder.string());  // more groups than a reader takes are an error now, not then
+    write_atomically(folder / kHeaderFile, json);
   }
 
   void continue_from(const SequenceHeader& header) {

@@ -123,6 +123,9 @@ TEST(NpzHostile, DamagedArchives) {
   expect_bad("suspiciously many", zip({with(deflated, [](ZipEntry& e) { e.size_error = 1'000'000'000; }), f}));
   expect_bad("suspiciously many",
              zip({with(deflated, [](ZipEntry& e) { e.size_error = std::int64_t{1} << 40; }), f}, true));
+  for (const std::int64_t far : {std::int64_t{1} << 40, std::int64_t{-100}}) {  // the second is nearly 2^64
+    expect_bad("not here", zip({with(v, [&](ZipEntry& e) { e.offset_error = far; }), f}, true));
+  }
   for (const bool zip64 : {false, true}) {
     const std::string whole = zip({deflated, f}, zip64);
     for (std::size_t length = 0; length < whole.size(); ++length) {

@@ -147,6 +147,22 @@ TEST(SequenceFolder, AppendRefusesBadFrames) {
   EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 2u);
 }
 
+TEST(SequenceFolder, HeadersThatNoReaderTakesAreNotWritten) {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const std::string& fragment, const auto& change) {
+    SequenceHeader header = square_header();
+    change(header);
+    expect_error(ErrorKind::kBadInput, fragment, [&] { SequenceWriter(folder.path(), header); });
+    EXPECT_FALSE(fs::exists(folder / "sequence.json"));
+  };
+  refuse("repeats a vertex", [](SequenceHeader& header) { header.triangles[0] = {1, 2, 1}; });
+  refuse("negative index", [](SequenceHeader& header) { header.triangles[0] = {1, 2, -1}; });
+  refuse("the group 'shirt' is not within the 2 faces", [](SequenceHeader& header) { header.groups[0].face_end = 3; });
+  refuse("not UTF-8", [](SequenceHeader& header) { header.groups[0].name = "caf\xe9"; });
+  refuse("not UTF-8", [](SequenceHeader& header) { header.producer = "\xff"; });
+  refuse("larger than a header", [](SequenceHeader& header) { header.groups.resize(20'000); });
+}
+
 TEST(SequenceFolder, AFailedAppendLosesNothingAndTheNextMayWork) {
   const TemporaryFolder folder;
   SequenceWriter writer(folder.path(), square_header());

@@ -1,0 +1,232 @@
+// The system calls of the sequence writer, one after the other made to kill the process, to fail, or to write half. The
+// functions below take the place of libc's in this program alone.
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "io/atomic_file.h"
+#include "io/sequence.h"
+#include "tests/io/support.h"
+
+namespace {
+
+enum class Fault { kNone, kKill, kKillHalfway, kFailOnce, kFailForever, kFailHalfway };
+
+struct Plan {
+  bool is_armed = false;
+  Fault fault = Fault::kNone;
+  int calls_before = 0;
+  std::vector<std::string> log;
+} plan;
+
+std::string name_of(int descriptor) {
+  std::error_code status;
+  return std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), status).filename().string();
+}
+
+/// Counts a call and says whether the fault is due now.
+bool is_due(const std::string& call) {
+  if (!plan.is_armed) return false;
+  plan.log.push_back(call);
+  const bool is_due = plan.fault != Fault::kNone && plan.calls_before-- <= 0;
+  if (is_due && plan.fault == Fault::kKill) ::raise(SIGKILL);
+  if (is_due && plan.fault != Fault::kFailForever) plan.is_armed = false;
+  return is_due;
+}
+
+template <typename Function>
+Function* original(const char* name) {
+  return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
+}
+
+int fail() {
+  errno = ENOSPC;
+  return -1;
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+  std::va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+  va_end(arguments);
+  const bool creates = (flags & O_CREAT) != 0;
+  if (creates && is_due("create " + std::filesystem::path(path).stem().string())) return fail();
+  return original<int(const char*, int, ...)>("open")(path, flags, mode);
+}
+
+ssize_t write(int descriptor, const void* bytes, size_t count) {
+  auto* const write_all = original<ssize_t(int, const void*, size_t)>("write");
+  if (!is_due("write " + name_of(descriptor))) return write_all(descriptor, bytes, count);
+  if (plan.fault == Fault::kKillHalfway || plan.fault == Fault::kFailHalfway) {
+    if (write_all(descriptor, bytes, count / 2) < 0) ::abort();
+    if (plan.fault == Fault::kKillHalfway) ::raise(SIGKILL);
+  }
+  return fail();
+}
+
+/// A kill does not lose what is in the system's memory, so that the disk need not be waited for.
+int fsync(int descriptor) { return is_due("sync " + name_of(descriptor)) ? fail() : 0; }
+
+int rename(const char* from, const char* to) noexcept {
+  if (is_due("rename " + std::filesystem::path(to).filename().string())) return fail();
+  return original<int(const char*, const char*)>("rename")(from, to);
+}
+
+}  // extern "C"
+
+namespace selvage::io {
+namespace {
+
+using testing::read_plainly;
+using testing::same_bits;
+using testing::TemporaryFolder;
+using testing::write_plainly;
+
+constexpr std::size_t kFrames = 3;
+const SequenceHeader kHeader = {.triangles = {{0, 1, 2}}, .groups = {}, .producer = "test"};
+
+Points points_of(std::size_t frame) {
+  const auto x = static_cast<double>(frame);
+  return {{x, 0, 0}, {1, x, 0}, {0, 1, x}};
+}
+
+/// Creates or resumes, and appends until kFrames are there; counts what was acknowledged.
+void run(const std::filesystem::path& folder, std::size_t& acknowledged) {
+  SequenceWriter writer(folder, kHeader, true);
+  acknowledged = writer.frame_count();
+  while (acknowledged < kFrames) {
+    writer.append(static_cast<double>(acknowledged), points_of(acknowledged));
+    ++acknowledged;
+  }
+}
+
+/// Listed frames are whole, and at least `acknowledged`. Returns their number.
+std::size_t expect_sound(const std::filesystem::path& folder, std::size_t acknowledged) {
+  if (!std::filesystem::exists(folder / "sequence.json")) {
+    EXPECT_EQ(acknowledged, 0u);
+    return 0;
+  }
+  const auto reader = open_sequence({folder});
+  EXPECT_GE(reader->frame_count(), acknowledged);
+  for (std::size_t i = 0; i < reader->frame_count(); ++i) EXPECT_TRUE(same_bits(reader->frame(i).points, points_of(i)));
+  return reader->frame_count();
+}
+
+void expect_finished(const std::filesystem::path& folder) {
+  std::size_t acknowledged = 0;
+  run(folder, acknowledged);
+  EXPECT_EQ(expect_sound(folder, kFrames), kFrames);
+  const auto files = std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+  EXPECT_EQ(files, 3 + static_cast<std::ptrdiff_t>(kFrames)) << "something is left behind";
+}
+
+class EveryCall : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(EveryCall, MayFailOrBeTheLast) {
+  const bool kills = GetParam() == Fault::kKill || GetParam() == Fault::kKillHalfway;
+  int calls = 0;
+  for (bool was_hit = true; was_hit; ++calls) {
+    ASSERT_LT(calls, 1000) << "the fault never ends";
+    SCOPED_TRACE(calls);
+    const TemporaryFolder folder;
+    std::size_t acknowledged = 0;
+    if (kills) {
+      const pid_t child = ::fork();
+      if (child == 0) {
+        plan = {.is_armed = true, .fault = GetParam(), .calls_before = calls, .log = {}};
+        try {
+          run(folder.path(), acknowledged);
+        } catch (const Error&) {
+          ::_exit(1);  // halfway is not possible in this call: it fails instead
+        }
+        ::_exit(0);
+      }
+      int status = 0;
+      ASSERT_EQ(::waitpid(child, &status, 0), child);
+      was_hit = WIFSIGNALED(status) || WEXITSTATUS(status) != 0;
+    } else {
+      plan = {.is_armed = true, .fault = GetParam(), .calls_before = calls, .log = {}};
+      was_hit = false;
+      try {
+        run(folder.path(), acknowledged);
+      } catch (const Error& error) {
+        was_hit = true;
+        EXPECT_EQ(error.kind(), ErrorKind::kFile) << error.what();
+        EXPECT_NE(std::string(error.what()).find("No space left on device; free some space"), std::string::npos);
+      }
+    }
+    plan = {};
+    expect_sound(folder.path(), acknowledged);
+    expect_finished(folder.path());
+  }
+  EXPECT_GT(calls, 30) << "the calls are not seen";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryCall,
+                         ::testing::Values(Fault::kKill, Fault::kKillHalfway, Fault::kFailOnce, Fault::kFailForever,
+                                           Fault::kFailHalfway));
+
+TEST(WriterFaults, TheSameWriterGoesOnAfterAFailure) {
+  for (int calls = 0; calls < 7; ++calls) {  // an append makes seven calls, as the next test says
+    SCOPED_TRACE(calls);
+    const TemporaryFolder folder;
+    SequenceWriter writer(folder.path(), kHeader);
+    writer.append(0, points_of(0));
+    plan = {.is_armed = true, .fault = Fault::kFailHalfway, .calls_before = calls, .log = {}};
+    EXPECT_THROW(writer.append(1, points_of(1)), Error);
+    plan = {};
+    EXPECT_EQ(writer.frame_count(), 1u);
+    writer.append(1, points_of(1));
+    EXPECT_EQ(expect_sound(folder.path(), 2), 2u);
+  }
+}
+
+TEST(WriterFaults, EverythingIsSyncedBeforeTheNextDependsOnIt) {
+  const TemporaryFolder folder;
+  SequenceWriter writer(folder.path(), kHeader);
+  plan = {.is_armed = true, .fault = Fault::kNone, .calls_before = 0, .log = {}};
+  writer.append(0, points_of(0));
+  std::vector<std::string> log = plan.log;
+  plan = {};
+  for (std::string& call : log) {
+    if (const std::size_t mark = call.find(".tmp-"); mark != call.npos) call.resize(mark + 4);
+  }
+  const std::vector<std::string> expected = {"create frame_000000.npy",
+                                             "write frame_000000.npy.tmp",
+                                             "sync frame_000000.npy.tmp",
+                                             "rename frame_000000.npy",
+                                             "sync " + folder.path().filename().string(),
+                                             "write frames.jsonl",
+                                             "sync frames.jsonl"};
+  EXPECT_EQ(log, expected);
+}
+
+TEST(AtomicFileFaults, TheOldFileStaysWhateverCallFails) {
+  for (const Fault fault : {Fault::kFailOnce, Fault::kFailHalfway}) {
+    for (int calls = 0; calls < 4; ++calls) {  // create, write, sync, rename; then the new file is in place
+      const TemporaryFolder folder;
+      write_plainly(folder / "a", "old");
+      plan = {.is_armed = true, .fault = fault, .calls_before = calls, .log = {}};
+      EXPECT_THROW(write_atomically(folder / "a", "new content"), Error);
+      plan = {};
+      EXPECT_EQ(read_plainly(folder / "a"), "old");
+      EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file is left";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace selvage::io
