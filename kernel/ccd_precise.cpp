@@ -32,7 +32,7 @@ bool is_near(const ClosestPoint<DoubleDouble>& closest) {
 }  // namespace
 
 std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion, const TickInterval& interval,
-                                          double suspect, std::int32_t& examined) {
+                                          double suspect, std::int32_t& left) {
   Part begin = Part{interval.begin} << kPartBits;
   const Part last = Part{interval.end} << kPartBits;
   const auto suspect_offset = static_cast<Part>(suspect * static_cast<double>(interval.end - interval.begin) * 0x1p+48);
@@ -44,17 +44,18 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
   ends[0] = last;
   Polygon at_begin = polygon_within(motion, begin);
   for (int count = 0; depth > 0; ++count) {
+    if (left <= 0 || count == kMaxPreciseIntervals) return static_cast<Tick>(begin >> kPartBits);
+    --left;
     const Part end = ends[depth - 1], middle = begin + (end - begin) / 2;
     const Polygon at_end = polygon_within(motion, end);
     const auto closest = closest_point(motion.kind, polygon_within(motion, middle));
-    ++examined;
     if (separates(motion, at_begin, at_end, closest.direction) ||
         separates(motion, at_begin, at_end, closest.plane_normal) || winds_apart(motion, at_begin, at_end) ||
         separating_direction(motion, at_begin, at_end, closest.point)) {
       begin = end;
       at_begin = at_end;
       --depth;
-    } else if (middle == begin || count + 1 >= kMaxPreciseIntervals || is_near(closest_point(motion.kind, at_begin)) ||
+    } else if (middle == begin || is_near(closest_point(motion.kind, at_begin)) ||
                (end - begin <= kNarrow && is_near(closest_point(motion.kind, at_end)))) {
       return static_cast<Tick>(begin >> kPartBits);
     } else {

@@ -90,6 +90,8 @@ bool Search::certify(const TickInterval& interval, const Polygon& at_begin, cons
     }
   }
   if (winds_apart(motion_, at_begin, at_end)) return true;
+  // In a short interval the corners hardly move, and the directions above are the best there are.
+  if (interval.end - interval.begin <= kPreciseWidth) return false;
   const auto direction = separating_direction(motion_, at_begin, at_end, closest.point);
   if (direction) separating_ = *direction;
   return direction.has_value();
@@ -127,7 +129,10 @@ std::optional<Tick> Search::first_contact(const TickInterval& interval, const Po
   const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
   if (signs.root && least_weight > kInnerWeight) return interval.begin;
   look_precisely();
-  return first_precise_contact(*precise_motion_, interval, signs.root.value_or(0), result_.intervals);
+  std::int32_t left = options_.max_intervals - result_.intervals;
+  const auto contact = first_precise_contact(*precise_motion_, interval, signs.root.value_or(0), left);
+  result_.intervals = options_.max_intervals - left;
+  return contact;
 }
 
 /// Depth first, from left to right: everything before `begin` is certified at all times.
@@ -191,15 +196,14 @@ Double3 Search::approach_normal(Tick tick) const {
 }
 
 void Search::answer_contact(Tick tick) {
-  const Tick next = std::min(tick + 1, kTicks);
-  const Polygon at_begin = polygon(tick), at_end = polygon(next);
-  const auto first = closest_point(motion_.kind, at_begin), last = closest_point(motion_.kind, at_end);
-  const double gap = std::min(gap_upper(tick, at_begin, first), gap_upper(next, at_end, last));
+  const Polygon at = polygon(tick);
+  const auto closest = closest_point(motion_.kind, at);
+  const double gap = gap_upper(tick, at, closest);
   result_.verdict = gap <= kAlarmGap ? CcdVerdict::kCollides : CcdVerdict::kUnresolved;
   result_.cause = CcdCause::kMotion;
   result_.toi_lower = time_of(tick);
   result_.gap_bound = times_power_upper(gap, motion_.exponent);
-  result_.weights = first.weights;
+  result_.weights = closest.weights;
   const Double3 direction = approach_normal(tick);
   if (!is_zero(direction)) result_.normal = to_vec3(scaled(1 / norm(direction), direction));
 }
@@ -226,7 +230,7 @@ CcdResult Search::run() {
   RootIntervals pieces;
   pieces.interval[0] = {0, kTicks};
   pieces.count = 1;
-  if (has_cubic()) pieces = root_intervals(coplanarity_cubic(motion_));
+  if (has_cubic()) pieces = root_intervals(coplanarity_cubic(motion_), options_.max_intervals);
   result_.intervals += pieces.examined;
   for (int i = 0; i < pieces.count; ++i) {
     if (!clear(pieces.interval[static_cast<std::size_t>(i)])) return result_;

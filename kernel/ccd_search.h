@@ -19,11 +19,12 @@ inline constexpr Tick kNarrowWidth = 3;
 
 /// Where double-double arithmetic cannot prove the features of `motion` apart within the interval: the tick at or
 /// before the first such instant; nothing where the whole interval is PROVED free of touch. `suspect` is a time worth
-/// looking at first, as a fraction of the interval. `examined` is raised by the intervals looked at, at most
-/// kMaxPreciseIntervals.
+/// looking at first, as a fraction of the interval. `left` is how many more intervals may be looked at, and is lowered
+/// by those that were (K8); when it runs out, or after kMaxPreciseIntervals, the rest counts as not proved.
 [[nodiscard]] std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion,
                                                         const TickInterval& interval, double suspect,
-                                                        std::int32_t& examined);
-inline constexpr int kMaxPreciseIntervals = 256;
+                                                        std::int32_t& left);
+/// Halving from one tick to one part takes 48 intervals, and as many again where the other halves need looking at.
+inline constexpr int kMaxPreciseIntervals = 128;
 
 }  // namespace selvage::detail

@@ -30,7 +30,7 @@ bool is_monotone(const std::array<double, 4>& c) {
 
 class Isolation {
  public:
-  explicit Isolation(const CoplanarityCubic<double>& cubic) : cubic_(cubic) {}
+  Isolation(const CoplanarityCubic<double>& cubic, int max_examined) : cubic_(cubic), left_(max_examined) {}
 
   RootIntervals run() {
     examine({0, kTicks});
@@ -43,18 +43,21 @@ class Isolation {
   void emit(const TickInterval& piece);
 
   const CoplanarityCubic<double>& cubic_;
+  int left_;  // pieces that may still be examined
   RootIntervals result_;
 };
 
 void Isolation::examine(const TickInterval& piece) {
+  if (left_ == 0) return emit(piece);
+  --left_;
+  ++result_.examined;
   const std::array<double, 4> local = local_coefficients(cubic_, piece);
   const auto [least, greatest] = std::minmax({local[0], local[1], local[2], local[3]});
   const double bound = cubic_.error_bound;
-  ++result_.examined;
   if (least > bound || greatest < -bound) return;
   const Tick width = piece.end - piece.begin;
   const bool flat = least > -kFlatFactor * bound && greatest < kFlatFactor * bound;
-  if (flat || width == 1 || result_.examined + 64 > kMaxExamined) return emit(piece);
+  if (flat || width == 1) return emit(piece);
   if (is_monotone(local) && narrow_to_simple_root(piece, local)) return;
   const Tick middle = piece.begin + width / 2;
   examine({piece.begin, middle});
@@ -106,6 +109,8 @@ double root_fraction(const std::array<double, 4>& c) {
   return t;
 }
 
-RootIntervals root_intervals(const CoplanarityCubic<double>& cubic) { return Isolation(cubic).run(); }
+RootIntervals root_intervals(const CoplanarityCubic<double>& cubic, int max_examined) {
+  return Isolation(cubic, std::min(max_examined, kMaxIsolation)).run();
+}
 
 }  // namespace selvage::detail

@@ -9,16 +9,18 @@ namespace selvage::detail {
 struct RootIntervals {
   std::array<TickInterval, 4> interval = {};
   int count = 0;
-  int examined = 0;  ///< pieces of time looked at, for K8: at most kMaxExamined
+  int examined = 0;  ///< pieces of time looked at
 };
-inline constexpr int kMaxExamined = 400;
 
 /// PROVED: every root in [0,1] lies in one of the closed intervals, which are disjoint and sorted. A cubic that is zero
-/// within its bound gives the whole of [0,1]; a simple root an interval of about error_bound / slope.
-[[nodiscard]] RootIntervals root_intervals(const CoplanarityCubic<double>& cubic);
+/// within its bound gives the whole of [0,1]; a simple root an interval of about error_bound / slope. Examines at most
+/// `max_examined` pieces, and at most kMaxIsolation (K8); what is left over then is kept whole.
+[[nodiscard]] RootIntervals root_intervals(const CoplanarityCubic<double>& cubic, int max_examined);
+/// Twice the bisections that a double root can take, and the pieces that these leave open.
+inline constexpr int kMaxIsolation = 256;
 
-/// The root in [0,1] of a cubic in Bernstein form that is monotone or changes sign, or the end nearer to its root: a guess,
-/// good to rounding.
+/// The root in [0,1] of a cubic in Bernstein form that is monotone or changes sign, or the end nearer to its root: a
+/// guess, good to rounding.
 [[nodiscard]] double root_fraction(const std::array<double, 4>& coefficient);
 
 }  // namespace selvage::detail

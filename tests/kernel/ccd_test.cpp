@@ -1,68 +1,437 @@
 #include "kernel/ccd.h"
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/kernel/constructed_contact.h"
+#include "tests/kernel/exact_proximity.h"
+#include "tests/kernel/random_points.h"
 
 namespace selvage {
 
 using testing::ConstructedContact;
 using testing::ContactGenerator;
+using testing::exact;
+using testing::ExactClosest;
 using testing::placed;
+using testing::Random;
+using testing::Rational;
+using testing::squared;
+using Points = std::array<Vec3, 4>;
 
 namespace {
 
 constexpr CcdOptions kNoTolerance{0, 4096};
+constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe, PairKind::kSelf};
+/// What an alarm may be off by, relative to the largest difference: kAlarmGap is relative to its next power of two.
+constexpr double kAlarmShare = 0x1p-39;
 
-void expect_contact(const CcdResult& result, const ConstructedContact& contact, double size) {
+CcdResult ccd(PairKind kind, const Points& x_t0, const Points& x_t1, const CcdOptions& options) {
+  switch (kind) {
+    case PairKind::kVf:
+      return vf_ccd(x_t0, x_t1, options);
+    case PairKind::kEe:
+      return ee_ccd(x_t0, x_t1, options);
+    case PairKind::kSelf:
+      break;
+  }
+  return self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
+}
+
+ConstructedContact contact_of(PairKind kind, ContactGenerator& generator, int bits) {
+  return kind == PairKind::kVf ? generator.vf(bits) : kind == PairKind::kEe ? generator.ee(bits) : generator.self(bits);
+}
+
+std::array<detail::Double3, 4> points(const Points& x) {
+  return {detail::to_double3(x[0]), detail::to_double3(x[1]), detail::to_double3(x[2]), detail::to_double3(x[3])};
+}
+
+Rational distance_squared_at(PairKind kind, const Points& x_t0, const Points& x_t1, const Rational& t) {
+  return ExactClosest(kind, testing::exact_points(points(x_t0), points(x_t1), t)).distance_squared();
+}
+
+double size_of(const Points& x_t0, const Points& x_t1) {
+  double size = 0;
+  for (const Points* x : {&x_t0, &x_t1}) {
+    for (const Vec3& p : *x) {
+      for (const Vec3& q : *x) size = std::max(size, (p - q).cwiseAbs().maxCoeff());
+    }
+  }
+  return size;
+}
+
+/// K1, K2 and K3 for a pair that is known to touch at `contact_time`.
+void expect_contact(PairKind kind, const Points& x_t0, const Points& x_t1, double contact_time) {
+  const CcdResult result = ccd(kind, x_t0, x_t1, kNoTolerance);
   EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
   EXPECT_EQ(result.cause, CcdCause::kMotion);
-  EXPECT_LE(result.toi_lower, contact.contact_time);
-  EXPECT_LE(result.gap_bound, size * 0x1p-39 + 0x1p-1074);
+  EXPECT_LE(result.toi_lower, contact_time);
+  EXPECT_LE(result.gap_bound, size_of(x_t0, x_t1) * kAlarmShare + std::numeric_limits<double>::denorm_min());
+}
+
+/// K3: the exact distance at one of the two ends of the tick that the answer names is within gap_bound.
+void expect_gap(PairKind kind, const Points& x_t0, const Points& x_t1, const CcdResult& result) {
+  const Rational bound = squared(exact(result.gap_bound));
+  const Rational t = exact(result.toi_lower), tick = testing::scaled_exactly(1, -52);
+  EXPECT_TRUE(distance_squared_at(kind, x_t0, x_t1, t) <= bound ||
+              (result.toi_lower < 1 && distance_squared_at(kind, x_t0, x_t1, t + tick) <= bound))
+      << result.gap_bound;
+}
+
+/// The pair in another labelling, and what that does to weights and normal.
+struct Relabelling {
+  std::array<std::size_t, 4> order;
+  double normal_sign;
+};
+
+std::vector<Relabelling> relabellings(PairKind kind) {
+  if (kind == PairKind::kVf) {
+    return {{{0, 1, 3, 2}, 1}, {{0, 2, 1, 3}, 1}, {{0, 2, 3, 1}, 1}, {{0, 3, 1, 2}, 1}, {{0, 3, 2, 1}, 1}};
+  }
+  if (kind == PairKind::kSelf) return {{{0, 2, 1, 3}, 1}};
+  return {{{1, 0, 2, 3}, 1},  {{0, 1, 3, 2}, 1},  {{1, 0, 3, 2}, 1}, {{2, 3, 0, 1}, -1},
+          {{3, 2, 0, 1}, -1}, {{2, 3, 1, 0}, -1}, {{3, 2, 1, 0}, -1}};
+}
+
+Points relabelled(const Points& x, const std::array<std::size_t, 4>& order) {
+  return {x[order[0]], x[order[1]], x[order[2]], x[order[3]]};
+}
+
+/// A query of a random class, so that all branches of the search take part.
+ConstructedContact random_query(Random& random, ContactGenerator& generator, PairKind kind) {
+  ConstructedContact query = contact_of(kind, generator, 8);
+  switch (random.integer(0, 5)) {
+    case 0:
+      break;
+    case 1:
+      for (Vec3& p : query.x_t1) p += 0.5 * detail::to_vec3(random.point());
+      break;
+    case 2:
+      for (Points* x : {&query.x_t0, &query.x_t1}) {
+        for (Vec3& p : *x) p = detail::to_vec3(random.point());
+      }
+      break;
+    case 3:
+      for (Points* x : {&query.x_t0, &query.x_t1}) {
+        for (Vec3& p : *x) p[2] = 1;
+      }
+      break;
+    case 4:
+      query.x_t1 = query.x_t0;
+      break;
+    default:
+      query.x_t0[2] = query.x_t0[1];
+      query.x_t1[2] = query.x_t1[1];
+  }
+  return query;
 }
 
 }  // namespace
 
-TEST(VfCcd, FindsConstructedContactsAtEveryScale) {
-  ContactGenerator generator(1);
-  for (int i = 0; i < 2000; ++i) {
-    const ConstructedContact contact = generator.vf(8);
-    const double scale = std::ldexp(1.0, generator.integer(-1074, 980));
-    const Vec3 zero = Vec3::Zero();
-    expect_contact(vf_ccd(placed(contact.x_t0, scale, zero), placed(contact.x_t1, scale, zero), kNoTolerance),
-                   contact, 0x1p+14 * scale);
+TEST(Ccd, ConstructedContactsAreFound) {
+  ContactGenerator generator(41);
+  for (int i = 0; i < 6000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact contact = contact_of(kind, generator, 8);
+    expect_contact(kind, contact.x_t0, contact.x_t1, contact.contact_time);
   }
 }
 
-TEST(EeCcd, FindsConstructedContactsAtEveryScale) {
-  ContactGenerator generator(2);
-  for (int i = 0; i < 2000; ++i) {
-    const ConstructedContact contact = generator.ee(8);
+TEST(Ccd, ConstructedContactsAreFoundAtEveryScale) {
+  ContactGenerator generator(42);
+  for (int i = 0; i < 6000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact contact = contact_of(kind, generator, 8);
     const double scale = std::ldexp(1.0, generator.integer(-1074, 980));
-    const Vec3 zero = Vec3::Zero();
-    expect_contact(ee_ccd(placed(contact.x_t0, scale, zero), placed(contact.x_t1, scale, zero), kNoTolerance),
-                   contact, 0x1p+14 * scale);
+    expect_contact(kind, placed(contact.x_t0, scale, Vec3::Zero()), placed(contact.x_t1, scale, Vec3::Zero()),
+                   contact.contact_time);
   }
 }
 
-TEST(VfCcd, SeparatedMotionIsSeparated) {
-  const std::array<Vec3, 4> x_t0 = {Vec3(0.25, 0.25, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  const std::array<Vec3, 4> x_t1 = {Vec3(0.25, 0.25, 0.125), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  const CcdResult result = vf_ccd(x_t0, x_t1, CcdOptions{});
-  EXPECT_EQ(result.verdict, CcdVerdict::kSeparated);
-  EXPECT_EQ(result.toi_lower, 1);
+TEST(Ccd, ConstructedContactsAreFoundAtEveryOffset) {
+  ContactGenerator generator(43);
+  for (int i = 0; i < 6000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact contact = contact_of(kind, generator, 5);
+    // Coordinates stay below 2^12 and are whole, so an offset below 2^52 adds without rounding.
+    const auto offset = [&generator] { return std::ldexp(generator.integer(-1, 1), generator.integer(0, 51)); };
+    const Vec3 shift = {offset(), offset(), offset()};
+    expect_contact(kind, placed(contact.x_t0, 1, shift), placed(contact.x_t1, 1, shift), contact.contact_time);
+  }
 }
 
-TEST(VfCcd, NearerThanToleranceAtTheEndIsACollision) {
-  const std::array<Vec3, 4> x_t0 = {Vec3(0.25, 0.25, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  const std::array<Vec3, 4> x_t1 = {Vec3(0.25, 0.25, 0x1p-20), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  const CcdResult result = vf_ccd(x_t0, x_t1, CcdOptions{});
-  EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
-  EXPECT_EQ(result.cause, CcdCause::kEnd);
-  EXPECT_EQ(result.toi_lower, 1);
-  EXPECT_NEAR(result.gap_bound, 0x1p-20, 0x1p-48);
+TEST(Ccd, ContactsOfDegenerateFeaturesAreFound) {
+  ContactGenerator generator(44);
+  for (int i = 0; i < 4000; ++i) {
+    const PairKind kind = kKinds[i % 2];
+    ConstructedContact contact = contact_of(kind, generator, 8);
+    // The first feature's point becomes a corner of the other, which then shrinks to an edge or to a point.
+    const double t = contact.contact_time;
+    const Vec3 meeting = (1 - t) * contact.x_t0[3] + t * contact.x_t1[3];
+    contact.x_t0[0] = meeting - t * Vec3(8, -16, 24);
+    contact.x_t1[0] = meeting + (1 - t) * Vec3(8, -16, 24);
+    const std::size_t last = generator.integer(0, 1) == 0 ? 2 : 1;
+    for (std::size_t k = 2; k >= last && k >= (kind == PairKind::kVf ? 1U : 2U); --k) {
+      contact.x_t0[k] = contact.x_t0[3];
+      contact.x_t1[k] = contact.x_t1[3];
+    }
+    expect_contact(kind, contact.x_t0, contact.x_t1, t);
+  }
+}
+
+TEST(Ccd, ContactsOfCoplanarMotionAreFound) {
+  ContactGenerator generator(45);
+  for (int i = 0; i < 3000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    ConstructedContact contact = contact_of(kind, generator, 8);
+    // A shear of the plane z = 0: coplanar at all times, in a plane that no axis singles out.
+    const int slope_x = generator.integer(-3, 3), slope_y = generator.integer(-3, 3);
+    for (Points* x : {&contact.x_t0, &contact.x_t1}) {
+      for (Vec3& p : *x) p[2] = slope_x * p[0] + slope_y * p[1];
+    }
+    expect_contact(kind, contact.x_t0, contact.x_t1, contact.contact_time);
+  }
+}
+
+TEST(Ccd, ContactsWithoutRelativeMotionAreFound) {
+  ContactGenerator generator(46);
+  for (int i = 0; i < 3000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    ConstructedContact contact = contact_of(kind, generator, 8);
+    const double t = contact.contact_time;
+    const Vec3 velocity = generator.integer(0, 1) == 0 ? Vec3(Vec3::Zero()) : Vec3(8, -24, 40);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 meeting = (1 - t) * contact.x_t0[k] + t * contact.x_t1[k];
+      contact.x_t0[k] = meeting;
+      contact.x_t1[k] = meeting + velocity;
+    }
+    const CcdResult result = ccd(kind, contact.x_t0, contact.x_t1, kNoTolerance);
+    EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+    EXPECT_EQ(result.toi_lower, 0);
+  }
+}
+
+TEST(Ccd, TimesOfSimpleContactsAreTight) {
+  Random random(47);
+  for (int i = 0; i < 3000; ++i) {
+    // A point through a still triangle, and an edge through a still edge, both along z: the time is h0 / (h0 - h1).
+    const double above = 0.1 + std::fabs(random.uniform()), below = -0.1 - std::fabs(random.uniform());
+    const Rational contact = exact(above) / (exact(above) - exact(below));
+    const double x = 0.25 * random.uniform(), y = 0.25 * random.uniform();
+    const Points face_t0 = {Vec3(x, y, above), Vec3(-1, -1, 0), Vec3(2, -1, 0), Vec3(-1, 2, 0)};
+    const Points edge_t0 = {Vec3(x, -1, above), Vec3(y, 1, above), Vec3(-1, 0, 0), Vec3(1, 0, 0)};
+    Points face_t1 = face_t0, edge_t1 = edge_t0;
+    face_t1[0][2] = edge_t1[0][2] = edge_t1[1][2] = below;
+    for (const CcdResult& result : {vf_ccd(face_t0, face_t1, kNoTolerance), ee_ccd(edge_t0, edge_t1, kNoTolerance)}) {
+      EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+      EXPECT_TRUE(exact(result.toi_lower) <= contact);
+      EXPECT_TRUE(contact - exact(result.toi_lower) <= 4 * testing::scaled_exactly(1, -52));
+      EXPECT_NEAR(std::fabs(result.normal[2]), 1, 0x1p-20);
+    }
+    EXPECT_GT(vf_ccd(face_t0, face_t1, kNoTolerance).normal[2], 0);
+    EXPECT_GT(ee_ccd(edge_t0, edge_t1, kNoTolerance).normal[2], 0);
+  }
+}
+
+TEST(Ccd, AlarmsAreNearContacts) {
+  Random random(48);
+  ContactGenerator generator(48);
+  int alarms = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact query = random_query(random, generator, kind);
+    const CcdResult result = ccd(kind, query.x_t0, query.x_t1, kNoTolerance);
+    EXPECT_NE(result.verdict, CcdVerdict::kUnresolved);
+    if (result.verdict != CcdVerdict::kCollides) continue;
+    ++alarms;
+    EXPECT_LE(result.gap_bound, size_of(query.x_t0, query.x_t1) * kAlarmShare);
+    expect_gap(kind, query.x_t0, query.x_t1, result);
+  }
+  EXPECT_GT(alarms, 1000);
+}
+
+// "Always collides" has no false negative; this is the test that it fails.
+TEST(Ccd, SeparatedMotionsRaiseNoAlarm) {
+  Random random(49);
+  for (int i = 0; i < 20000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const std::size_t first_feature = kind == PairKind::kEe ? 2 : 1;
+    Points x_t0, x_t1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      x_t0[k] = detail::to_vec3(random.point());
+      x_t1[k] = detail::to_vec3(random.point());
+    }
+    // The two features keep to either side of the plane z = x, closer and closer to it.
+    const double gap = std::ldexp(1.0, -random.integer(1, 44));
+    for (Points* x : {&x_t0, &x_t1}) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double side = std::fabs((*x)[k][2]) + gap;
+        (*x)[k][2] = (*x)[k][0] + (k < first_feature ? side : -side);
+      }
+    }
+    EXPECT_EQ(ccd(kind, x_t0, x_t1, kNoTolerance).verdict, CcdVerdict::kSeparated);
+  }
+}
+
+TEST(Ccd, SlidingPastWithinThePlaneRaisesNoAlarm) {
+  Random random(50);
+  for (int i = 0; i < 2000; ++i) {
+    // A square's corner slides along an edge of a coplanar triangle, and along a coplanar edge.
+    const double gap = std::ldexp(1.0, -random.integer(1, 48)), y = random.uniform();
+    const Points x_t0 = {Vec3(gap, -2, y), Vec3(0, -1, 2 * y), Vec3(0, 1, 0), Vec3(-1, 0, y)};
+    Points x_t1 = x_t0;
+    x_t1[0] = Vec3(gap, 2, -y);
+    EXPECT_EQ(vf_ccd(x_t0, x_t1, kNoTolerance).verdict, CcdVerdict::kSeparated);
+    const Points e_t0 = {Vec3(gap, -2, 0), Vec3(gap, -1, 0), Vec3(0, -1, 0), Vec3(0, 1, 0)};
+    Points e_t1 = e_t0;
+    e_t1[0][1] += 5;
+    e_t1[1][1] += 3;
+    EXPECT_EQ(ee_ccd(e_t0, e_t1, kNoTolerance).verdict, CcdVerdict::kSeparated);
+  }
+}
+
+TEST(Ccd, TheEndIsJudgedByTheTolerance) {
+  Random random(51);
+  int near = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const std::size_t first_feature = kind == PairKind::kEe ? 2 : 1;
+    Points x_t0, x_t1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      x_t0[k] = detail::to_vec3(random.point());
+      x_t1[k] = detail::to_vec3(random.point());
+      for (Points* x : {&x_t0, &x_t1}) {
+        const double side = std::fabs((*x)[k][2]) + 0x1p-20;
+        (*x)[k][2] = k < first_feature ? side : -side;
+      }
+    }
+    const double tolerance = std::ldexp(1 + std::fabs(random.uniform()), -random.integer(0, 12));
+    const CcdResult result = ccd(kind, x_t0, x_t1, {tolerance, 4096});
+    const Rational end_squared = distance_squared_at(kind, x_t0, x_t1, 1);
+    if (result.verdict == CcdVerdict::kSeparated) {
+      EXPECT_TRUE(end_squared > squared(exact(tolerance)));
+      continue;
+    }
+    ++near;
+    EXPECT_EQ(result.cause, CcdCause::kEnd);
+    EXPECT_EQ(result.toi_lower, 1);
+    EXPECT_TRUE(end_squared <= squared(exact(result.gap_bound)));
+    EXPECT_LE(result.gap_bound, tolerance * (1 + 0x1p-40) + 0x1p-40);
+  }
+  EXPECT_GT(near, 200);
+}
+
+TEST(Ccd, RelabellingChangesNoBit) {
+  Random random(52);
+  ContactGenerator generator(52);
+  for (int i = 0; i < 3000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact query = random_query(random, generator, kind);
+    const CcdResult one = ccd(kind, query.x_t0, query.x_t1, CcdOptions{});
+    for (const Relabelling& label : relabellings(kind)) {
+      const CcdResult other =
+          ccd(kind, relabelled(query.x_t0, label.order), relabelled(query.x_t1, label.order), CcdOptions{});
+      EXPECT_EQ(other.verdict, one.verdict);
+      EXPECT_EQ(other.cause, one.cause);
+      EXPECT_EQ(other.toi_lower, one.toi_lower);
+      EXPECT_EQ(other.gap_bound, one.gap_bound);
+      EXPECT_EQ(other.intervals, one.intervals);
+      EXPECT_EQ(other.normal, Vec3(label.normal_sign * one.normal));
+      for (std::size_t k = 0; k < 4; ++k) {
+        // Points that coincide throughout share their weight in either order.
+        const std::size_t from = label.order[k];
+        const bool shared =
+            query.x_t0[1] == query.x_t0[2] && query.x_t1[1] == query.x_t1[2] && (from == 1 || from == 2);
+        if (!shared) {
+          EXPECT_EQ(other.weights[k], one.weights[from]);
+        }
+      }
+    }
+  }
+}
+
+TEST(Ccd, ScalingByAPowerOfTwoScalesTheAnswer) {
+  Random random(53);
+  ContactGenerator generator(53);
+  for (int i = 0; i < 3000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact query = random_query(random, generator, kind);
+    const int exponent = random.integer(-900, 900);
+    const double scale = std::ldexp(1.0, exponent);
+    const CcdResult one = ccd(kind, query.x_t0, query.x_t1, {1e-6, 4096});
+    const CcdResult other = ccd(kind, placed(query.x_t0, scale, Vec3::Zero()), placed(query.x_t1, scale, Vec3::Zero()),
+                                {std::ldexp(1e-6, exponent), 4096});
+    EXPECT_EQ(other.verdict, one.verdict);
+    EXPECT_EQ(other.toi_lower, one.toi_lower);
+    EXPECT_EQ(other.gap_bound, std::ldexp(one.gap_bound, exponent));
+    EXPECT_EQ(other.intervals, one.intervals);
+    EXPECT_EQ(other.weights, one.weights);
+    EXPECT_EQ(other.normal, one.normal);
+  }
+}
+
+TEST(Ccd, AReachedLimitIsUnresolvedAndItsTimeIsSafe) {
+  Random random(54);
+  ContactGenerator generator(54);
+  int limited = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const PairKind kind = kKinds[i % 3];
+    const ConstructedContact query = random_query(random, generator, kind);
+    const CcdResult full = ccd(kind, query.x_t0, query.x_t1, kNoTolerance);
+    const int limit = random.integer(1, 40);
+    const CcdResult result = ccd(kind, query.x_t0, query.x_t1, {0, limit});
+    EXPECT_LE(result.intervals, limit);
+    EXPECT_LE(full.intervals, 4096);
+    if (full.intervals <= limit) {
+      EXPECT_EQ(result.verdict, full.verdict);
+    } else if (result.verdict == CcdVerdict::kUnresolved) {
+      ++limited;
+      if (full.verdict == CcdVerdict::kCollides) {
+        EXPECT_LE(result.toi_lower, full.toi_lower);
+      }
+    } else {
+      // Fewer intervals can also end in an earlier, coarser alarm, never in a proof.
+      EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+    }
+  }
+  EXPECT_GT(limited, 30);
+  EXPECT_EQ(vf_ccd(generator.vf(4).x_t0, generator.vf(4).x_t1, {0, 0}).verdict, CcdVerdict::kUnresolved);
+}
+
+TEST(Ccd, OutsideTheDomainIsUnresolved) {
+  ContactGenerator generator(55);
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect_unresolved = [](const CcdResult& result) {
+    EXPECT_EQ(result.verdict, CcdVerdict::kUnresolved);
+    EXPECT_EQ(result.toi_lower, 0);
+  };
+  for (const PairKind kind : kKinds) {
+    const ConstructedContact contact = contact_of(kind, generator, 8);
+    for (const double bad : {nan, infinity, -infinity, std::nextafter(kMaxCoordinate, infinity)}) {
+      for (std::size_t i = 0; i < (kind == PairKind::kSelf ? 3U : 4U); ++i) {
+        Points x = contact.x_t0;
+        x[i][static_cast<int>(i) % 3] = bad;
+        expect_unresolved(ccd(kind, x, contact.x_t1, kNoTolerance));
+        expect_unresolved(ccd(kind, contact.x_t0, x, kNoTolerance));
+      }
+    }
+    for (const double bad : {nan, infinity, -1.0}) {
+      expect_unresolved(ccd(kind, contact.x_t0, contact.x_t1, {bad, 4096}));
+    }
+  }
+}
+
+TEST(Ccd, TheLargestCoordinatesAreInTheDomain) {
+  const double m = kMaxCoordinate;
+  const Points x_t0 = {Vec3(0, 0, m), Vec3(-m, -m, -m), Vec3(m, -m, -m), Vec3(0, m, -m)};
+  Points x_t1 = x_t0;
+  x_t1[0][2] = -m;
+  EXPECT_EQ(vf_ccd(x_t0, x_t1, kNoTolerance).verdict, CcdVerdict::kCollides);
+  x_t1[0][2] = 0;
+  EXPECT_EQ(vf_ccd(x_t0, x_t1, kNoTolerance).verdict, CcdVerdict::kSeparated);
 }
 
 }  // namespace selvage

@@ -43,6 +43,14 @@ class ContactGenerator {
     return move(x, bits);
   }
 
+  /// A vertex that meets the opposite edge of its own face; the fourth point takes no part.
+  ConstructedContact self(int bits) {
+    std::array<Vec3, 4> x = {Vec3::Zero(), 4 * point(bits), 4 * point(bits), Vec3::Zero()};
+    const int weight = integer(0, 4);
+    x[0] = (weight * x[1] + (4 - weight) * x[2]) / 4;
+    return move(x, bits);
+  }
+
  private:
   Vec3 point(int bits) {
     const int bound = (1 << bits) - 1;

@@ -35,12 +35,8 @@ inline Rational scaled_exactly(const Rational& value, int e) {
   return result;
 }
 
-inline Rational3 operator-(const Rational3& a, const Rational3& b) {
-  return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
-}
-inline Rational3 operator+(const Rational3& a, const Rational3& b) {
-  return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
-}
+inline Rational3 operator-(const Rational3& a, const Rational3& b) { return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}}; }
+inline Rational3 operator+(const Rational3& a, const Rational3& b) { return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}}; }
 inline Rational3 operator*(const Rational& s, const Rational3& a) { return {{s * a[0], s * a[1], s * a[2]}}; }
 inline Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Rational3 cross(const Rational3& a, const Rational3& b) {

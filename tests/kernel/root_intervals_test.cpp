@@ -70,7 +70,7 @@ void expect_sorted_and_disjoint(const RootIntervals& intervals) {
     EXPECT_LE(piece.end, kTicks);
     EXPECT_TRUE(i == 0 || piece.begin > intervals.interval[static_cast<std::size_t>(i) - 1].end);
   }
-  EXPECT_LE(intervals.examined, detail::kMaxExamined);
+  EXPECT_LE(intervals.examined, detail::kMaxIsolation);
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ TEST(RootIntervals, HoldEveryConstructedRoot) {
     }
     const Rational lead = exact(random.magnitude(-300, 300));
     const auto cubic = cubic_with_roots(lead, roots, random.chance(2) ? 0 : std::ldexp(1.0, -random.integer(20, 52)));
-    const RootIntervals intervals = detail::root_intervals(cubic);
+    const RootIntervals intervals = detail::root_intervals(cubic, detail::kMaxIsolation);
     expect_sorted_and_disjoint(intervals);
     for (const Rational& root : roots) {
       if (root < 0 || root > 1) continue;
@@ -109,7 +109,7 @@ TEST(RootIntervals, OfSeparatedSimpleRootsAreNarrow) {
     const double first = 0.05 + 0.2 * std::fabs(random.uniform());
     const std::vector<Rational> roots = {exact(first), exact(first + 0.1 + 0.2 * std::fabs(random.uniform())),
                                          exact(0.75 + 0.2 * std::fabs(random.uniform()))};
-    const RootIntervals intervals = detail::root_intervals(cubic_with_roots(1, roots, 0));
+    const RootIntervals intervals = detail::root_intervals(cubic_with_roots(1, roots, 0), detail::kMaxIsolation);
     EXPECT_EQ(intervals.count, 3);
     EXPECT_LE(total_width(intervals), 0x1p-38);
     EXPECT_LE(intervals.examined, 40);
@@ -119,7 +119,8 @@ TEST(RootIntervals, OfSeparatedSimpleRootsAreNarrow) {
 TEST(RootIntervals, OfDoubleRootsAreAsWideAsTheBoundAllows) {
   for (int i = 1; i < 100; ++i) {
     const Rational root(i, 100);
-    const RootIntervals intervals = detail::root_intervals(cubic_with_roots(1, {root, root, Rational(2)}, 0));
+    const RootIntervals intervals =
+        detail::root_intervals(cubic_with_roots(1, {root, root, Rational(2)}, 0), detail::kMaxIsolation);
     EXPECT_TRUE(contains(intervals, root));
     EXPECT_LE(total_width(intervals), 0x1p-20);
   }
@@ -130,7 +131,7 @@ TEST(RootIntervals, AreAbsentWhereTheCubicKeepsItsSign) {
   for (int i = 0; i < 1000; ++i) {
     const std::vector<Rational> roots = {exact(1.25 + std::fabs(random.uniform())),
                                          exact(-0.25 - std::fabs(random.uniform()))};
-    EXPECT_EQ(detail::root_intervals(cubic_with_roots(1, roots, 0)).count, 0);
+    EXPECT_EQ(detail::root_intervals(cubic_with_roots(1, roots, 0), detail::kMaxIsolation).count, 0);
   }
 }
 
@@ -139,7 +140,7 @@ TEST(RootIntervals, AreEverythingWhereTheCubicVanishes) {
   cubic.error_bound = 0x1p-50;
   for (const double value : {0.0, 0x1p-51}) {
     cubic.coefficient = {value, -value, value, -value};
-    const RootIntervals intervals = detail::root_intervals(cubic);
+    const RootIntervals intervals = detail::root_intervals(cubic, detail::kMaxIsolation);
     EXPECT_EQ(intervals.count, 1);
     EXPECT_EQ(intervals.interval[0].begin, 0U);
     EXPECT_EQ(intervals.interval[0].end, kTicks);

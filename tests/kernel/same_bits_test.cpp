@@ -1,0 +1,129 @@
+// K7: one hash of the answers to a fixed set of queries, the same for g++ and clang++, every optimisation level and
+// instruction set, and whatever floating-point environment the caller has. It changes only when the kernel's answers
+// are changed on purpose.
+#include <bit>
+#include <cfenv>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "kernel/ccd.h"
+#include "kernel/proximity.h"
+#include "tests/kernel/random_points.h"
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace selvage {
+
+using testing::Random;
+using Points = std::array<Vec3, 4>;
+
+namespace {
+
+constexpr std::uint64_t kGoldenHash = 0x549cf0d32b948605U;
+
+/// FNV-1a over the bits of the values.
+class Hash {
+ public:
+  void add(std::uint64_t bits) {
+    for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ ((bits >> (8 * byte)) & 0xff)) * 0x100000001b3U;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+  }
+  void add(const std::array<double, 4>& values) {
+    for (const double value : values) add(value);
+  }
+  void add(const CcdResult& result) {
+    add(static_cast<std::uint64_t>(result.verdict));
+    add(static_cast<std::uint64_t>(result.cause));
+    add(static_cast<std::uint64_t>(result.intervals));
+    add(result.toi_lower);
+    add(result.gap_bound);
+    add(result.weights);
+    add(result.normal);
+  }
+  void add(const Proximity& proximity) {
+    add(proximity.distance);
+    add(proximity.distance_lower);
+    add(proximity.distance_upper);
+    add(proximity.point_error_bound);
+    add(proximity.weights);
+    add(proximity.normal);
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+struct Query {
+  Points x_t0, x_t1;
+};
+
+/// Far and near, generic and on the lattice, at all scales: built from integers and powers of two alone.
+std::vector<Query> queries() {
+  Random random(61);
+  std::vector<Query> result(3000);
+  for (Query& query : result) {
+    const int kind = random.integer(0, 3), exponent = random.chance(4) ? random.integer(-1000, 900) : 0;
+    for (Points* x : {&query.x_t0, &query.x_t1}) {
+      for (Vec3& p : *x) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const int whole = random.integer(-2, 2);
+          const double noise = random.uniform();
+          p[axis] = kind == 0 ? noise : kind == 1 ? whole : whole + std::ldexp(noise, kind == 2 ? -50 : -10);
+          p[axis] = std::ldexp(p[axis], exponent);
+        }
+      }
+    }
+    if (kind == 3) {
+      for (Vec3& p : query.x_t1) p = 0x1p-4 * p;
+    }
+  }
+  return result;
+}
+
+std::uint64_t hash_of_answers(const std::vector<Query>& all) {
+  Hash hash;
+  for (const Query& q : all) {
+    hash.add(vf_ccd(q.x_t0, q.x_t1, CcdOptions{}));
+    hash.add(ee_ccd(q.x_t0, q.x_t1, CcdOptions{}));
+    hash.add(self_ccd({q.x_t0[0], q.x_t0[1], q.x_t0[2]}, {q.x_t1[0], q.x_t1[1], q.x_t1[2]}, CcdOptions{}));
+    hash.add(vf_proximity(q.x_t0));
+    hash.add(ee_proximity(q.x_t1));
+  }
+  return hash.value();
+}
+
+}  // namespace
+
+TEST(SameBits, TheHashOfTheAnswersIsTheGoldenOne) { EXPECT_EQ(hash_of_answers(queries()), kGoldenHash); }
+
+TEST(SameBits, DirectedRoundingOfTheCallerChangesNothing) {
+  const std::vector<Query> all = queries();
+  for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(direction);
+    const std::uint64_t hash = hash_of_answers(all);
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(hash, kGoldenHash);
+  }
+}
+
+#if defined(__SSE2__)
+TEST(SameBits, FlushingOfTheCallerChangesNothing) {
+  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+  const std::vector<Query> all = queries();
+  const unsigned clean = _mm_getcsr();
+  _mm_setcsr(clean | kFlushToZero | kDenormalsAreZero);
+  const std::uint64_t hash = hash_of_answers(all);
+  _mm_setcsr(clean);
+  EXPECT_EQ(hash, kGoldenHash);
+}
+#endif
+
+}  // namespace selvage
