@@ -37,16 +37,18 @@ class OverlapTest {
   std::array<double, 3> lower_, upper_;
 };
 
-std::size_t overlaps(const BoxColumns& boxes, std::size_t begin, std::size_t end, const Box& box,
+std::size_t overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const Box& box,
                      std::uint64_t first_key, std::uint64_t* out) {
   const OverlapTest overlap(boxes, box);
   const auto last_excluded = hn::Set(Integer(), static_cast<std::int64_t>(first_key) - 1);
   std::uint64_t* out_end = out;
-  for (std::size_t row = begin; row < end; row += hn::Lanes(Real())) {
-    const auto key = hn::LoadU(Word(), &boxes.key[row]);
-    const auto late = hn::RebindMask(Word(), hn::Gt(hn::BitCast(Integer(), key), last_excluded));
-    const auto found = hn::And(hn::RebindMask(Word(), overlap(row, end)), late);
-    out_end += hn::CompressStore(key, found, Word(), out_end);
+  for (const RowRange& range : ranges) {
+    for (std::size_t row = range.begin; row < range.end; row += hn::Lanes(Real())) {
+      const auto key = hn::LoadU(Word(), &boxes.key[row]);
+      const auto late = hn::RebindMask(Word(), hn::Gt(hn::BitCast(Integer(), key), last_excluded));
+      const auto found = hn::And(hn::RebindMask(Word(), overlap(row, range.end)), late);
+      out_end += hn::CompressStore(key, found, Word(), out_end);
+    }
   }
   return static_cast<std::size_t>(out_end - out);
 }
@@ -91,9 +93,9 @@ HWY_EXPORT(overlaps);
 HWY_EXPORT(vf_pairs);
 HWY_EXPORT(ee_pairs);
 
-std::size_t find_overlaps(const BoxColumns& boxes, std::size_t begin, std::size_t end, const Box& box,
+std::size_t find_overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const Box& box,
                           std::uint64_t first_key, std::uint64_t* out) {
-  return HWY_DYNAMIC_DISPATCH(overlaps)(boxes, begin, end, box, first_key, out);
+  return HWY_DYNAMIC_DISPATCH(overlaps)(boxes, ranges, box, first_key, out);
 }
 std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<3>& corners, std::size_t begin, const Box& box,
                        const std::array<VertexId, 1>& own_corners, std::uint64_t own_key, std::uint64_t* out) {

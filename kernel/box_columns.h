@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernel/box.h"
@@ -28,17 +29,21 @@ struct BoxColumns {
   std::size_t row_count_ = 0;
 };
 
-/// Writes the keys of rows begin .. end-1 whose box overlaps `box` and whose key is at least `first_key`, in row order;
-/// returns their number. REQUIRES keys below 2^63.
-std::size_t find_overlaps(const BoxColumns& boxes, std::size_t begin, std::size_t end, const Box& box,
+struct RowRange {
+  std::size_t begin, end;
+};
+
+/// Writes the keys of the rows in `ranges` whose box overlaps `box` and whose key is at least `first_key`, in the order
+/// of the ranges; returns their number. REQUIRES keys below 2^63.
+std::size_t find_overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const Box& box,
                           std::uint64_t first_key, std::uint64_t* out);
 
 /// The vertices of the rows' features; kCorners is 2 for edges and 3 for faces.
 template <std::size_t kCorners>
 using CornerColumns = std::array<std::vector<std::uint64_t>, kCorners>;
 
-/// The same for rows begin .. boxes.row_count()-1, with the corner columns beside them: rows that share one of
-/// `own_corners` are left out, and every key is joined with `own_key` by OR.
+/// The same for the rows from `begin` on, with the corner columns beside them: rows that share one of `own_corners` are
+/// left out, and every key is joined with `own_key` by OR.
 std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<3>& corners, std::size_t begin, const Box& box,
                        const std::array<VertexId, 1>& own_corners, std::uint64_t own_key, std::uint64_t* out);
 std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<2>& corners, std::size_t begin, const Box& box,

@@ -16,11 +16,29 @@ namespace {
 
 TreeRef tree_ref(std::uint64_t word) { return static_cast<TreeRef>(static_cast<std::uint32_t>(word)); }
 
-/// Appends what find_overlaps finds.
-void append_overlaps(const BoxColumns& boxes, std::size_t begin, std::size_t end, const Box& box,
-                     std::uint64_t first_key, Words& words) {
-  words.keep(find_overlaps(boxes, begin, end, box, first_key, words.room(end - begin + kVectorSlack)));
-}
+/// Ranges of rows, joined where they meet.
+class RowRanges {
+ public:
+  void clear() {
+    ranges_.clear();
+    row_count_ = 0;
+  }
+  void add(std::size_t begin, std::size_t end) {
+    row_count_ += end - begin;
+    if (!ranges_.empty() && ranges_.back().end == begin) {
+      ranges_.back().end = end;
+    } else {
+      ranges_.push_back({begin, end});
+    }
+  }
+  void append_overlaps(const BoxColumns& boxes, const Box& box, std::uint64_t first_key, Words& words) const {
+    words.keep(find_overlaps(boxes, ranges_, box, first_key, words.room(row_count_ + kVectorSlack)));
+  }
+
+ private:
+  std::vector<RowRange> ranges_;
+  std::size_t row_count_ = 0;
+};
 
 /// Possible partners of a cluster's features, in ascending order.
 template <std::size_t kCorners>
@@ -47,7 +65,8 @@ struct Partners {
 
 struct Workspace {
   PairBuffer pairs;
-  Words open, clusters, keys, spare;
+  RowRanges ranges;
+  Words below, clusters, keys, spare;
   Partners<3> faces;
   Partners<2> edges;
 };
@@ -70,13 +89,22 @@ class PairFinder {
   }
 
  private:
-  /// Appends the children of node `ref` that overlap `box`; only those that may be active where `active_only` is set.
-  void expand(TreeRef ref, const Box& box, bool active_only, Words& out) const {
-    const std::size_t begin = FaceClusters::kFanOut * static_cast<std::size_t>(ref);
-    const std::size_t end = begin + clusters_.nodes[static_cast<std::size_t>(ref)].child_count;
-    const std::size_t size = out.size();
-    append_overlaps(boxes_.children(), begin, end, box, 0, out);
-    if (active_only) out.erase_if(size, [&](std::uint64_t word) { return !boxes_.is_active(tree_ref(word)); });
+  /// One level down: the nodes in `frontier` are replaced by their children. Keeps what overlaps `box`, and only what may
+  /// be active where `active_only` is set.
+  void expand(const Words& frontier, const Box& box, bool active_only, RowRanges& ranges, Words& out) const {
+    out.clear();
+    ranges.clear();
+    for (const std::uint64_t word : frontier) {
+      const TreeRef ref = tree_ref(word);
+      if (ref >= 0) {
+        const std::size_t begin = FaceClusters::kFanOut * static_cast<std::size_t>(ref);
+        ranges.add(begin, begin + clusters_.nodes[static_cast<std::size_t>(ref)].child_count);
+      } else if (overlap(boxes_.cluster(ref), box)) {
+        out.push_back(word);
+      }
+    }
+    ranges.append_overlaps(boxes_.children(), box, 0, out);
+    if (active_only) out.erase_if([&](std::uint64_t word) { return !boxes_.is_active(tree_ref(word)); });
   }
 
   /// `frontier`: nodes and clusters that hold every cluster whose box overlaps that of a cluster below node n.
@@ -88,13 +116,8 @@ class PairFinder {
       const TreeRef child = node.child[k];
       const bool active_only = !boxes_.is_active(child);
       Words below;
-      for (const std::uint64_t word : frontier) {
-        if (tree_ref(word) >= 0) {
-          expand(tree_ref(word), box, active_only, below);
-        } else if (overlap(boxes_.cluster(tree_ref(word)), box) && (!active_only || boxes_.is_active(tree_ref(word)))) {
-          below.push_back(word);
-        }
-      }
+      RowRanges ranges;
+      expand(frontier, box, active_only, ranges, below);
       if (below.empty()) return;
       if (child >= 0) {
         descend(static_cast<std::size_t>(child), below);
@@ -106,30 +129,28 @@ class PairFinder {
 
   void find_in_cluster(std::size_t c, const Box& box, const Words& frontier, bool active_only) {
     Workspace& work = workspaces_.local();
-    work.open.assign(frontier);
-    work.clusters.clear();
-    while (!work.open.empty()) {
-      const std::uint64_t word = work.open.pop_back();
-      if (tree_ref(word) < 0) {
-        work.clusters.push_back(static_cast<std::uint64_t>(~tree_ref(word)));
-      } else {
-        expand(tree_ref(word), box, active_only, work.open);
-      }
+    work.clusters.assign(frontier);
+    const auto is_node = [](std::uint64_t word) { return tree_ref(word) >= 0; };
+    while (std::any_of(work.clusters.begin(), work.clusters.end(), is_node)) {
+      std::swap(work.clusters, work.below);
+      expand(work.below, box, active_only, work.ranges, work.clusters);
     }
     find_vf(c, work);
     find_ee(c, work);
   }
 
-  /// Ascending keys of the rows of `clusters` that overlap `box` and stand for first_feature or a later one.
+  /// Ascending keys of the rows of work.clusters that overlap `box` and stand for first_feature or a later one.
   template <typename Id>
-  static void find_keys(const Words& clusters, const PerCluster<Id>& rows, const BoxColumns& boxes, const Box& box,
-                        std::int32_t first_feature, Words& keys, Words& spare) {
-    keys.clear();
-    const std::uint64_t first_key = static_cast<std::uint64_t>(first_feature) << 32;
-    for (const std::uint64_t c : clusters) {
-      append_overlaps(boxes, rows.begin[c], rows.begin[c + 1], box, first_key, keys);
+  static void find_keys(const PerCluster<Id>& rows, const BoxColumns& boxes, const Box& box, std::int32_t first_feature,
+                        Workspace& work) {
+    work.ranges.clear();
+    for (const std::uint64_t word : work.clusters) {
+      const auto c = static_cast<std::size_t>(~tree_ref(word));
+      work.ranges.add(rows.begin[c], rows.begin[c + 1]);
     }
-    keys.sort_by_high_half(spare);
+    work.keys.clear();
+    work.ranges.append_overlaps(boxes, box, static_cast<std::uint64_t>(first_feature) << 32, work.keys);
+    work.keys.sort_by_high_half(work.spare);
   }
 
   /// Answers for all of a cluster's features: `find(feature, partners)` for each, with the partners it may have.
@@ -151,7 +172,7 @@ class PairFinder {
       }
     }
     if (std::all_of(own.begin(), own.end(), is_active)) return;
-    keys.erase_if(0, [&](std::uint64_t key) { return !boxes_.is_active(corners[key >> 32]); });
+    keys.erase_if([&](std::uint64_t key) { return !boxes_.is_active(corners[key >> 32]); });
     list_partners();
     for (const Id id : own) {
       if (!is_active(id)) find(id);
@@ -182,7 +203,7 @@ class PairFinder {
     if (own.empty()) return;
     Box all;
     for (const VertexId v : own) all.merge(boxes_.vertex(v));
-    find_keys(work.clusters, clusters_.faces, boxes_.faces(), all, 0, work.keys, work.spare);
+    find_keys(clusters_.faces, boxes_.faces(), all, 0, work);
     const auto is_active = [&](VertexId v) { return boxes_.is_active(std::array{v}); };
     match(own, is_active, boxes_.faces(), mesh_.faces, work.keys, work.faces, [&](VertexId v) {
       vf_[static_cast<std::size_t>(v)] = find_partners(work.faces, 0, boxes_.vertex(v), std::array{v}, v, work.pairs);
@@ -196,7 +217,7 @@ class PairFinder {
     const auto box = [&](EdgeId e) { return united(boxes_.vertex(ends(e)[0]), boxes_.vertex(ends(e)[1])); };
     Box all;
     for (const EdgeId e : own) all.merge(box(e));
-    find_keys(work.clusters, clusters_.edges, boxes_.edges(), all, own.front() + 1, work.keys, work.spare);
+    find_keys(clusters_.edges, boxes_.edges(), all, own.front() + 1, work);
     const auto is_active = [&](EdgeId e) { return boxes_.is_active(ends(e)); };
     match(own, is_active, boxes_.edges(), mesh_.edges, work.keys, work.edges, [&](EdgeId e) {
       ee_[static_cast<std::size_t>(e)] =

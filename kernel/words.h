@@ -27,14 +27,12 @@ class Words {
   void clear() { size_ = 0; }
   void assign(std::span<const std::uint64_t> words);
   void push_back(std::uint64_t word);
-  std::uint64_t pop_back() { return data_[--size_]; }
   /// Where `count` more words can be written; `keep` says how many of them were.
   std::uint64_t* room(std::size_t count);
   void keep(std::size_t count) { size_ += count; }
-  /// Leaves out the words from number `first` on for which `is_unwanted`.
   template <typename Predicate>
-  void erase_if(std::size_t first, const Predicate& is_unwanted) {
-    size_ = static_cast<std::size_t>(std::remove_if(begin() + first, end(), is_unwanted) - begin());
+  void erase_if(const Predicate& is_unwanted) {
+    size_ = static_cast<std::size_t>(std::remove_if(begin(), end(), is_unwanted) - begin());
   }
   /// Sorts by the high half of the words, which must be distinct. `spare` is overwritten.
   void sort_by_high_half(Words& spare);
