@@ -1,7 +1,6 @@
 #include "kernel/separation.h"
 
 #include "kernel/power_of_two.h"
-#include "kernel/rounding.h"
 
 namespace selvage::detail {
 
@@ -64,18 +63,13 @@ bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& be
 template <class Real>
 bool winds_apart(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
                  const DifferencePolygon<Real>& end) {
-  const Double3 &d = motion.extent, &e = motion.edge_extent;
-  const Double3 minors = {d.y * e.z + d.z * e.y, d.z * e.x + d.x * e.z, d.x * e.y + d.y * e.x};
-  const Double3 bound =
-      scaled(kWindingError<Real>, minors) + Double3{kUnderflowError, kUnderflowError, kUnderflowError};
+  const Double3 bound = winding_error(motion);
   Signs signs;
   const auto add = [&](std::size_t corner, const Triple<Real>& edge_begin, const Triple<Real>& edge_end, bool along) {
-    const Triple<Real>&x0 = begin.corner[corner], &x1 = end.corner[corner];
-    const Double3 first = leading(cross(x0, edge_begin)), last = leading(cross(x1, edge_end));
-    const Double3 middle_doubled = leading(cross(x0, edge_end) + cross(x1, edge_begin));
-    signs.add(0, first.x, middle_doubled.x, last.x, bound.x, along);
-    signs.add(1, first.y, middle_doubled.y, last.y, bound.y, along);
-    signs.add(2, first.z, middle_doubled.z, last.z, bound.z, along);
+    const CrossMotion c = cross_motion(begin.corner[corner], end.corner[corner], edge_begin, edge_end);
+    signs.add(0, c.first.x, c.middle_doubled.x, c.last.x, bound.x, along);
+    signs.add(1, c.first.y, c.middle_doubled.y, c.last.y, bound.y, along);
+    signs.add(2, c.first.z, c.middle_doubled.z, c.last.z, bound.z, along);
   };
   switch (motion.kind) {  // around the polygon; `along` tells whether the edge is stored in that direction
     case PairKind::kVf:

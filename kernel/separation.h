@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kernel/closest_point.h"
+#include "kernel/rounding.h"
 
 namespace selvage::detail {
 
@@ -16,6 +17,24 @@ template <class Real>
 template <class Real>
 [[nodiscard]] bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
                              const DifferencePolygon<Real>& end, const Triple<Real>& n);
+
+/// Bernstein coefficients of corner x edge while both move from one instant to another, the middle one doubled.
+struct CrossMotion {
+  Double3 first, middle_doubled, last;
+};
+template <class Real>
+[[nodiscard]] CrossMotion cross_motion(const Triple<Real>& corner_begin, const Triple<Real>& corner_end,
+                                       const Triple<Real>& edge_begin, const Triple<Real>& edge_end) {
+  return {leading(cross(corner_begin, edge_begin)),
+          leading(cross(corner_begin, edge_end) + cross(corner_end, edge_begin)), leading(cross(corner_end, edge_end))};
+}
+/// PROVED: of `first` and `last` along each axis, and half that of `middle_doubled`.
+template <class Real>
+[[nodiscard]] Double3 winding_error(const PairMotion<Real>& motion) {
+  const Double3 &d = motion.extent, &e = motion.edge_extent;
+  const Double3 minors = {d.y * e.z + d.z * e.y, d.z * e.x + d.x * e.z, d.x * e.y + d.y * e.x};
+  return scaled(kWindingError<Real>, minors) + Double3{kUnderflowError, kUnderflowError, kUnderflowError};
+}
 
 /// PROVED when true: no touch while t goes from the instant of `begin` to the instant of `end`. Touching features have
 /// the origin in their polygon, so that the cross products corner x edge around it are all multiples of one vector by

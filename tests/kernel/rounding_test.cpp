@@ -2,6 +2,9 @@
 // exceeded is wrong, one that is never approached is loose.
 #include "kernel/rounding.h"
 
+#include <type_traits>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "kernel/closest_point.h"
@@ -158,10 +161,62 @@ void check_cubics(int cases, double least_share) {
   sharpness.expect_at_least(least_share);
 }
 
+/// Corner and edge of a vertex-face pair, exactly, at t.
+std::pair<Rational3, Rational3> exact_corner_and_edge(const Sample& s, const Rational& t, int exponent) {
+  auto x = testing::exact_points(s.x_t0, s.x_t1, t);
+  for (Rational3& p : x) {
+    for (Rational& c : p.axis) c = testing::scaled_exactly(c, -exponent);
+  }
+  return {x[0] - x[1], x[1] - x[2]};
+}
+
+template <class Real>
+void check_windings(int cases, double least_share) {
+  Random random(16);
+  Sharpness sharpness;
+  for (int i = 0; i < cases; ++i) {
+    Sample s = random_sample(random, -1070, 990);
+    s.kind = PairKind::kVf;
+    const auto motion = detail::make_pair_motion<Real>(s.kind, s.x_t0, s.x_t1);
+    const Real t0 = random_time<Real>(random), t1 = random_time<Real>(random);
+    const auto begin = detail::polygon_at(motion, complement(t0), t0),
+               end = detail::polygon_at(motion, complement(t1), t1);
+    const auto computed = detail::cross_motion(begin.corner[0], end.corner[0], begin.edge_u, end.edge_u);
+    const auto [d0, e0] = exact_corner_and_edge(s, exact(t0), motion.exponent);
+    const auto [d1, e1] = exact_corner_and_edge(s, exact(t1), motion.exponent);
+    const Rational3 first = cross(d0, e0), middle_doubled = cross(d0, e1) + cross(d1, e0), last = cross(d1, e1);
+    const Double3 bound = detail::winding_error(motion);
+    const auto note = [&sharpness](const Double3& value, const Rational3& real, const Double3& limit) {
+      // The double nearest to a double-double value carries one rounding of its own.
+      const auto one = [&sharpness](double v, const Rational& r, double l) {
+        sharpness.note(exact(v) - r, std::is_same_v<Real, double> ? l : l + std::fabs(v) * 0x1p-53);
+      };
+      one(value.x, real[0], limit.x);
+      one(value.y, real[1], limit.y);
+      one(value.z, real[2], limit.z);
+    };
+    note(computed.first, first, bound);
+    note(computed.middle_doubled, middle_doubled, detail::scaled(2.0, bound));
+    note(computed.last, last, bound);
+  }
+  sharpness.expect_at_least(least_share);
+}
+
+// The bounds that kernel/proofs/*.gappa prove, in the terms of these files.
+static_assert(detail::kPointRoundings == 3);
+static_assert(3 * detail::kSupportError<double> == 75 * 0x1p-55);
+static_assert(4 * detail::kWindingError<double> == 37 * 0x1p-53);
+static_assert(18 * detail::kDeterminantError<double> == 369 * 0x1p-54);
+static_assert(detail::kBlossomError<double> == 25 * 0x1p-55);
+static_assert(4 * detail::kWitnessError == 100 * 0x1p-55);
+static_assert(detail::kNormError == 11 * 0x1p-55);
+
 }  // namespace
 
-TEST(SupportError, HoldsInDoublesAtEveryMagnitude) { check_supports<double>(20000, 0.3); }
-TEST(SupportError, HoldsInDoubleDoublesAtEveryMagnitude) { check_supports<DoubleDouble>(8000, 0.01); }
+TEST(WindingError, HoldsInDoublesAtEveryMagnitude) { check_windings<double>(4000, 0.2); }
+TEST(WindingError, HoldsInDoubleDoublesAtEveryMagnitude) { check_windings<DoubleDouble>(2000, 0.5); }
+TEST(SupportError, HoldsInDoublesAtEveryMagnitude) { check_supports<double>(8000, 0.3); }
+TEST(SupportError, HoldsInDoubleDoublesAtEveryMagnitude) { check_supports<DoubleDouble>(4000, 0.02); }
 TEST(DeterminantError, HoldsInDoublesAtEveryMagnitude) { check_cubics<double>(6000, 0.05); }
 TEST(DeterminantError, HoldsInDoubleDoublesAtEveryMagnitude) { check_cubics<DoubleDouble>(3000, 0.001); }
 
