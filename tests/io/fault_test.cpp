@@ -19,7 +19,7 @@
 
 namespace {
 
-enum class Fault { kNone, kKill, kKillHalfway, kFailOnce, kFailForever, kFailHalfway };
+enum class Fault { kNone, kKill, kKillHalfway, kFailOnce, kFailForever, kFailHalfway, kShortWrites, kInterruptions };
 
 struct Plan {
   bool is_armed = false;
@@ -37,7 +37,8 @@ std::string name_of(int descriptor) {
 bool is_due(const std::string& call) {
   if (!plan.is_armed) return false;
   plan.log.push_back(call);
-  const bool is_due = plan.fault != Fault::kNone && plan.calls_before-- <= 0;
+  const bool can_fail = Fault::kKill <= plan.fault && plan.fault <= Fault::kFailHalfway;
+  const bool is_due = can_fail && plan.calls_before-- <= 0;
   if (is_due && plan.fault == Fault::kKill) ::raise(SIGKILL);
   if (is_due && plan.fault != Fault::kFailForever) plan.is_armed = false;
   return is_due;
@@ -69,6 +70,11 @@ int open(const char* path, int flags, ...) {
 
 ssize_t write(int descriptor, const void* bytes, size_t count) {
   auto* const write_all = original<ssize_t(int, const void*, size_t)>("write");
+  if (plan.is_armed && plan.fault == Fault::kShortWrites) return write_all(descriptor, bytes, (count + 1) / 2);
+  if (plan.is_armed && plan.fault == Fault::kInterruptions && plan.calls_before++ % 2 == 0) {
+    errno = EINTR;
+    return -1;
+  }
   if (!is_due("write " + name_of(descriptor))) return write_all(descriptor, bytes, count);
   if (plan.fault == Fault::kKillHalfway || plan.fault == Fault::kFailHalfway) {
     if (write_all(descriptor, bytes, count / 2) < 0) ::abort();
@@ -191,6 +197,17 @@ TEST(WriterFaults, TheSameWriterGoesOnAfterAFailure) {
     EXPECT_EQ(writer.frame_count(), 1u);
     writer.append(1, points_of(1));
     EXPECT_EQ(expect_sound(folder.path(), 2), 2u);
+  }
+}
+
+TEST(WriterFaults, ShortAndInterruptedWritesAreContinued) {
+  for (const Fault fault : {Fault::kShortWrites, Fault::kInterruptions}) {
+    const TemporaryFolder folder;
+    plan = {.is_armed = true, .fault = fault, .calls_before = 0, .log = {}};
+    std::size_t acknowledged = 0;
+    EXPECT_NO_THROW(run(folder.path(), acknowledged));
+    plan = {};
+    EXPECT_EQ(expect_sound(folder.path(), acknowledged), kFrames);
   }
 }
 
