@@ -1,140 +1,17 @@
 // PLY: the elements "vertex" (x, y, z) and "face" (vertex_indices); other properties and elements are skipped.
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <string>
-#include <utility>
 
-#include "io/byte_order.h"
 #include "io/fail.h"
 #include "io/mesh_reader.h"
 #include "io/ply_header.h"
+#include "io/ply_records.h"
 #include "io/polygon.h"
-#include "io/text.h"
 
 namespace selvage::io {
 namespace {
-
-/// Values written as text, one record a line.
-class AsciiRecords {
- public:
-  explicit AsciiRecords(LineReader& lines) : lines_(lines) {}
-
-  void begin_record() {
-    do {
-      const std::optional<std::string_view> line = lines_.next();
-      if (!line) fail("records are missing; the file is cut short");
-      record_ = trimmed(*line);
-    } while (record_.empty());
-  }
-  void end_record() {
-    if (!trimmed(record_).empty()) fail("the record has more values than properties; correct it");
-  }
-  void end_data() {
-    while (const std::optional<std::string_view> line = lines_.next()) {
-      if (!trimmed(*line).empty()) fail("more records than the header announces; correct the count");
-    }
-  }
-
-  double real(PlyType type) {
-    if (is_integer(type)) return static_cast<double>(integer(type));
-    const std::string_view token = next_value();
-    double value = 0;
-    float single = 0;
-    const NumberFault fault = type == PlyType::kFloat32 ? parse_number(token, single) : parse_number(token, value);
-    if (fault != NumberFault::kNone) fail(describe(fault, token));
-    return type == PlyType::kFloat32 ? double{single} : value;
-  }
-  std::int64_t integer(PlyType type) {
-    const std::string_view token = next_value();
-    const std::optional<std::int64_t> value = parse_integer(token);
-    const unsigned bits = static_cast<unsigned>(8 * size_of(type));
-    const bool is_signed = type == PlyType::kInt8 || type == PlyType::kInt16 || type == PlyType::kInt32;
-    const std::int64_t high = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
-    const std::int64_t low = is_signed ? -high - 1 : 0;
-    if (!value || *value < low || *value > high) fail(in_quotes(token) + " is no integer of its type; correct it");
-    return *value;
-  }
-  void skip(PlyType, std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i) next_value();
-  }
-  /// Most items that a list of this record can still have.
-  [[nodiscard]] std::size_t most_items(PlyType) const { return record_.size(); }
-
-  [[noreturn]] void fail(std::string_view what) const { lines_.fail(what); }
-
- private:
-  std::string_view next_value() {
-    const std::string_view token = next_token(record_);
-    if (token.empty()) fail("the record has fewer values than properties; correct it");
-    return token;
-  }
-
-  LineReader& lines_;
-  std::string_view record_;
-};
-
-/// Values in binary, without separators.
-class BinaryRecords {
- public:
-  BinaryRecords(std::string_view bytes, std::size_t offset, std::string_view name, std::endian order)
-      : bytes_(bytes), offset_(offset), name_(name), order_(order) {}
-
-  void begin_record() {}
-  void end_record() {}
-  void end_data() {
-    if (offset_ != bytes_.size()) fail("bytes follow the last record; correct the counts");
-  }
-
-  double real(PlyType type) {
-    if (is_integer(type)) return static_cast<double>(integer(type));
-    const double value = type == PlyType::kFloat32 ? double{take<float>()} : take<double>();
-    if (!std::isfinite(value)) fail("a coordinate is not finite; repair the export");
-    return value;
-  }
-  std::int64_t integer(PlyType type) {
-    switch (type) {
-      case PlyType::kInt8:
-        return take<std::int8_t>();
-      case PlyType::kUint8:
-        return take<std::uint8_t>();
-      case PlyType::kInt16:
-        return take<std::int16_t>();
-      case PlyType::kUint16:
-        return take<std::uint16_t>();
-      case PlyType::kInt32:
-        return take<std::int32_t>();
-      default:
-        return take<std::uint32_t>();
-    }
-  }
-  void skip(PlyType type, std::int64_t count) {
-    const auto needed = static_cast<std::uint64_t>(count) * size_of(type);  // below 2^32 times 8
-    require(needed);
-    offset_ += needed;
-  }
-  [[nodiscard]] std::size_t most_items(PlyType type) const { return (bytes_.size() - offset_) / size_of(type); }
-
-  [[noreturn]] void fail(std::string_view what) const { bad_input_at_byte(name_, offset_, what); }
-
- private:
-  template <typename T>
-  T take() {
-    require(sizeof(T));
-    const T value = load<T>(bytes_.data() + offset_, order_);
-    offset_ += sizeof(T);
-    return value;
-  }
-  void require(std::uint64_t count) const {
-    if (count > bytes_.size() - offset_) fail("records are missing; the file is cut short");
-  }
-
-  std::string_view bytes_;
-  std::size_t offset_;
-  std::string_view name_;
-  std::endian order_;
-};
 
 template <typename Records>
 void skip_property(Records& records, const PlyProperty& property) {
