@@ -70,6 +70,17 @@ inline pid_t start_program(const std::filesystem::path& folder, std::vector<std:
   _exit(127);
 }
 
+/// Returns once the child has a handler for the signal: before that it would die of it.
+inline void wait_until_signal_is_caught(pid_t child, int signal) {
+  for (int i = 0; i < 6000; ++i) {
+    const std::string status = slurp("/proc/" + std::to_string(child) + "/status");
+    const std::size_t at = status.find("SigCgt:");
+    if (at != std::string::npos && (std::stoull(status.substr(at + 7), nullptr, 16) >> (signal - 1) & 1) != 0) return;
+    usleep(10000);
+  }
+  ADD_FAILURE() << "the program does not catch signal " << signal;
+}
+
 inline ProgramResult wait_for_program(const std::filesystem::path& folder, pid_t child) {
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);

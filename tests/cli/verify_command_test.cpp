@@ -157,6 +157,22 @@ TEST(VerifyCommand, UsageErrorsAreTwo) {
   }
 }
 
+TEST(VerifyCommand, InterruptEndsWithUnknownAnd75) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", report = folder.path() / "report.json";
+  spit(mesh, two_faces(1));
+  std::vector<std::string> arguments = {"verify", "--motion", "--json", report};
+  arguments.insert(arguments.end(), 15000, mesh);  // many units of work
+  const pid_t child = testing::start_program(folder.path(), arguments);
+  testing::wait_until_signal_is_caught(child, SIGINT);
+  kill(child, SIGINT);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
+  EXPECT_TRUE(result.out.starts_with("unknown\n")) << result.out;
+  EXPECT_NE(result.out.find("stopped on request"), std::string::npos) << result.out;
+  EXPECT_EQ(nlohmann::json::parse(testing::slurp(report))["verdict"], "unknown");
+}
+
 TEST(VerifyCommand, HelpStartsWithAnExample) {
   const auto result = run_program({"verify", "--help"});
   EXPECT_EQ(result.exit_code, 0);

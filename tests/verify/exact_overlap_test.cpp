@@ -301,6 +301,27 @@ TEST(ExactOverlap, RepairsTheRoundingMode) {
   }
 }
 
+// Two cones that touch along one ray, perpendicular to the direction between them: the computed sides of the ray's two
+// points are rounding noise, and only the filter's margin keeps it from calling the cones apart.
+TEST(ExactOverlap, ConesThatTouchAlongARayAreNotApart) {
+  std::mt19937 random(41);
+  std::uniform_int_distribution<std::int64_t> long_number(-(1 << 23), 1 << 23), short_number(-(1 << 11), 1 << 11);
+  for (int i = 0; i < 3000; ++i) {
+    const std::array<std::int64_t, 3> e = {long_number(random), long_number(random), long_number(random)};
+    const std::array<std::int64_t, 3> r = {short_number(random), short_number(random), short_number(random)};
+    TwoTriangles c{{0, 1, 2}, {0, 3, 4}, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
+      const std::int64_t w = e[x] * r[y] - e[y] * r[x];  // perpendicular to e; every number here is exactly a double
+      c.a[1][k] = static_cast<double>(3 * e[k]);
+      c.a[2][k] = static_cast<double>(w - 3 * e[k]);
+      c.b[1][k] = static_cast<double>(e[k]);
+      c.b[2][k] = static_cast<double>(-w - e[k]);
+    }
+    ASSERT_EQ(decide(c), OverlapKind::kTouch) << text(c);
+  }
+}
+
 // What the filter is for: ordinary neighbours and near misses must not need integers.
 TEST(ExactOverlap, FilterDecidesOrdinaryPairs) {
   const auto used = [](const TwoTriangles& c) {

@@ -193,6 +193,26 @@ TEST(FrameCheck, IsEveryPairOfATangledSoup) {
   }
 }
 
+// A corner exactly on another face, in numbers so long that heights over the face round: only the margins of the
+// filters keep the rounded heights from telling the two faces apart.
+TEST(FrameCheck, FacesThatTouchInLongNumbersAreFound) {
+  std::mt19937 random(43);
+  std::uniform_int_distribution<std::int64_t> number(-(1 << 24), 1 << 24);
+  for (int i = 0; i < 2000; ++i) {
+    io::MeshData mesh;
+    for (int v = 0; v < 3; ++v) {
+      mesh.points.push_back({double(4 * number(random)), double(4 * number(random)), double(4 * number(random))});
+    }
+    mesh.triangles.push_back({0, 1, 2});
+    const Point touch = point_on(mesh, 0, {1, 1, 2});
+    const auto above = [&](double x, double y) { return Point{touch[0] + x, touch[1] + y, touch[2] + 0x1p+28}; };
+    const auto p = add_vertex(mesh, touch);
+    const auto q = add_vertex(mesh, above(1, 0));
+    mesh.triangles.push_back({p, q, add_vertex(mesh, above(0, 1))});
+    ASSERT_EQ(texts(check(mesh)), std::set<std::string>{"overlap touch 0 1"}) << i;
+  }
+}
+
 TEST(FrameCheck, ListIsSortedCappedAndTheSameForAnyNumberOfThreads) {
   io::MeshData mesh = sheet(30);
   for (std::size_t face = 0; face < 1800; face += 7) {
