@@ -15,7 +15,7 @@ struct CcdOptions {
 
 enum class CcdVerdict : std::uint8_t {
   kSeparated,   ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
-  kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]
+  kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]: 2^-39 of their size, or tolerance
   kUnresolved,  ///< the limit was reached: to be treated as a collision at toi_lower
 };
 
@@ -26,6 +26,7 @@ enum class CcdCause : std::uint8_t {
   kEnd,     ///< PROVED free of touch over [0,1]; only the distance at t = 1 is not above tolerance
 };
 
+/// A separated answer carries no weights and no normal.
 struct CcdResult {
   CcdVerdict verdict = CcdVerdict::kUnresolved;
   CcdCause cause = CcdCause::kMotion;
