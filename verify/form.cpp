@@ -19,12 +19,6 @@ bool Form::is_definite() const {
   return sign != 0;
 }
 
-Form operator+(const Form& a, const Form& b) {
-  Form sum{a.degree, {}};
-  for (std::size_t i = 0; i <= a.degree; ++i) sum.c[i] = a.c[i] + b.c[i];
-  return sum;
-}
-
 Form operator-(const Form& a, const Form& b) {
   Form difference{a.degree, {}};
   for (std::size_t i = 0; i <= a.degree; ++i) difference.c[i] = a.c[i] - b.c[i];
@@ -46,12 +40,6 @@ void add_product(Form& sum, const Form& a, const Form& b, int sign) {
 }
 
 }  // namespace
-
-Form operator*(const Form& a, const Form& b) {
-  Form product{a.degree + b.degree, {}};
-  add_product(product, a, b, 1);
-  return product;
-}
 
 Form cross_component(const FormVector& a, const FormVector& b, std::size_t k) {
   const std::size_t y = (k + 1) % 3, z = (k + 2) % 3;

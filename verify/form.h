@@ -23,14 +23,12 @@ struct Form {
 };
 
 /// REQUIRES equal degrees.
-[[nodiscard]] Form operator+(const Form& a, const Form& b);
 [[nodiscard]] Form operator-(const Form& a, const Form& b);
-/// REQUIRES degrees that add up to at most 3.
-[[nodiscard]] Form operator*(const Form& a, const Form& b);
 
 /// A vector of three forms of one degree.
 using FormVector = std::array<Form, 3>;
 [[nodiscard]] FormVector operator-(const FormVector& a, const FormVector& b);
+/// Products: REQUIRES degrees that add up to at most 3.
 [[nodiscard]] FormVector cross(const FormVector& a, const FormVector& b);
 /// One of its components.
 [[nodiscard]] Form cross_component(const FormVector& a, const FormVector& b, std::size_t k);

@@ -159,6 +159,13 @@ MotionCase scaled(Draw& draw, int range) {
   return with_coordinates(any_lattice(draw, range), [exponent](double x) { return std::ldexp(x, exponent); });
 }
 
+/// Any exponents side by side, subnormals with the largest.
+MotionCase whole_range(Draw& draw, int range) {
+  return with_coordinates(any_lattice(draw, range),
+                          [&draw](double x) { return draw.chance(50) ? x : std::ldexp(x, draw.integer(-1074, 1000)); });
+}
+
+constexpr Family kWholeRange[] = {{"whole range", whole_range}};
 constexpr Family kDouble[] = {
     {"last bits", last_bits}, {"thirds + 1000", thirds}, {"mixed exponents", exponents},
     {"offset", offset},       {"scaled", scaled},
@@ -233,6 +240,7 @@ Point Draw::point(int range) {
 
 std::span<const Family> lattice_families() { return kLattice; }
 std::span<const Family> double_families() { return kDouble; }
+std::span<const Family> whole_range_families() { return kWholeRange; }
 
 PlantedHit planted_vf_hit(Draw& draw, int range) {
   const auto w = weights<3>(draw, kWeightTotal);

@@ -41,6 +41,8 @@ struct Family {
 [[nodiscard]] std::span<const Family> lattice_families();
 /// Doubles that are not whole: last bits, rounded thirds far from the origin, exponents far apart.
 [[nodiscard]] std::span<const Family> double_families();
+/// Exponents over the whole range of doubles: exact arithmetic on numbers of thousands of bits.
+[[nodiscard]] std::span<const Family> whole_range_families();
 
 /// Motions that touch at the time numerator / denominator: a point of positive or zero whole weights is planted.
 struct PlantedHit {

@@ -85,6 +85,10 @@ TEST(SecondOpinion, AgreesOnDoubles) {
   }
 }
 
+TEST(SecondOpinion, AgreesOverTheWholeRangeOfDoubles) {
+  expect_agreement(testing::whole_range_families(), 3, setting("SELVAGE_AGREEMENT_CASES", 20));
+}
+
 TEST(SecondOpinion, LeavesTheRoundingMode) {
   Draw draw(5);
   for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
