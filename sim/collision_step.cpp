@@ -15,29 +15,24 @@
 #include "sim/step_input.h"
 #include "sim/step_limit.h"
 #include "sim/step_motion.h"
+#include "sim/surface_parts.h"
+#include "sim/travel_limit.h"
 
 namespace selvage::sim {
 namespace {
-
-/// Vertices whose pairs are looked at: all but those of bodies.
-std::vector<std::uint8_t> surface_flags(const CollisionBodies& bodies) {
-  std::vector<std::uint8_t> flags(bodies.inverse_mass.size(), 1);
-  for (std::size_t v = 0; v < bodies.body.size(); ++v) flags[v] = bodies.body[v] < 0 ? 1 : 0;
-  return flags;
-}
 
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
  public:
   Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const CollisionBodies& bodies,
-          ScriptedGroups& groups, double dt_s)
+          std::vector<std::uint8_t> surface, ScriptedGroups& groups, double dt_s)
       : mesh_(mesh),
         hierarchy_(hierarchy),
         options_(options),
         bodies_(bodies),
         groups_(groups),
         dt_s_(dt_s),
-        surface_(surface_flags(bodies)),
+        surface_(std::move(surface)),
         tracker_(mesh, hierarchy, {options.tolerance_m, options.max_intervals}, surface_),
         update_(mesh.vertex_count) {}
 
@@ -46,6 +41,7 @@ class Attempt {
     report_ = {};
     motion_.start(V_t0, groups_.targets(V_t0, V_candidate), options_.precision);
     groups_.observe(motion_);
+    report_.cut_candidates = limit_travel(groups_, motion_);
     if (options_.repulsion) repel();
     tracker_.start(motion_);
     report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
@@ -78,31 +74,27 @@ class Attempt {
   CollisionStepReport report_;
 };
 
-/// Sections 7.2 and 7.3: every proximity at the start of the step, in parallel.
+/// Sections 7.2 and 7.3: every proximity at the start of the step, in parallel, a few rounds.
 void Attempt::repel() {
   const std::vector<PairProximity> proximities =
       find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
   report_.proximities = static_cast<std::int64_t>(proximities.size());
-  std::vector<PairChange> changes;
+  std::vector<RepulsionContact> contacts;
   for (const PairProximity& pair : proximities) {
-    const Interaction interaction =
-        make_interaction(pair.kind, pair.vertices, pair.proximity.weights, bodies_.inverse_mass);
-    const PairVectors displacement = gather(interaction, motion_.displacement());
-    const double mobility = effective_mobility(interaction);
-    const Vec3& normal = pair.proximity.normal;
-    const Repulsion push = repulsion(pair.proximity.distance, relative(interaction, displacement).dot(normal),
-                                     mobility * interaction.inverse_mass_scale, options_, dt_s_);
-    if (!(mobility > 0) || !(push.total() > 0)) continue;
-    ++report_.repulsions;
-    PairChange change{pair.vertices, distribute(interaction, push.total() * normal)};
-    if (const auto rub = friction_change(interaction, gather(interaction, motion_.V_t0()), displacement, normal,
-                                         push.total(), {options_.friction_static, options_.friction_kinetic})) {
-      ++report_.frictions;
-      for (std::size_t i = 0; i < 4; ++i) change.change[i] += (*rub)[i];
-    }
-    changes.push_back(change);
+    if (auto contact = make_contact(pair, motion_.V_t0(), bodies_.inverse_mass)) contacts.push_back(*contact);
   }
-  update_.apply(changes, options_.relaxation, motion_);
+  for (int round = 0; round < kRepulsionRounds; ++round) {
+    std::vector<PairChange> changes;
+    for (const RepulsionContact& contact : contacts) {
+      const RepulsionChange change = repel_contact(contact, motion_.displacement(), options_, dt_s_, round);
+      if (!change.repels) continue;
+      report_.repulsions += round == 0 ? 1 : 0;
+      report_.frictions += round == 0 && change.rubs ? 1 : 0;
+      changes.push_back({contact.interaction.vertices, change.change});
+    }
+    if (changes.empty()) return;
+    update_.apply(changes, options_.relaxation, motion_);
+  }
 }
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
@@ -175,11 +167,12 @@ Positions average_velocity(const Positions& displacement, double dt_s) {
 
 struct CollisionStep::Impl {
   Impl(const Mesh& step_mesh, const CollisionOptions& step_options)
-      : mesh(step_mesh), options(step_options), hierarchy(step_mesh) {}
+      : mesh(step_mesh), options(step_options), hierarchy(step_mesh), parts(step_mesh) {}
 
   const Mesh& mesh;
   CollisionOptions options;
   BoxHierarchy hierarchy;
+  SurfaceParts parts;
 };
 
 CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options)
@@ -195,7 +188,8 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);
-  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, bodies, groups, dt_s);
+  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, bodies, impl_->parts.cloth_flags(bodies), groups,
+                  dt_s);
   std::vector<std::int32_t> waiting;
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {

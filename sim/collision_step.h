@@ -54,6 +54,9 @@ enum class StepStatus : std::uint8_t {
 struct CollisionStepReport {
   StepStatus status = StepStatus::kInvalidInput;
   InputError input_error = InputError::kNone;
+  /// Candidates of cloth that were farther from their start than 1024 diagonals of the scene's box, and were cut back
+  /// to that before anything else (travel_limit.h): the simulation has blown up.
+  std::int64_t cut_candidates = 0;
   std::int64_t proximities = 0, repulsions = 0, frictions = 0;
   std::int64_t first_collisions = 0;  ///< left by the repulsions, before any impulse of section 7.4
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
@@ -83,13 +86,12 @@ class CollisionStep {
   CollisionStep(CollisionStep&&) noexcept;
 
   /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
-  /// looked at. V_candidate: any finite positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the
-  /// lattice, and the candidates, the scripts' too, are rounded to it.
-  /// POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than tolerance is named;
-  /// scripted vertices are at their (rounded) candidates, or at V_t0 where their body waits; all others are within
-  /// kMaxCoordinate, or the largest float32.
-  /// Ends after at most (bodies + 2) (impulse_iterations + zone_iterations + 3 #V + 1) searches for collisions.
-  /// Deterministic for any thread count.
+  /// looked at (a part of the mesh in which every vertex has a body is one). V_candidate: any finite positions;
+  /// scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the scripts' too,
+  /// are rounded to it. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than
+  /// tolerance is named; scripted vertices are at their (rounded) candidates, or at V_t0 where their body waits; all
+  /// others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations +
+  /// zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s);
 

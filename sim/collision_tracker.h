@@ -12,8 +12,8 @@ namespace selvage::sim {
 
 class CollisionTracker {
  public:
-  /// `surface`: #V flags of the vertices whose pairs count: all but those of bodies, so that two features of bodies are
-  /// never tested. The mesh and the hierarchy must outlive it.
+  /// `surface`: #V flags of the vertices whose pairs count (SurfaceParts::cloth_flags). The mesh and the hierarchy must
+  /// outlive it.
   CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const CcdOptions& options,
                    std::vector<std::uint8_t> surface);
 

@@ -13,14 +13,13 @@ namespace {
 
 /// The rigid rotations of a closed pair's four vertices, in lengths of `scale`; scripted pairs have none.
 struct PairRotation {
-  PairVectors y;  ///< from the centre of mass
+  PairVectors y = zero_vectors();  ///< from the centre of mass
   Vec3 r = Vec3::Zero();
   Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();
 };
 
 PairRotation pair_rotation(const Interaction& interaction, const PairVectors& x_t0) {
   PairRotation result;
-  result.y.fill(Vec3::Zero());  // Eigen's default is not zero, and 0 times what is left in memory may be NaN
   if (!is_closed(interaction)) return result;
   double mass_sum = 0;
   Vec3 center = Vec3::Zero();  // relative to the first vertex

@@ -18,7 +18,7 @@ namespace selvage::sim {
 /// What one pair asks for: changes of its vertices' displacements, as if it were alone.
 struct PairChange {
   std::array<VertexId, 4> vertices{};
-  PairVectors change{};
+  PairVectors change = zero_vectors();
 };
 
 /// Applies all changes at once, each with its share. Serial, in the given order: same bits for any thread count.

@@ -13,10 +13,8 @@ std::size_t first_feature_size(PairKind kind) { return kind == PairKind::kEe ? 2
 
 Interaction make_interaction(PairKind kind, const std::array<VertexId, 4>& vertices,
                              const std::array<double, 4>& weights, std::span<const double> inverse_mass) {
-  // A self pair is {p, a, b, p}: its last slot repeats the first and takes no part.
-  const std::size_t used = kind == PairKind::kSelf ? 3 : 4;
-  Interaction result{.vertices = vertices};
-  for (std::size_t i = 0; i < used; ++i) {
+  Interaction result{.vertices = vertices, .vertex_count = kind == PairKind::kSelf ? 3U : 4U};
+  for (std::size_t i = 0; i < result.vertex_count; ++i) {
     result.weights[i] = i < first_feature_size(kind) ? weights[i] : -weights[i];
     result.mobility[i] = inverse_mass[static_cast<std::size_t>(vertices[i])];
   }
@@ -48,7 +46,8 @@ double effective_mobility(const Interaction& interaction) {
 }
 
 bool is_closed(const Interaction& interaction) {
-  return std::ranges::all_of(interaction.mobility, [](double mobility) { return mobility > 0; });
+  const std::span<const double> mobility(interaction.mobility.data(), interaction.vertex_count);
+  return std::ranges::all_of(mobility, [](double m) { return m > 0; });
 }
 
 double lever_share(const Interaction& interaction) {
@@ -61,8 +60,7 @@ double lever_share(const Interaction& interaction) {
 }
 
 PairVectors distribute(const Interaction& interaction, const Vec3& change) {
-  PairVectors result;
-  result.fill(Vec3::Zero());
+  PairVectors result = zero_vectors();
   const double mobility = effective_mobility(interaction);
   if (!(mobility > 0)) return result;
   const double share = lever_share(interaction);

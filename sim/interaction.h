@@ -11,12 +11,15 @@
 namespace selvage::sim {
 
 using PairVectors = std::array<Vec3, 4>;  ///< one vector for each vertex of a pair, in the pair's order
+/// Eigen leaves the elements of PairVectors{} as they are in memory.
+[[nodiscard]] inline PairVectors zero_vectors() { return {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}; }
 
 struct Interaction {
   std::array<VertexId, 4> vertices{};  ///< in the order of pair_vertices()
   /// Signed: the point of the first feature minus the point of the second is sum_i weights[i] x_i. Sum 0 up to
   /// rounding.
   std::array<double, 4> weights{};
+  std::size_t vertex_count = 4;  ///< 3 for a self pair {p, a, b, p}, whose last slot has weight and mobility 0
   /// Inverse masses over the largest of the four: in [0, 1]; 0 for scripted vertices. Below kLeastMobility a vertex
   /// counts as scripted, so that no product of masses leaves the range of doubles.
   std::array<double, 4> mobility{};

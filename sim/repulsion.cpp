@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/friction.h"
+
 namespace selvage::sim {
 
 Repulsion repulsion(double distance, double displacement, double inverse_mass_kg, const CollisionOptions& options,
@@ -15,6 +17,38 @@ Repulsion repulsion(double distance, double displacement, double inverse_mass_kg
   // v_N dt = dt * (k d dt) * K. Not `min`: an overflow times an underflow is NaN and must end at the limit too.
   const double spring = dt_s * dt_s * options.repulsion_stiffness_n_m * overlap * inverse_mass_kg;
   result.spring = spring < limit ? spring : limit;
+  return result;
+}
+
+std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Positions& V_t0,
+                                             std::span<const double> inverse_mass) {
+  RepulsionContact contact;
+  contact.interaction = make_interaction(pair.kind, pair.vertices, pair.proximity.weights, inverse_mass);
+  contact.x_t0 = gather(contact.interaction, V_t0);
+  contact.normal = pair.proximity.normal;
+  contact.distance = pair.proximity.distance;
+  contact.mobility = effective_mobility(contact.interaction);
+  if (!(contact.mobility > 0) || contact.normal.isZero(0)) return std::nullopt;
+  return contact;
+}
+
+RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
+                              const CollisionOptions& options, double dt_s, int round) {
+  RepulsionChange result;
+  const Interaction& interaction = contact.interaction;
+  const PairVectors d = gather(interaction, displacement);
+  const double displacement_n = relative(interaction, d).dot(contact.normal);
+  if (round > 0 && !(-displacement_n > kSettledApproach * contact.distance)) return result;
+  const Repulsion push = repulsion(contact.distance, displacement_n, contact.mobility * interaction.inverse_mass_scale,
+                                   options, round == 0 ? dt_s : 0);
+  if (!(push.total() > 0)) return result;
+  result.repels = true;
+  result.change = distribute(interaction, push.total() * contact.normal);
+  const FrictionCoefficients friction{options.friction_static, options.friction_kinetic};
+  if (const auto rub = friction_change(interaction, contact.x_t0, d, contact.normal, push.total(), friction)) {
+    result.rubs = true;
+    for (std::size_t i = 0; i < 4; ++i) result.change[i] += (*rub)[i];
+  }
   return result;
 }
 

@@ -1,7 +1,11 @@
 // Repulsions: pairs nearer than the cloth's thickness stop approaching, and a spring pushes them apart (paper, 7.2).
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include "sim/collision_step.h"
+#include "sim/interaction.h"
 
 namespace selvage::sim {
 
@@ -18,5 +22,36 @@ struct Repulsion {
 /// (impulse m dv for two particles of mass m changes their relative velocity by 2 dv); its text asks for this one.
 [[nodiscard]] Repulsion repulsion(double distance, double displacement, double inverse_mass_kg,
                                   const CollisionOptions& options, double dt_s);
+
+/// A proximity as it repels: what does not change between rounds.
+struct RepulsionContact {
+  Interaction interaction;
+  PairVectors x_t0 = zero_vectors();
+  Vec3 normal = Vec3::Zero();
+  double distance = 0;
+  double mobility = 0;  ///< effective_mobility(interaction) > 0
+};
+
+/// Nothing where no vertex that matters can move, or where the points coincide.
+[[nodiscard]] std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Positions& V_t0,
+                                                           std::span<const double> inverse_mass);
+
+/// Parallel rounds over the contacts of a step; proximities are found once. Measured on 50 by 50 sheets, share of the
+/// first approach that is left after 10 rounds: sheet on a coarse box 0, on a fine box 0.2 %, on another sheet 9 %,
+/// three sheets on a box 45 %; one round leaves 67 to 83 %, which adds up under gravity until section 7.4 has to act
+/// every step.
+inline constexpr int kRepulsionRounds = 10;
+/// After the first round an approach below this share of the distance waits for the next step.
+inline constexpr double kSettledApproach = 1e-6;
+
+struct RepulsionChange {
+  bool repels = false, rubs = false;
+  PairVectors change = zero_vectors();  ///< of the four displacements
+};
+
+/// Repulsion and friction (7.2, 7.3) of one contact for the displacements as they are. The spring acts in round 0 only,
+/// and friction on what each round presses, so over all rounds it stays in Coulomb's cone.
+[[nodiscard]] RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
+                                            const CollisionOptions& options, double dt_s, int round);
 
 }  // namespace selvage::sim

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernel/assert.h"
+
 namespace selvage::sim {
 
 double to_lattice(double x, CollisionOptions::Precision precision) {
@@ -21,6 +23,7 @@ void StepMotion::start(const PositionsRef& V_t0, const PositionsRef& V_t1, Preci
 }
 
 void StepMotion::move(VertexId vertex, const Vec3& displacement) {
+  SELVAGE_ASSERT(displacement.allFinite());
   const Vec3 start = V_t0_.row(vertex);
   const Vec3 end = start + displacement;
   const Vec3 stored = end.unaryExpr([this](double value) { return to_lattice(value, precision_); });

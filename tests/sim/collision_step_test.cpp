@@ -1,0 +1,332 @@
+#include "sim/collision_step.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <oneapi/tbb/global_control.h>
+
+#include "tests/sim/step_scene.h"
+
+namespace selvage::sim::testing {
+namespace {
+
+Shape sheet(std::int32_t side, double width_m = 0.1) { return make_sheet(side, side, width_m, width_m); }
+
+/// A single triangle of about `size_m`, in the plane z = 0, around the origin.
+Shape triangle(double size_m) {
+  Shape shape;
+  shape.x.resize(3, 3);
+  shape.x << -size_m, -size_m, 0, size_m, -size_m, 0, 0, size_m, 0;
+  shape.triangles = {{0, 1, 2}};
+  return shape;
+}
+
+double lowest(const Positions& x, const StepScene::Part& part) {
+  return x.block(part.begin, 2, part.end - part.begin, 1).minCoeff();
+}
+double highest(const Positions& x, const StepScene::Part& part) {
+  return x.block(part.begin, 2, part.end - part.begin, 1).maxCoeff();
+}
+
+Eigen::RowVector3d momentum(const StepScene& scene, const Positions& velocity) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (Eigen::Index v = 0; v < velocity.rows(); ++v)
+    sum += velocity.row(v) / scene.inverse_mass[static_cast<std::size_t>(v)];
+  return sum;
+}
+
+}  // namespace
+
+TEST(CollisionStep, WithoutContactReturnsTheCandidatesBits) {
+  StepScene scene;
+  const auto cloth = scene.add(sheet(6), Vec3(0.1, 0.2, 0.3));
+  scene.push(cloth, Vec3(1e-3, 2e-3, -1.0 / 3));
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.x, scene.V_candidate);
+  EXPECT_EQ(result.report.impulse_rounds, 0);
+  EXPECT_TRUE(result.report.below_tolerance.empty());
+  EXPECT_GT(result.report.certificate.vf_candidates, 0);
+}
+
+TEST(CollisionStep, TwoSheetsThrownAtEachOtherStayApart) {
+  for (const double speed_m_s : {0.1, 1.0, 10.0, 100.0}) {
+    StepScene scene;
+    const auto lower = scene.add(sheet(8), Vec3(0, 0, 0));
+    const auto upper = scene.add(sheet(8), Vec3(0.0031, 0.0017, 5e-3));
+    scene.push(lower, Vec3(0, 0, scene.dt_s * speed_m_s));
+    scene.push(upper, Vec3(0.3, 0.1, -1) * scene.dt_s * speed_m_s);
+    const Positions v_before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
+    const CollisionStepResult result = scene.step();
+    SCOPED_TRACE(speed_m_s);
+    EXPECT_EQ(exact_defect(scene, result), "");
+    EXPECT_EQ(result.report.fail_safe_vertices, 0);
+    EXPECT_LE((momentum(scene, result.velocity) - momentum(scene, v_before)).norm(), 1e-12 * 128 * speed_m_s);
+    EXPECT_LE(result.velocity.squaredNorm(), v_before.squaredNorm());
+    EXPECT_EQ(result.report.first_collisions > 0, speed_m_s >= 1);
+  }
+}
+
+TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRound) {
+  // Paper, 7.4. The node is a corner of a small triangle that hangs between the two.
+  StepScene scene;
+  const auto below = scene.add(triangle(0.1), Vec3(0, 0, -0.02));
+  const auto above = scene.add(triangle(0.1), Vec3(0, 0, 0.02));
+  const auto between = scene.add(triangle(1e-3), Vec3(0, -0.03, 0));
+  scene.push(below, Vec3(0, 0, 0.04));
+  scene.push(above, Vec3(0, 0, -0.04));
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.zone_rounds, 0);
+  EXPECT_EQ(result.report.fail_safe_vertices, 0);
+  EXPECT_LT(highest(result.x, below), lowest(result.x, between));
+  EXPECT_LT(highest(result.x, between), lowest(result.x, above));
+}
+
+TEST(CollisionStep, SheetFoldedOntoAndThroughItselfStaysFree) {
+  for (const double angle : {0.5, 0.9, 1.0, 1.1, 1.5, 2.0}) {  // of 180 degrees
+    StepScene scene;
+    scene.add(sheet(9), Vec3::Zero());
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle * 3.141592653589793, Vec3::UnitY()).toRotationMatrix();
+    for (Eigen::Index v = 0; v < scene.V_t0.rows(); ++v) {
+      if (scene.V_t0(v, 0) > 0) scene.V_candidate.row(v) = (turn * scene.V_t0.row(v).transpose()).transpose();
+    }
+    SCOPED_TRACE(angle);
+    EXPECT_EQ(exact_defect(scene, scene.step()), "");
+  }
+}
+
+TEST(CollisionStep, FastBodyPushesTheSheetAhead) {
+  for (const double speed_m_s : {0.5, 5.0, 50.0}) {
+    StepScene scene;
+    const auto ball = scene.add(make_sphere(0.03, 2), Vec3(0, 0, -0.032), 0);
+    const auto cloth = scene.add(sheet(10), Vec3(1e-3, 2e-3, 0));
+    scene.push(ball, Vec3(0, 0, speed_m_s * scene.dt_s));
+    const CollisionStepResult result = scene.step();
+    SCOPED_TRACE(speed_m_s);
+    EXPECT_EQ(exact_defect(scene, result), "");
+    EXPECT_GT(highest(result.x, cloth), highest(scene.V_candidate, ball));
+    EXPECT_TRUE(result.report.waiting_bodies.empty());
+  }
+}
+
+TEST(CollisionStep, TurningBodyCarriesWhatItCannotAvoid) {
+  StepScene scene;
+  const auto box = scene.add(make_box(Vec3(0.2, 0.2, 0.02), 3), Vec3(0, 0, -0.0105), 3);
+  scene.add(sheet(8), Vec3(0, 0, 0));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Vec3(1, 0.3, 0.2).normalized()).toRotationMatrix();
+  for (VertexId v = box.begin; v < box.end; ++v) {
+    scene.V_candidate.row(v) = (turn * scene.V_t0.row(v).transpose()).transpose();
+  }
+  scene.options.impulse_iterations = 0;
+  scene.options.zone_iterations = 0;
+  scene.options.repulsion = false;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_GT(result.report.fail_safe_vertices, 0);
+  EXPECT_TRUE(result.report.waiting_bodies.empty());
+}
+
+TEST(CollisionStep, ClothPinchedByTwoBodiesStopsWithAWitnessOrTheBodiesWait) {
+  StepScene scene;
+  const auto floor = scene.add(make_box(Vec3(0.06, 0.06, 0.02), 2), Vec3(0, 0, -0.012), 0);
+  const auto press = scene.add(make_box(Vec3(0.05, 0.05, 0.02), 2), Vec3(0, 0, 0.012), 1);
+  scene.add(sheet(8), Vec3::Zero());
+  scene.push(press, Vec3(0, 0, -0.01));  // 6 mm into the floor
+  const CollisionStepResult stopped = scene.step();
+  EXPECT_EQ(stopped.report.status, StepStatus::kStopped);
+  ASSERT_TRUE(stopped.report.witness);
+  EXPECT_NE(stopped.report.witness->ccd.cause, CcdCause::kEnd);
+  EXPECT_EQ(stopped.x, scene.V_t0);
+  EXPECT_EQ(stopped.velocity.norm(), 0);
+
+  scene.policy = SqueezePolicy::kYield;
+  const CollisionStepResult yielded = scene.step();
+  EXPECT_EQ(exact_defect(scene, yielded), "");
+  EXPECT_EQ(yielded.report.waiting_bodies, (std::vector<std::int32_t>{1}));
+  for (VertexId v = floor.begin; v < floor.end; ++v) EXPECT_EQ(yielded.x.row(v), scene.V_t0.row(v));
+}
+
+TEST(CollisionStep, BodiesThatBothMoveBothWait) {
+  StepScene scene;
+  const auto below = scene.add(make_box(Vec3(0.06, 0.06, 0.02), 2), Vec3(0, 0, -0.012), 7);
+  const auto above = scene.add(make_box(Vec3(0.05, 0.05, 0.02), 2), Vec3(0, 0, 0.012), 4);
+  const auto beside = scene.add(make_box(Vec3(0.02, 0.02, 0.02), 1), Vec3(0.3, 0, 0), 5);
+  scene.add(sheet(8), Vec3::Zero());
+  scene.push(below, Vec3(0, 0, 0.01));
+  scene.push(above, Vec3(0, 0, -0.01));
+  scene.push(beside, Vec3(0, 0, -0.01));
+  scene.policy = SqueezePolicy::kYield;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.waiting_bodies, (std::vector<std::int32_t>{4, 7}));
+}
+
+TEST(CollisionStep, PinsThatCrossTheirOwnClothStopOrWait) {
+  StepScene scene;
+  const auto cloth = scene.add(sheet(6), Vec3::Zero());
+  // Two whole cloth triangles' worth of pins change places: nothing but the pins can give way.
+  for (VertexId v = cloth.begin; v < cloth.end; ++v) scene.inverse_mass[static_cast<std::size_t>(v)] = 0;
+  scene.V_candidate.col(0) = -scene.V_t0.col(0);
+  EXPECT_EQ(scene.step().report.status, StepStatus::kStopped);
+  scene.policy = SqueezePolicy::kYield;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.waiting_bodies, (std::vector<std::int32_t>{-1}));
+}
+
+TEST(CollisionStep, FailSafeAloneKeepsAnyCandidateFree) {
+  // Without responses the fail-safe must do everything: layers that swap places, and motions across many edge lengths.
+  for (const double scale : {1e-3, 1.0, 1e3, 1e150, 1e300}) {
+    StepScene scene;
+    std::mt19937_64 engine(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int layer = 0; layer < 3; ++layer) scene.add(sheet(5), Vec3(0, 0, 1e-3 * layer));
+    scene.V_candidate = scene.V_t0.unaryExpr([&](double x) { return x + scale * unit(engine); });
+    scene.options.impulse_iterations = 0;
+    scene.options.zone_iterations = 0;
+    scene.options.repulsion = false;
+    const CollisionStepResult result = scene.step();
+    SCOPED_TRACE(scale);
+    EXPECT_EQ(exact_defect(scene, result), "");
+    EXPECT_GT(result.report.fail_safe_vertices, 0);
+    EXPECT_LE(result.report.fail_safe_rounds, 3 * 75 + 1);
+  }
+}
+
+TEST(CollisionStep, ImpactZonesAloneResolveACrumple) {
+  StepScene scene;
+  for (int layer = 0; layer < 4; ++layer) scene.add(sheet(6), Vec3(1e-3 * layer, 0, 2e-3 * layer));
+  for (Eigen::Index v = 0; v < scene.V_t0.rows(); ++v) scene.V_candidate(v, 2) = 4e-3 - scene.V_t0(v, 2);
+  scene.options.impulse_iterations = 0;
+  scene.options.repulsion = false;
+  const Positions v_before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_GT(result.report.zone_rounds, 0);
+  EXPECT_GT(result.report.largest_zone, 4);
+  EXPECT_EQ(result.report.fail_safe_vertices, 0);
+  EXPECT_LE((momentum(scene, result.velocity) - momentum(scene, v_before)).norm(), 1e-12 * v_before.norm());
+  EXPECT_LE(result.velocity.squaredNorm(), v_before.squaredNorm() * (1 + 1e-12));
+}
+
+TEST(CollisionStep, RestingSheetLosesItsFallAndKeepsItsGap) {
+  StepScene scene;
+  scene.add(make_box(Vec3(0.3, 0.3, 0.1), 2), Vec3(0, 0, -0.05), 0);
+  const auto cloth = scene.add(sheet(6), Vec3(0, 0, 0.8e-3));
+  scene.dt_s = 1e-3;
+  for (int step = 0; step < 50; ++step) {
+    scene.push(cloth, Vec3(0, 0, -9.81 * scene.dt_s * scene.dt_s));
+    const CollisionStepResult result = scene.step();
+    ASSERT_EQ(exact_defect(scene, result), "");
+    EXPECT_EQ(result.report.impulse_rounds, 0);
+    EXPECT_EQ(result.report.fail_safe_vertices, 0);
+    scene.advance(result);
+  }
+  EXPECT_NEAR(lowest(scene.V_t0, cloth), 0.8e-3, 1e-6);
+  // Impulses shared by weights lift single free corners a little: this cloth has no springs to hold them.
+  EXPECT_NEAR(highest(scene.V_t0, cloth), 0.8e-3, 5e-5);
+}
+
+TEST(CollisionStep, FrictionHoldsASheetOnASlopeBelowItsCoefficient) {
+  // Gravity in the frame of a slope of 0.3: with friction 0.5 the sheet stays, with 0.1 it slides as the law says.
+  const auto slide_m = [](double friction) {
+    StepScene scene;
+    scene.add(make_box(Vec3(0.5, 0.5, 0.1), 2), Vec3(0, 0, -0.05), 0);
+    const auto cloth = scene.add(sheet(6), Vec3(0, 0, 0.5e-3));
+    scene.options.friction_static = friction;
+    scene.options.friction_kinetic = friction;
+    scene.dt_s = 1e-3;
+    const auto middle = [&] { return scene.V_t0.block(cloth.begin, 0, cloth.end - cloth.begin, 1).mean(); };
+    const double start = middle();
+    for (int step = 0; step < 40; ++step) {
+      scene.push(cloth, Vec3(0.3, 0, -1) * 9.81 * scene.dt_s * scene.dt_s);
+      const CollisionStepResult result = scene.step();
+      EXPECT_EQ(exact_defect(scene, result), "");
+      scene.advance(result);
+    }
+    return middle() - start;
+  };
+  const double time_s = 0.04;
+  const double expected = (0.3 - 0.1) * 9.81 * time_s * (time_s + 1e-3) / 2;
+  EXPECT_NEAR(slide_m(0.5), 0, 0.01 * expected);
+  EXPECT_NEAR(slide_m(0.1), expected, 0.03 * expected);
+}
+
+TEST(CollisionStep, ResultLiesOnTheFloat32Lattice) {
+  StepScene scene;
+  scene.options.precision = CollisionOptions::Precision::kFloat32;
+  const auto lower = scene.add(sheet(7), Vec3(0, 0, 100));
+  const auto upper = scene.add(sheet(7), Vec3(0.003, 0.002, 100.004));
+  scene.V_t0 = scene.V_t0.cast<float>().cast<double>();
+  scene.V_candidate = scene.V_t0;
+  scene.push(lower, Vec3(0.001, 0, 0.02));
+  scene.push(upper, Vec3(0, 0.003, -0.02));
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.x, result.x.cast<float>().cast<double>());
+}
+
+TEST(CollisionStep, NamesPairsBelowToleranceAndPushesThemApart) {
+  StepScene scene;
+  const auto lower = scene.add(triangle(0.1), Vec3::Zero());
+  scene.add(triangle(0.01), Vec3(0, 0, 2e-7));
+  scene.options.impulse_iterations = 0;
+  scene.options.zone_iterations = 0;
+  const CollisionStepResult unpushed = scene.step();  // nothing moves
+  EXPECT_EQ(exact_defect(scene, unpushed), "");
+  EXPECT_EQ(unpushed.x, scene.V_t0);
+  EXPECT_GE(unpushed.report.below_tolerance.size(), 3U);
+  scene.options.impulse_iterations = 10;
+  const CollisionStepResult pushed = scene.step();
+  EXPECT_EQ(exact_defect(scene, pushed), "");
+  EXPECT_TRUE(pushed.report.below_tolerance.empty());
+  EXPECT_LT(lowest(pushed.x, lower), 0);
+}
+
+TEST(CollisionStep, SameBitsForAnyThreadCount) {
+  const auto bits = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    StepScene scene;
+    std::mt19937_64 engine(9);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int layer = 0; layer < 3; ++layer) scene.add(sheet(9), Vec3(0, 0, 2e-3 * layer));
+    scene.V_candidate = scene.V_t0.unaryExpr([&](double x) { return x + 5e-3 * unit(engine); });
+    scene.options.friction_static = 0.4;
+    scene.options.friction_kinetic = 0.3;
+    const CollisionStepResult result = scene.step();
+    EXPECT_EQ(exact_defect(scene, result), "");
+    return result;
+  };
+  const CollisionStepResult one = bits(1);
+  EXPECT_GT(one.report.impulse_rounds, 0);
+  for (const std::size_t threads : {2U, 4U}) {
+    const CollisionStepResult many = bits(threads);
+    EXPECT_EQ(one.x, many.x);
+    EXPECT_EQ(one.velocity, many.velocity);
+    EXPECT_EQ(one.report.certificate.intervals, many.report.certificate.intervals);
+  }
+}
+
+TEST(CollisionStep, InvalidInputDoesNothing) {
+  StepScene scene;
+  scene.add(sheet(3), Vec3::Zero());
+  scene.V_candidate(2, 1) = std::numeric_limits<double>::quiet_NaN();
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(result.report.status, StepStatus::kInvalidInput);
+  EXPECT_EQ(result.report.input_error, InputError::kNotFinite);
+  EXPECT_EQ(result.x.rows(), 0);
+}
+
+TEST(CollisionStep, EmptyAndTinyMeshesAreSteps) {
+  StepScene empty;
+  EXPECT_EQ(empty.step().report.status, StepStatus::kSafe);
+  StepScene one;
+  const auto part = one.add(triangle(1), Vec3::Zero());
+  one.push(part, Vec3(1, 2, 3));
+  EXPECT_EQ(exact_defect(one, one.step()), "");
+}
+
+}  // namespace selvage::sim::testing

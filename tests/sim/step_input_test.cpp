@@ -1,0 +1,87 @@
+#include "sim/step_input.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace selvage::sim::testing {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Input {
+  Mesh mesh;
+  CollisionOptions options;
+  Positions V_t0 = Positions::Random(3, 3), V_candidate = Positions::Random(3, 3);
+  std::vector<double> inverse_mass{1, 1, 0};
+  std::vector<std::int32_t> body{-1, -1, 0};
+  double dt_s = 1e-2;
+  Input() {
+    Faces F(1, 3);
+    F << 0, 1, 2;
+    mesh = make_mesh(3, F);
+  }
+  [[nodiscard]] InputError error() const {
+    return validate_step_input(mesh, options, V_t0, V_candidate, {inverse_mass, body, SqueezePolicy::kStop}, dt_s);
+  }
+};
+
+}  // namespace
+
+TEST(StepInput, GoodInputIsTaken) {
+  Input input;
+  EXPECT_EQ(input.error(), InputError::kNone);
+  input.body.clear();
+  EXPECT_EQ(input.error(), InputError::kNone);
+}
+
+TEST(StepInput, NamesTheDefect) {
+  const auto error_after = [](auto spoil) {
+    Input input;
+    spoil(input);
+    return input.error();
+  };
+  EXPECT_EQ(error_after([](Input& i) { i.V_candidate.resize(2, 3); }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_after([](Input& i) { i.inverse_mass.pop_back(); }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_after([](Input& i) { i.body.pop_back(); }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = kNan; }), InputError::kNotFinite);
+  EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = 0x1.8p+1000; }), InputError::kTooLarge);
+  for (const double mass : {-1.0, kNan, kInfinity}) {
+    EXPECT_EQ(error_after([=](Input& i) { i.inverse_mass[0] = mass; }), InputError::kBadMass);
+  }
+  EXPECT_EQ(error_after([](Input& i) { i.inverse_mass[2] = 1; }), InputError::kBadMass);  // a body with mass
+  for (const double dt_s : {0.0, -1e-2, kNan, kInfinity}) {
+    EXPECT_EQ(error_after([=](Input& i) { i.dt_s = dt_s; }), InputError::kBadTimeStep);
+  }
+  EXPECT_EQ(error_after([](Input& i) {
+              i.options.precision = CollisionOptions::Precision::kFloat32;
+              i.V_t0(0, 0) = 0.1;
+            }),
+            InputError::kOffLattice);
+}
+
+TEST(StepInput, OptionsOutsideTheirRangesAreRefused) {
+  const auto error_after = [](auto spoil) {
+    CollisionOptions options;
+    spoil(options);
+    return validate_options(options);
+  };
+  EXPECT_EQ(error_after([](CollisionOptions&) {}), InputError::kNone);
+  for (const double bad : {-1.0, kNan, kInfinity}) {
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.thickness_m = bad; }), InputError::kBadOption);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.tolerance_m = bad; }), InputError::kBadOption);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.repulsion_stiffness_n_m = bad; }), InputError::kBadOption);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.overlap_fraction = bad; }), InputError::kBadOption);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.relaxation = bad; }), InputError::kBadOption);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.friction_static = bad; }), InputError::kBadOption);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.friction_kinetic = bad; }), InputError::kBadOption);
+  }
+  EXPECT_EQ(error_after([](CollisionOptions& o) { o.relaxation = 0; }), InputError::kBadOption);
+  EXPECT_EQ(error_after([](CollisionOptions& o) { o.friction_kinetic = 0.1; }), InputError::kBadOption);  // > static
+  EXPECT_EQ(error_after([](CollisionOptions& o) { o.impulse_iterations = -1; }), InputError::kBadOption);
+  EXPECT_EQ(error_after([](CollisionOptions& o) { o.zone_iterations = -1; }), InputError::kBadOption);
+  EXPECT_EQ(error_after([](CollisionOptions& o) { o.max_intervals = 0; }), InputError::kBadOption);
+}
+
+}  // namespace selvage::sim::testing

@@ -1,0 +1,105 @@
+// Scenes for tests of the collision step: parts placed into one mesh, the step, and the exact check of what it returns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "sim/collision_step.h"
+#include "sim/shapes.h"
+#include "verify/check.h"
+
+namespace selvage::sim::testing {
+
+struct StepScene {
+  struct Part {
+    VertexId begin = 0, end = 0;
+  };
+
+  /// Appends a shape shifted by `shift`; `body` -1 is cloth of 1 kg a vertex.
+  Part add(const Shape& shape, const Vec3& shift, std::int32_t body_id = -1) {
+    const Part part{static_cast<VertexId>(V_t0.rows()), static_cast<VertexId>(V_t0.rows() + shape.x.rows())};
+    V_t0.conservativeResize(part.end, 3);
+    V_t0.bottomRows(shape.x.rows()) = shape.x.rowwise() + shift.transpose();
+    for (const auto& t : shape.triangles) {
+      triangles.push_back({t[0] + part.begin, t[1] + part.begin, t[2] + part.begin});
+      face_is_body.push_back(body_id >= 0 ? 1 : 0);
+    }
+    inverse_mass.insert(inverse_mass.end(), static_cast<std::size_t>(shape.x.rows()), body_id >= 0 ? 0.0 : 1.0);
+    body.insert(body.end(), static_cast<std::size_t>(shape.x.rows()), body_id);
+    V_candidate = V_t0;
+    return part;
+  }
+  void push(const Part& part, const Vec3& displacement) {
+    for (VertexId v = part.begin; v < part.end; ++v) V_candidate.row(v) += displacement.transpose();
+  }
+  [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass, body, policy}; }
+  [[nodiscard]] Mesh mesh() const {
+    Faces F(static_cast<Eigen::Index>(triangles.size()), 3);
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k)
+        F(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles[f][k];
+    }
+    return make_mesh(static_cast<std::int32_t>(V_t0.rows()), F);
+  }
+  [[nodiscard]] CollisionStepResult step() const {
+    const Mesh connectivity = mesh();
+    return CollisionStep(connectivity, options)(V_t0, V_candidate, bodies(), dt_s);
+  }
+  /// Steps on from the result: its positions become V_t0, and the candidates continue with `velocity`.
+  void advance(const CollisionStepResult& result) {
+    V_t0 = result.x;
+    V_candidate = V_t0 + dt_s * result.velocity;
+  }
+
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::uint8_t> face_is_body;
+  Positions V_t0{0, 3}, V_candidate{0, 3};
+  std::vector<double> inverse_mass;
+  std::vector<std::int32_t> body;
+  SqueezePolicy policy = SqueezePolicy::kStop;
+  CollisionOptions options;
+  double dt_s = 1e-2;
+};
+
+inline std::vector<verify::Point> to_points(const Positions& V) {
+  std::vector<verify::Point> points;
+  for (Eigen::Index v = 0; v < V.rows(); ++v) points.push_back({V(v, 0), V(v, 1), V(v, 2)});
+  return points;
+}
+
+/// What the exact checker holds against a state, "" for nothing.
+inline std::string exact_defect(const StepScene& scene, const Positions& x) {
+  const verify::Surface surface{scene.triangles, scene.face_is_body};
+  const verify::CheckResult frame = check_frame(surface, to_points(x), {});
+  if (frame.violations_total.total() == 0) return "";
+  return "frame: " + std::to_string(frame.violations_total.total()) + " violations, first " +
+         frame.violations.front().kind;
+}
+
+/// S1 and S4, exactly: the frame, the motion from V_t0, the domain, and the scripted vertices of bodies that did not
+/// wait.
+inline std::string exact_defect(const StepScene& scene, const CollisionStepResult& result) {
+  if (result.report.status != StepStatus::kSafe) return "the step did not succeed";
+  if (!result.x.allFinite() || !result.velocity.allFinite()) return "not finite";
+  const verify::Surface surface{scene.triangles, scene.face_is_body};
+  const verify::CheckResult motion = check_motion(surface, to_points(scene.V_t0), to_points(result.x), {});
+  if (motion.violations_total.total() != 0) {
+    return "motion: " + std::to_string(motion.violations_total.total()) + " violations, first " +
+           motion.violations.front().kind;
+  }
+  for (std::size_t v = 0; v < scene.inverse_mass.size(); ++v) {
+    if (scene.inverse_mass[v] > 0) continue;
+    const auto row = static_cast<Eigen::Index>(v);
+    const bool waits = std::ranges::count(result.report.waiting_bodies, scene.body[v]) > 0;
+    if (result.x.row(row) != (waits ? scene.V_t0 : scene.V_candidate).row(row))
+      return "a scripted vertex left its script";
+  }
+  for (const Collision& c : result.report.below_tolerance) {
+    if (c.ccd.cause != CcdCause::kEnd) return "a pair is below tolerance for another cause than its end";
+  }
+  return exact_defect(scene, result.x);
+}
+
+}  // namespace selvage::sim::testing
