@@ -19,9 +19,11 @@ struct Box {
   Point min, max;
 
   [[nodiscard]] bool overlaps(const Box& other) const {
-    bool apart = false;  // without branches: which of the six fails first cannot be predicted
-    for (std::size_t k = 0; k < 3; ++k) apart |= (min[k] > other.max[k]) | (other.min[k] > max[k]);
-    return !apart;
+    unsigned apart = 0;  // without branches: which of the six fails first cannot be predicted
+    for (std::size_t k = 0; k < 3; ++k) {
+      apart |= static_cast<unsigned>(min[k] > other.max[k]) | static_cast<unsigned>(other.min[k] > max[k]);
+    }
+    return apart == 0;
   }
 };
 
@@ -76,9 +78,11 @@ inline unsigned BoxBlock::overlap_mask(const LatticeBox& box) const {
 inline unsigned BoxBlock::overlap_mask(const LatticeBox& box) const {
   unsigned mask = 0;
   for (std::size_t i = 0; i < kWidth; ++i) {
-    bool apart = false;
-    for (std::size_t k = 0; k < 3; ++k) apart |= (min[k][i] > box.max[k]) | (box.min[k] > max[k][i]);
-    mask |= (apart ? 0U : 1U) << i;
+    unsigned apart = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      apart |= static_cast<unsigned>(min[k][i] > box.max[k]) | static_cast<unsigned>(box.min[k] > max[k][i]);
+    }
+    mask |= (1U - apart) << i;
   }
   return mask;
 }

@@ -44,7 +44,7 @@ int compare_point_segment(const Vector& p, const Vector& a, const Vector& b, con
 }
 
 int compare_vf(const Scene& s) {
-  const auto& [p, a, b, c] = s.x;
+  const Vector &p = s.x[0], &a = s.x[1], &b = s.x[2], &c = s.x[3];
   int sign =
       std::min({compare_point_segment(p, a, b, s.distance_squared), compare_point_segment(p, b, c, s.distance_squared),
                 compare_point_segment(p, c, a, s.distance_squared)});

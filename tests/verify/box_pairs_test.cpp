@@ -92,7 +92,7 @@ constexpr Scene kScenes[] = {Scene::kCloud,      Scene::kTouchingGrid, Scene::kP
 TEST(BoxPairs, WithinIsBruteForce) {
   std::mt19937 random(1);
   for (const Scene scene : kScenes) {
-    for (const std::size_t count : {0, 1, 2, 7, 8, 9, 64, 65, 300, 700}) {
+    for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 2, 7, 8, 9, 64, 65, 300, 700}) {
       const std::vector<Box> boxes = draw(random, scene, count);
       EXPECT_EQ(within(boxes), brute_force(boxes, boxes, true)) << static_cast<int>(scene) << ", " << count;
     }

@@ -226,7 +226,7 @@ TEST(FrameCheck, ListIsSortedCappedAndTheSameForAnyNumberOfThreads) {
     ASSERT_LT(std::tie(all.violations[i - 1].event, all.violations[i - 1].features),
               std::tie(all.violations[i].event, all.violations[i].features));
   }
-  for (const std::size_t threads : {1, 2, 3, 8}) {
+  for (const std::size_t threads : std::initializer_list<std::size_t>{1, 2, 3, 8}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     for (const std::size_t limit : {std::size_t{0}, std::size_t{1}, std::size_t{10}}) {
       const CheckResult capped = check_frame(surface(mesh), mesh.points, {limit, {}, false});

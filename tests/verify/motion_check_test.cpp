@@ -159,7 +159,7 @@ TEST(MotionCheck, IsTheSameForAnyNumberOfThreads) {
   io::Points V_t1 = mesh.points;
   for (Point& p : V_t1) p[2] += 0.25 * lattice(random);
   const CheckResult first = check_motion(surface(mesh), mesh.points, V_t1, {50, {}, false});
-  for (const std::size_t threads : {1, 2, 5}) {
+  for (const std::size_t threads : std::initializer_list<std::size_t>{1, 2, 5}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const CheckResult again = check_motion(surface(mesh), mesh.points, V_t1, {50, {}, false});
     EXPECT_EQ(names(again), names(first));
