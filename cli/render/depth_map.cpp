@@ -9,9 +9,10 @@
 
 namespace selvage::cli {
 
-DepthMap::DepthMap(const RenderSurface& surface, const Vec3& direction, const Bounds& region, int size)
+DepthMap::DepthMap(const RenderSurface& surface, const Vec3& direction, const Bounds& region, int size, int blur)
     : center_(region.center()),
       size_(size),
+      blur_(blur),
       texel_(2 * std::max(region.radius(), std::numeric_limits<double>::min()) / size),
       depth_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), -std::numeric_limits<float>::infinity()) {
   const Vec3 right = direction.unitOrthogonal();
@@ -39,15 +40,16 @@ Vec3 DepthMap::to_texels(const Vec3& point) const {
 }
 
 double DepthMap::light_at(const Vec3& point, const Vec3& normal) const {
-  // Two texels along the normal and one and a half towards the light: within 3 by 3 texels a plane that the light
-  // meets at up to 45 degrees rises by at most 1.5 texels.
-  const Vec3 seen = to_texels(point + 2 * texel_ * normal);
-  const double depth = seen.z() + 1.5 * texel_;
-  const int column = static_cast<int>(std::floor(std::clamp(seen.x(), -2.0, size_ + 2.0)));
-  const int row = static_cast<int>(std::floor(std::clamp(seen.y(), -2.0, size_ + 2.0)));
+  // Texels of a plane that the light meets at up to 45 degrees differ by a texel's side in depth; half a texel is the
+  // distance of a point from the middle of its own.
+  const double reach = blur_ + 0.5;
+  const Vec3 seen = to_texels(point + (reach + 0.5) * texel_ * normal);
+  const double depth = seen.z() + reach * texel_;
+  const int column = static_cast<int>(std::floor(std::clamp(seen.x(), -1.0 - blur_, size_ + blur_ + 1.0)));
+  const int row = static_cast<int>(std::floor(std::clamp(seen.y(), -1.0 - blur_, size_ + blur_ + 1.0)));
   int lit = 0;
-  for (int y = row - 1; y <= row + 1; ++y) {
-    for (int x = column - 1; x <= column + 1; ++x) {
+  for (int y = row - blur_; y <= row + blur_; ++y) {
+    for (int x = column - blur_; x <= column + blur_; ++x) {
       const bool inside = x >= 0 && y >= 0 && x < size_ && y < size_;
       lit +=
           !inside ||
@@ -55,7 +57,7 @@ double DepthMap::light_at(const Vec3& point, const Vec3& normal) const {
               depth;
     }
   }
-  return lit / 9.0;
+  return double(lit) / ((2 * blur_ + 1) * (2 * blur_ + 1));
 }
 
 }  // namespace selvage::cli

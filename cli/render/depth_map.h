@@ -10,9 +10,10 @@ namespace selvage::cli {
 class DepthMap {
  public:
   /// Seen from far along `direction` (unit, towards the light), orthographic, `size` texels square around `region`.
-  DepthMap(const RenderSurface& surface, const Vec3& direction, const Bounds& region, int size);
+  /// Shadows are smoothed over `blur` texels to each side.
+  DepthMap(const RenderSurface& surface, const Vec3& direction, const Bounds& region, int size, int blur);
 
-  /// The part of the light that reaches the point, in [0, 1], smoothed over 3 by 3 texels; 1 outside the region.
+  /// The part of the light that reaches the point, in [0, 1]; 1 outside the region.
   /// `normal` is that of the surface there: the point is lifted along it so that a surface does not shade itself.
   [[nodiscard]] double light_at(const Vec3& point, const Vec3& normal) const;
 
@@ -21,7 +22,7 @@ class DepthMap {
 
   Eigen::Matrix3d axes_;
   Vec3 center_;
-  int size_;
+  int size_, blur_;
   double texel_;  ///< length units
   std::vector<float> depth_;
 };

@@ -14,8 +14,9 @@
 namespace selvage::cli {
 namespace {
 
-constexpr int kSamples = 2;  // a side: 2 by 2 a pixel
-constexpr int kSkyLights = 24, kSkyMapSize = 384, kSunMapSize = 1536;
+constexpr int kSamples = 2;                                      // a side: 2 by 2 a pixel
+constexpr int kSunMapSize = 1536, kSunBlur = 1;                  // texels
+constexpr int kSkyLights = 64, kSkyMapSize = 256, kSkyBlur = 0;  // so many that their sharp shadows blend
 constexpr std::int32_t kNoFace = -1;
 
 // Linear light. Warm and cool differ in hue and in brightness, so that they survive greyscale and colour blindness.
@@ -40,12 +41,13 @@ std::vector<Light> make_lights(const RenderSurface& surface, const View& view, c
   };
   std::vector<Light> lights;
   const double sun_azimuth = (view.azimuth_deg - 62) * std::numbers::pi / 180;  // over the viewer's left shoulder
-  lights.push_back(
-      {towards(sun_azimuth, 0.72), kSunColour, DepthMap(surface, towards(sun_azimuth, 0.72), region, kSunMapSize)});
+  lights.push_back({towards(sun_azimuth, 0.72), kSunColour,
+                    DepthMap(surface, towards(sun_azimuth, 0.72), region, kSunMapSize, kSunBlur)});
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < kSkyLights; ++i) {
     const Vec3 direction = towards(golden_angle * i, 0.08 + 0.9 * (i + 0.5) / kSkyLights);
-    lights.push_back({direction, 2.0 / kSkyLights * kSkyColour, DepthMap(surface, direction, region, kSkyMapSize)});
+    lights.push_back(
+        {direction, 2.0 / kSkyLights * kSkyColour, DepthMap(surface, direction, region, kSkyMapSize, kSkyBlur)});
   }
   return lights;
 }

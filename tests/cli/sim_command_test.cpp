@@ -1,0 +1,130 @@
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/run_program.h"
+
+namespace selvage {
+
+using testing::run_program;
+using testing::slurp;
+using testing::spit;
+using testing::TemporaryFolder;
+
+namespace {
+
+std::string scene(int frames, double ball_z, double ball_end_z) {
+  return "gravity_m_s2 = [0, 0, -9.81]\n[time]\nmax_step_s = 0.0167\nmin_step_s = 0.004\nframes = " +
+         std::to_string(frames) + R"(
+[[cloth]]
+name = "sheet"
+sheet = {nx = 10, ny = 10, width_m = 0.5, height_m = 0.5}
+position_m = [0.03, 0.02, 0.42]
+density_kg_m2 = 0.3
+stretch_n_m = 40
+shear_n_m = 20
+[[body]]
+name = "ball"
+sphere = {radius_m = 0.17, subdivisions = 2}
+[[body.key]]
+time_s = 0
+position_m = [0, 0, )" +
+         std::to_string(ball_z) + "]\n[[body.key]]\ntime_s = 0.1\nposition_m = [0, 0, " + std::to_string(ball_end_z) +
+         R"(]
+[[body]]
+name = "lid"
+box = {size_m = [1, 1, 0.1]}
+position_m = [0, 0, 0.52]
+)";
+}
+
+class SimCommand : public ::testing::Test {
+ protected:
+  testing::ProgramResult sim(const std::string& text, std::vector<std::string> options = {}) {
+    spit(path("scene.toml"), text);
+    options.insert(options.begin(), {"sim", path("scene.toml"), "-o", path("out")});
+    return run_program(folder_, options);
+  }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  TemporaryFolder folder_;
+};
+
+}  // namespace
+
+TEST_F(SimCommand, WhatItSimulatesTheCheckerFindsClean) {
+  const auto run = sim(scene(6, 0.2, 0.2), {"--record", "steps", "--threads", "2"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("gravity"), std::string::npos) << "says what it models";
+  EXPECT_NE(run.out.find("6 frames"), std::string::npos) << run.out;
+  EXPECT_TRUE(std::filesystem::exists(path("out") + "/run.json"));
+  const auto check = run_program(folder_, {"verify", path("out")});
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+}
+
+TEST_F(SimCommand, FramesOptionReplacesTheScenes) {
+  EXPECT_NE(sim(scene(50, 0.2, 0.2), {"--frames", "2"}).out.find("2 frames"), std::string::npos);
+}
+
+TEST_F(SimCommand, ABadSceneNamesFileAndLine) {
+  const auto run = sim("[time]\nframes = 3\nframse = 4\n");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("scene.toml:3: time: unknown key \"framse\""), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
+  const auto run = sim(scene(3, 0.3, 0.3));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("\"sheet\""), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("\"ball\""), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
+  // The ball rises until it overlaps the lid by 4 cm, with the sheet between them.
+  const auto stopped = sim(scene(6, 0.2, 0.34));
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_NE(stopped.err.find("stopped at"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("(sheet)"), std::string::npos) << stopped.err;
+  EXPECT_NE(slurp(path("out") + "/run.json").find("\"end\": \"stopped\""), std::string::npos);
+  EXPECT_EQ(run_program(folder_, {"verify", "--frames-only", path("out")}).exit_code, 0);
+
+  std::filesystem::remove_all(path("out"));
+  EXPECT_EQ(sim("squeeze = \"yield\"\n" + scene(6, 0.2, 0.34), {"--record", "steps"}).exit_code, 0);
+  EXPECT_EQ(run_program(folder_, {"verify", path("out")}).exit_code, 0);
+}
+
+TEST_F(SimCommand, AnInterruptedRunExits75AndResumesWithTheSameBits) {
+  spit(path("scene.toml"), scene(40, 0.2, 0.2));
+  ASSERT_EQ(run_program(folder_, {"sim", path("scene.toml"), "-o", path("whole")}).exit_code, 0);
+
+  const pid_t child = testing::start_program(folder_.path(), {"sim", path("scene.toml"), "-o", path("out")});
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!std::filesystem::exists(path("out") + "/frame_000003.npy") && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  kill(child, SIGTERM);
+  EXPECT_EQ(testing::wait_for_program(folder_.path(), child).exit_code, 75);
+  ASSERT_FALSE(std::filesystem::exists(path("out") + "/frame_000040.npy")) << "it was not interrupted";
+
+  const auto resumed = run_program(folder_, {"sim", path("scene.toml"), "-o", path("out"), "--resume"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("resumed"), std::string::npos);
+  for (int frame = 0; frame <= 40; ++frame) {
+    const std::string name = "/frame_0000" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".npy";
+    EXPECT_EQ(slurp(path("out") + name), slurp(path("whole") + name)) << name;
+    EXPECT_FALSE(slurp(path("out") + name).empty()) << name;
+  }
+}
+
+TEST_F(SimCommand, ASecondRunDoesNotOverwriteTheFirst) {
+  EXPECT_EQ(sim(scene(1, 0.2, 0.2)).exit_code, 0);
+  const std::string before = slurp(path("out") + "/frame_000001.npy");
+  EXPECT_EQ(sim(scene(2, 0.2, 0.2)).exit_code, 4);
+  EXPECT_EQ(slurp(path("out") + "/frame_000001.npy"), before);
+}
+
+}  // namespace selvage
