@@ -39,7 +39,8 @@ long double witness_distance(PairKind kind, const std::array<Vec3, 4>& x, const 
   const auto scaled = [&](std::size_t i) {
     return Long3((x[i].cast<long double>() - x[3].cast<long double>()) / static_cast<long double>(size));
   };
-  const std::array<long double, 4> v{w[0], w[1], w[2], w[3]};
+  const Eigen::Vector4d weights(w[0], w[1], w[2], w[3]);
+  const Eigen::Matrix<long double, 4, 1> v = weights.cast<long double>();
   const Long3 first = kind == PairKind::kEe ? Long3(v[0] * scaled(0) + v[1] * scaled(1)) : scaled(0);
   const Long3 second = kind == PairKind::kEe ? Long3(v[2] * scaled(2)) : Long3(v[1] * scaled(1) + v[2] * scaled(2));
   return (first - second).norm();
@@ -51,8 +52,8 @@ bool error_bound_is_sound(const Proximity& p, double size) {
   if (p.distance_upper < 0x1p-400 * size || p.distance_upper < kNormal ||
       (p.distance_lower > 0 && p.distance_lower < kNormal))
     return true;
-  const long double upper = p.distance_upper;
-  const long double lower = p.distance_lower;
+  const auto upper = static_cast<long double>(p.distance_upper);
+  const auto lower = static_cast<long double>(p.distance_lower);
   const long double error = std::sqrt((upper - lower) * (upper + lower));
   return static_cast<long double>(p.point_error_bound) >= error * (1 - 0x1p-60L);
 }

@@ -84,7 +84,7 @@ TEST(KernelPromises, prop_scale) { check_metamorphic("scale", kSeed + 5); }
 
 // Outside the domain there is one answer, and it claims nothing.
 TEST(KernelPromises, OutsideTheDomainIsUnresolved) {
-  constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+  const double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                              -std::numeric_limits<double>::infinity(), std::nextafter(kMaxCoordinate, 1e308)};
   for (const PairKind kind : kPairKinds) {
     for (const double bad : kBad) {
