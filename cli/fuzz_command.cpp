@@ -107,11 +107,15 @@ class Campaign {
       const fuzz::Tally& tally = row.tally;
       if (tally.cases == 0) continue;
       total += tally;
+      const bool idle = fuzz::is_unresolved_too_often(row.kind, tally);
       const bool dead = bands_apply && fuzz::is_out_of_band(*row.query_class, row.kind, tally);
       fmt::print("  {:<33} {:<4} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9} {:>8}{}\n", row.query_class->name,
                  fuzz::name_of(row.kind), tally.cases, tally.touches, tally.hits, tally.alarms, tally.unresolved,
-                 tally.undecided, tally.failures, dead ? "  hits outside the declared band" : "");
-      held = held && !dead;
+                 tally.undecided, tally.failures,
+                 dead   ? "  hits outside the declared band"
+                 : idle ? "  unresolved too often"
+                        : "");
+      held = held && !dead && !idle;
     }
     fmt::print("  {:<33} {:<4} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9} {:>8}\n", "all", "", total.cases, total.touches,
                total.hits, total.alarms, total.unresolved, total.undecided, total.failures);

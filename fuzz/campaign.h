@@ -45,4 +45,8 @@ struct Failure {
 /// chance (5 standard deviations) explains: a dead or drifted generator (F1). REQUIRES a tally of the property `ccd`.
 [[nodiscard]] bool is_out_of_band(const QueryClass& query_class, PairKind kind, const Tally& tally);
 
+/// Whether more of the answers were `unresolved`, at the default limit, than a useful kernel needs, beyond chance:
+/// without this gate "unresolved" to everything would keep every promise.
+[[nodiscard]] bool is_unresolved_too_often(PairKind kind, const Tally& tally);
+
 }  // namespace selvage::fuzz

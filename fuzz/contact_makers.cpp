@@ -50,7 +50,9 @@ MotionQuery contact(ChoiceSource& source, PairKind kind, ContactTime time, Conta
   const ContactWeights weights = choose_weights(source, kind, place_of);
   Placement x = choose_placement(source, radius_of(grid));
   x.gap.setZero();
-  const Placement v = choose_placement(source, radius_of(grid));
+  Placement v = choose_placement(source, radius_of(grid));
+  // Features that only translate touch along a plane that supports the whole sweep: the edge of every cull.
+  if (source.one_in(4)) v.span.fill(LatticePoint::Zero());
   LatticeMotion motion = motion_through(place(kind, weights, x), place(kind, weights, v), choose_time(source, time));
   translate(motion, choose_offset(source));
   return to_query(kind, motion);

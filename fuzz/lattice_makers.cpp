@@ -7,6 +7,10 @@ namespace selvage::fuzz::make {
 namespace {
 
 constexpr std::uint32_t kSmall = 3;
+constexpr std::uint32_t kLarge = 1U << 20;
+
+/// Small integers tie, and their products are exact in doubles; large ones touch as exactly, but no product is.
+std::uint32_t choose_radius(ChoiceSource& source, std::uint32_t small) { return source.coin() ? kLarge : small; }
 
 LatticeMotion random_motion(ChoiceSource& source, std::uint32_t radius) {
   LatticeMotion motion;
@@ -66,8 +70,9 @@ MotionQuery degenerate(ChoiceSource& source, PairKind kind) {
 }
 
 MotionQuery in_plane(ChoiceSource& source, PairKind kind) {
-  const std::array<LatticePoint, 2> plane{choose_point(source, 2), choose_point(source, 2)};
-  const LatticePoint shift = choose_point(source, kSmall);
+  const std::uint32_t radius = choose_radius(source, 2);
+  const std::array<LatticePoint, 2> plane{choose_point(source, radius), choose_point(source, radius)};
+  const LatticePoint shift = choose_point(source, radius);
   LatticeMotion motion;
   for (auto& point : motion.x_t0) point = choose_in_plane(source, plane, 2);
   for (auto& point : motion.x_t1) point = choose_in_plane(source, plane, 2) + shift;
@@ -88,7 +93,7 @@ MotionQuery near_coplanar(ChoiceSource& source, PairKind kind) {
 MotionQuery same_velocity(ChoiceSource& source, PairKind kind) {
   LatticeMotion motion = random_motion(source, 2);
   if (source.coin()) {
-    Placement x = choose_placement(source, kSmall);
+    Placement x = choose_placement(source, choose_radius(source, kSmall));
     x.gap.setZero();
     motion.x_t0 = place(kind, choose_weights(source, kind, choose_any_place(source)), x);
   }
@@ -110,7 +115,7 @@ MotionQuery rigid_rotation(ChoiceSource& source, PairKind kind) {
   };
   constexpr std::array<Turn, 6> kTurns{{{3, 4, 5}, {4, 3, 5}, {0, 1, 1}, {-3, 4, 5}, {5, 12, 13}, {-1, 0, 1}}};
   const Turn turn = kTurns[source.n(kTurns.size())];
-  Placement x = choose_placement(source, kSmall);
+  Placement x = choose_placement(source, choose_radius(source, kSmall));
   if (!source.one_in(4)) x.gap.setZero();
   const LatticePoints pose = place(kind, choose_weights(source, kind, choose_any_place(source)), x);
   const Eigen::Index axis = source.range(0, 2);

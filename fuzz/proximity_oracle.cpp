@@ -46,12 +46,10 @@ long double witness_distance(PairKind kind, const std::array<Vec3, 4>& x, const 
   return (first - second).norm();
 }
 
-bool error_bound_is_sound(const Proximity& p, double size) {
+bool error_bound_is_sound(const Proximity& p) {
   // Where an end of the bracket is subnormal it has been rounded outward after the bound was taken from it.
   constexpr double kNormal = std::numeric_limits<double>::min();
-  if (p.distance_upper < 0x1p-400 * size || p.distance_upper < kNormal ||
-      (p.distance_lower > 0 && p.distance_lower < kNormal))
-    return true;
+  if (p.distance_upper < kNormal || (p.distance_lower > 0 && p.distance_lower < kNormal)) return true;
   const auto upper = static_cast<long double>(p.distance_upper);
   const auto lower = static_cast<long double>(p.distance_lower);
   const long double error = std::sqrt((upper - lower) * (upper + lower));
@@ -73,7 +71,7 @@ ProximityDefect find_defect(PairKind kind, const std::array<Vec3, 4>& x, const P
     const long double relative_upper = static_cast<long double>(upper) / static_cast<long double>(size);
     if (witness_distance(kind, x, p.weights, size) > relative_upper + slack) return ProximityDefect::kBadWeights;
   }
-  return error_bound_is_sound(p, size) ? ProximityDefect::kNone : ProximityDefect::kBadErrorBound;
+  return error_bound_is_sound(p) ? ProximityDefect::kNone : ProximityDefect::kBadErrorBound;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ bool weights_are_convex(PairKind kind, const std::array<double, 4>& w) {
 
 bool is_well_formed(const MotionQuery& query, const CcdResult& answer) {
   if (!(answer.toi_lower >= 0 && answer.toi_lower <= 1)) return false;
-  if (answer.intervals < 0) return false;
+  if (answer.intervals < 0 || answer.intervals > query.options.max_intervals) return false;
   switch (answer.verdict) {
     case CcdVerdict::kSeparated:
       return answer.cause == CcdCause::kNone && answer.toi_lower == 1;

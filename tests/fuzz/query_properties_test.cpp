@@ -85,7 +85,7 @@ TEST(KernelPromises, prop_scale) { check_metamorphic("scale", kSeed + 5); }
 // Outside the domain there is one answer, and it claims nothing.
 TEST(KernelPromises, OutsideTheDomainIsUnresolved) {
   const double kBad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity(), std::nextafter(kMaxCoordinate, 1e308)};
+                         -std::numeric_limits<double>::infinity(), std::nextafter(kMaxCoordinate, 1e308)};
   for (const PairKind kind : kPairKinds) {
     for (const double bad : kBad) {
       for (int place = 0; place < 6 * point_count(kind); ++place) {
@@ -127,6 +127,21 @@ std::int64_t cases_until_failure(std::string_view name, CcdKernel kernel, std::i
     }
   }
   return -1;
+}
+
+/// Whether some class is left unresolved too often.
+bool leaves_too_much_open(CcdKernel kernel) {
+  bool too_often = false;
+  for (const Chunk& chunk : make_chunks(0, 100)) {
+    const Tally tally = run_chunk(query_properties()[0], kernel, kSeed, chunk, [](const Failure&) {});
+    too_often = too_often || is_unresolved_too_often(chunk.kind, tally);
+  }
+  return too_often;
+}
+
+TEST(KernelPromises, FewAnswersAreUnresolved) {
+  EXPECT_FALSE(leaves_too_much_open(selvage_kernel));
+  EXPECT_TRUE(leaves_too_much_open(always_unresolved));
 }
 
 struct BadKernel {

@@ -1,0 +1,176 @@
+#include "fuzz/step_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace selvage::fuzz {
+namespace {
+
+/// Beyond this, squares and sums of momenta leave the range of double: the balances are not looked at.
+constexpr double kBalanceLimit = 0x1p+400;
+
+bool has_scripted(const StepWorld& world) {
+  return std::any_of(world.inverse_mass.begin(), world.inverse_mass.end(), [](double w) { return w == 0; });
+}
+
+bool is_on_lattice(const Positions& x) { return (x.cast<float>().cast<double>().array() == x.array()).all(); }
+
+/// What a vertex goes to where nothing disturbs it.
+Positions undisturbed(const StepWorld& world, const Positions& candidate) {
+  if (world.options.precision == sim::CollisionOptions::Precision::kFloat64) return candidate;
+  constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
+  return candidate.cwiseMax(-kMaxFloat).cwiseMin(kMaxFloat).cast<float>().cast<double>();
+}
+
+StepDefect check_scripts(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
+                         const sim::CollisionStepResult& result) {
+  const Positions target = undisturbed(world, candidate);
+  const auto& waiting = result.report.waiting_bodies;
+  for (Eigen::Index i = 0; i < x_t0.rows(); ++i) {
+    const auto vertex = static_cast<std::size_t>(i);
+    if (world.inverse_mass[vertex] != 0) continue;
+    const bool waits = std::binary_search(waiting.begin(), waiting.end(), world.body[vertex]);
+    if (waits && world.policy == sim::SqueezePolicy::kStop) return StepDefect::kOffScript;
+    if (result.x.row(i) != (waits ? x_t0.row(i) : target.row(i))) return StepDefect::kOffScript;
+  }
+  return StepDefect::kNone;
+}
+
+/// Every pair that the exact check finds nearer than the tolerance at the end must be in the report.
+bool all_near_pairs_are_named(const StepWorld& world, const sim::CollisionStepResult& result) {
+  verify::CheckOptions options;
+  options.min_distance = world.options.tolerance_m;
+  options.max_violations = 100000;
+  std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
+  for (const Collision& pair : result.report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
+  for (const verify::Violation& near : verify::check_frame(world.topology, raw_points(result.x), options).violations) {
+    if (near.kind != "near") continue;
+    bool all_scripted = true;
+    for (const std::int32_t vertex : near.vertices) all_scripted &= vertex < 0 || world.is_scripted(vertex);
+    const PairKind kind = near.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
+    if (!all_scripted && !named.contains({kind, near.features})) return false;
+  }
+  return true;
+}
+
+double mass_of(const StepWorld& world, Eigen::Index vertex) {
+  return 1 / world.inverse_mass[static_cast<std::size_t>(vertex)];
+}
+
+StepDefect check_balances(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
+                          const sim::CollisionStepResult& result) {
+  const double largest = std::max(candidate.cwiseAbs().maxCoeff(), x_t0.cwiseAbs().maxCoeff());
+  if (largest > kBalanceLimit || result.report.fail_safe_vertices > 0) return StepDefect::kNone;
+  const Positions before = (candidate - x_t0) / world.dt_s;
+  Eigen::RowVector3d change = Eigen::RowVector3d::Zero();
+  double size = 0;
+  double energy_before = 0;
+  double energy_after = 0;
+  for (Eigen::Index i = 0; i < before.rows(); ++i) {
+    const double mass = mass_of(world, i);
+    change += mass * (result.velocity.row(i) - before.row(i));
+    size += mass * (result.velocity.row(i).norm() + before.row(i).norm());
+    energy_before += mass * before.row(i).squaredNorm();
+    energy_after += mass * result.velocity.row(i).squaredNorm();
+  }
+  // Hundreds of sums and products of roundoff 1e-16 each; positions far from the origin enter through differences.
+  const double rounding = 1e-9 * size + 1e-12 * largest / world.dt_s;
+  if (change.norm() > rounding) return StepDefect::kMomentum;
+  // Springs, and the push of pairs that are nearer than the tolerance, add energy on purpose.
+  const bool pushes =
+      (world.options.repulsion && world.options.repulsion_stiffness_n_m > 0) || world.options.tolerance_m > 0;
+  if (!pushes && energy_after > energy_before * (1 + 1e-9)) return StepDefect::kEnergy;
+  return StepDefect::kNone;
+}
+
+bool is_undisturbed(const sim::CollisionStepReport& report) {
+  return report.proximities == 0 && report.first_collisions == 0 && report.below_tolerance.empty() &&
+         report.waiting_bodies.empty();
+}
+
+}  // namespace
+
+std::string_view name_of(StepDefect defect) {
+  switch (defect) {
+    case StepDefect::kNone:
+      return "none";
+    case StepDefect::kTouches:
+      return "touches";
+    case StepDefect::kRejected:
+      return "rejected";
+    case StepDefect::kStoppedFreely:
+      return "stopped-freely";
+    case StepDefect::kUnnamedNear:
+      return "unnamed-near";
+    case StepDefect::kOffScript:
+      return "off-script";
+    case StepDefect::kOffLattice:
+      return "off-lattice";
+    case StepDefect::kMomentum:
+      return "momentum";
+    case StepDefect::kEnergy:
+      return "energy";
+    case StepDefect::kInterferes:
+      return "interferes";
+    case StepDefect::kOutsideDomain:
+      break;
+  }
+  return "outside-domain";
+}
+
+sim::CollisionStepResult selvage_step(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
+  sim::CollisionStep step(world.mesh, world.options);
+  return step(x_t0, candidate, world.bodies(), world.dt_s);
+}
+
+StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
+                      const sim::CollisionStepResult& result) {
+  const sim::CollisionStepReport& report = result.report;
+  switch (report.status) {
+    case sim::StepStatus::kInvalidInput:
+      return StepDefect::kRejected;
+    case sim::StepStatus::kStopped:
+      return has_scripted(world) && report.witness && result.x == x_t0 ? StepDefect::kNone : StepDefect::kStoppedFreely;
+    case sim::StepStatus::kSafe:
+      break;
+  }
+  const bool all_finite = result.x.allFinite() && result.velocity.allFinite();
+  if (!all_finite || result.x.cwiseAbs().maxCoeff() > kMaxCoordinate) {
+    return StepDefect::kOutsideDomain;
+  }
+  const auto motion = verify::check_motion(world.topology, raw_points(x_t0), raw_points(result.x), {});
+  if (cloth_violations(world, motion) != 0) return StepDefect::kTouches;
+  if (!all_near_pairs_are_named(world, result)) return StepDefect::kUnnamedNear;
+  const bool float32 = world.options.precision == sim::CollisionOptions::Precision::kFloat32;
+  if (float32 && !is_on_lattice(result.x)) return StepDefect::kOffLattice;
+  if (const StepDefect off_script = check_scripts(world, x_t0, candidate, result); off_script != StepDefect::kNone) {
+    return off_script;
+  }
+  if (is_undisturbed(report) && result.x != undisturbed(world, candidate)) return StepDefect::kInterferes;
+  return has_scripted(world) ? StepDefect::kNone : check_balances(world, x_t0, candidate, result);
+}
+
+StepObservation run_steps(ChoiceSource& source, const StepFunction& step) {
+  const StepWorld world = make_step_world(source);
+  StepObservation seen;
+  seen.surface = world.surface;
+  seen.x_t0 = world.x;
+  for (int left = source.range(1, 4); left > 0; --left) {
+    seen.x_candidate = choose_candidate(source, world, seen.x_t0, seen.candidate);
+    const sim::CollisionStepResult result = step(world, seen.x_t0, seen.x_candidate);
+    seen.x_t1 = result.x;
+    ++seen.steps;
+    seen.with_collisions += result.report.first_collisions > 0;
+    seen.with_zones += result.report.zone_rounds > 0;
+    seen.with_fail_safe += result.report.fail_safe_vertices > 0;
+    seen.stopped += result.report.status == sim::StepStatus::kStopped;
+    seen.defect = judge_step(world, seen.x_t0, seen.x_candidate, result);
+    if (seen.defect != StepDefect::kNone) return seen;
+    seen.x_t0 = result.x;
+  }
+  return seen;
+}
+
+}  // namespace selvage::fuzz

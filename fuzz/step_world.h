@@ -1,0 +1,51 @@
+// Small worlds for the collision step (S1 to S3): a mesh in a state that is exactly free of intersections, and
+// candidate positions that try to break it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/choice_source.h"
+#include "sim/collision_step.h"
+#include "verify/check.h"
+
+namespace selvage::fuzz {
+
+struct StepWorld {
+  std::string_view surface;  ///< name of the class it was made by
+  Mesh mesh;
+  verify::Topology topology;  ///< the checker's own view of the same faces
+  Positions x;                ///< exactly free of intersections, on the float32 lattice if the options ask for it
+  std::vector<double> inverse_mass;  ///< 1/kg; 0: scripted
+  std::vector<std::int32_t> body;
+  sim::CollisionOptions options;
+  sim::SqueezePolicy policy = sim::SqueezePolicy::kStop;
+  double dt_s = 0x1p-5;
+  double spacing_m = 1;  ///< a length that describes the mesh, and the distance between its layers
+  double gap_m = 1;
+
+  [[nodiscard]] bool is_scripted(std::int32_t vertex) const {
+    return inverse_mass[static_cast<std::size_t>(vertex)] == 0;
+  }
+  [[nodiscard]] sim::CollisionBodies bodies() const { return {inverse_mass, body, policy}; }
+};
+
+/// Surfaces: sheets, crumpled grid, soup of separate triangles, nested closed shells, needles, stack of cards, cloth
+/// between bodies; with noise, offset 2^k, scale 2^k, masses, tolerances and thicknesses chosen from `source`.
+/// What rounding would make intersect is made again without noise and offset, so the state is always clean.
+[[nodiscard]] StepWorld make_step_world(ChoiceSource& source);
+
+/// Number and names of the ways to choose candidate positions.
+[[nodiscard]] const std::vector<std::string_view>& candidate_classes();
+/// Candidates for a step from x: smooth or wild motion, layers swapped, everything at one point or in one plane,
+/// exploded, mirrored, vertices permuted, no motion at all. Finite; scripted vertices move in the same spirit, but each
+/// body by one translation.
+[[nodiscard]] Positions choose_candidate(ChoiceSource& source, const StepWorld& world, const Positions& x,
+                                         std::string_view& candidate_class);
+
+/// Violations of the exact check that concern cloth: those whose vertices are all scripted are not the step's.
+[[nodiscard]] std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult& result);
+[[nodiscard]] std::vector<verify::Point> raw_points(const Positions& x);
+
+}  // namespace selvage::fuzz
