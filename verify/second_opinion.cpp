@@ -50,8 +50,20 @@ std::array<Vector, N> paths(const std::array<Point, N>& x_t0, const std::array<P
   return result;
 }
 
+/// The sign of the polynomial at a time in [0,1].
 int sign_at(const Polynomial& polynomial, const Time& t) {
-  return static_cast<int>(Kernel().sign_at_1_object()(polynomial, t));
+  // Not CGAL's own sign_at_1: in 5.5.1 it refines the time in a loop that fails a precondition where refining happens
+  // to find the rational value (SecondOpinion.SurvivesARationalRootFoundLate).
+  const Kernel kernel;
+  if (kernel.is_zero_at_1_object()(polynomial, t)) return 0;
+  // A bound of the derivative on [-1,2], where the approximations are: the sum of i |c_i| 2^(i-1).
+  CGAL::Gmpz slope = 0, power = 1;
+  for (int i = 1; i <= CGAL::degree(polynomial); ++i, power *= 2) slope += CGAL::abs(polynomial[i]) * power * i;
+  for (int bits = 16;; bits *= 2) {
+    const auto [low, high] = kernel.approximate_absolute_1_object()(t, bits);
+    const Kernel::Bound value = polynomial.evaluate(low);
+    if (CGAL::abs(value) > slope * (high - low)) return CGAL::sign(value);
+  }
 }
 
 /// A point and a segment of possibly no length.

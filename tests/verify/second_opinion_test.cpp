@@ -89,6 +89,22 @@ TEST(SecondOpinion, AgreesOverTheWholeRangeOfDoubles) {
   expect_agreement(testing::whole_range_families(), 3, setting("SELVAGE_AGREEMENT_CASES", 20));
 }
 
+TEST(SecondOpinion, SurvivesARationalRootFoundLate) {
+  // CGAL 5.5.1's Sign_at_1 threw "precondition violation: low<high" here: while it separates a polynomial from a root,
+  // the root turns out to be rational, and its interval has no width any more. First met after 893 motions of
+  // "thirds + 1000".
+  const MotionCase motion{{{{0x1.f3d5555555555p+9, 0x1.f4p+9, 0x1.f42aaaaaaaaabp+9},
+                            {0x1.f4p+9, 0x1.f3d5555555555p+9, 0x1.f4p+9},
+                            {0x1.f3aaaaaaaaaabp+9, 0x1.f42aaaaaaaaabp+9, 0x1.f4aaaaaaaaaabp+9},
+                            {0x1.f48p+9, 0x1.f355555555555p+9, 0x1.f3p+9}}},
+                          {{{0x1.f4p+9, 0x1.f3aaaaaaaaaabp+9, 0x1.f4p+9},
+                            {0x1.f3d5555555555p+9, 0x1.f3d5555555555p+9, 0x1.f4p+9},
+                            {0x1.f4p+9, 0x1.f3aaaaaaaaaabp+9, 0x1.f3aaaaaaaaaabp+9},
+                            {0x1.f38p+9, 0x1.f42aaaaaaaaabp+9, 0x1.f4aaaaaaaaaabp+9}}}};
+  EXPECT_EQ(second_opinion_ee(motion.x_t0, motion.x_t1).touches,
+            exact_ee_motion(motion.x_t0, motion.x_t1, Detail::kDecision).touches);
+}
+
 TEST(SecondOpinion, LeavesTheRoundingMode) {
   Draw draw(5);
   for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
