@@ -11,7 +11,8 @@ namespace selvage::io {
 namespace {
 
 double load_real(const NpyHeader& header, const char* item) {
-  return header.item_size == 4 ? double{load<float>(item, header.order)} : load<double>(item, header.order);
+  return header.item_size == 4 ? static_cast<double>(load<float>(item, header.order))
+                               : load<double>(item, header.order);
 }
 
 /// Any integer type; uint64 beyond int64 becomes the largest int64, which no index and no group number is.

@@ -35,8 +35,8 @@ std::string npy_bytes(const Points& points, Precision precision, const std::stri
   if (precision == Precision::kFloat64) return rows_of_three<double>("<f8", points);
   for (std::size_t row = 0; row < points.size(); ++row) {
     for (const double value : points[row]) {
-      const bool fits = std::abs(value) <= double{std::numeric_limits<float>::max()};
-      if (!fits || double{static_cast<float>(value)} != value) {
+      const bool fits = std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+      if (!fits || static_cast<double>(static_cast<float>(value)) != value) {
         bad_input(name, "vertex " + std::to_string(row) + " is not on the float32 lattice; record float64");
       }
     }

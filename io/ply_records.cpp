@@ -33,7 +33,7 @@ double AsciiRecords::real(PlyType type) {
   float single = 0;
   const NumberFault fault = type == PlyType::kFloat32 ? parse_number(token, single) : parse_number(token, value);
   if (fault != NumberFault::kNone) fail(describe(fault, token));
-  return type == PlyType::kFloat32 ? double{single} : value;
+  return type == PlyType::kFloat32 ? static_cast<double>(single) : value;
 }
 
 std::int64_t AsciiRecords::integer(PlyType type) {
@@ -63,7 +63,7 @@ void BinaryRecords::end_data() const {
 
 double BinaryRecords::real(PlyType type) {
   if (is_integer(type)) return static_cast<double>(integer(type));
-  const double value = type == PlyType::kFloat32 ? double{take<float>()} : take<double>();
+  const double value = type == PlyType::kFloat32 ? static_cast<double>(take<float>()) : take<double>();
   if (!std::isfinite(value)) fail("a coordinate is not finite; repair the export");
   return value;
 }

@@ -98,7 +98,7 @@ TEST(Ply, AllIntegerTypesByBothNames) {
 TEST(Ply, TextOfAFloatIsRoundedOnceToFloat) {
   const MeshData mesh = parse_ply(
       ply("ascii", kTriangleElements, "0.1 1.00000017881393432617187499 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "a.ply");
-  EXPECT_EQ(mesh.points[0][0], double{0.1f});
+  EXPECT_EQ(mesh.points[0][0], static_cast<double>(0.1f));
   EXPECT_EQ(mesh.points[0][1], 0x1.000002p0) << "through double it would be a tie, and 0x1.000004p0";
   EXPECT_EQ(mesh.precision, Precision::kFloat32);
 }

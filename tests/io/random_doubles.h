@@ -35,8 +35,8 @@ inline rc::Gen<io::Points> finite_points() {
 
 /// The nearest float, as a double; values beyond float become 1.5.
 inline double to_lattice(double value) {
-  const bool fits = std::abs(value) <= double{std::numeric_limits<float>::max()};
-  return fits ? double{static_cast<float>(value)} : 1.5;
+  const bool fits = std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+  return fits ? static_cast<double>(static_cast<float>(value)) : 1.5;
 }
 
 }  // namespace selvage::testing

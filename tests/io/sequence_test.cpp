@@ -58,7 +58,7 @@ TEST(SequenceFolder, Float32IsStoredAsFloat32AndNeverRounded) {
   SequenceHeader header = square_header();
   header.precision = Precision::kFloat32;
   SequenceWriter writer(folder.path(), header);
-  const Points lattice = {{0.5, -0.0, 0x1p-149}, {double{0.1f}, 1, 2}, {3, 4, 0x1.fffffep127}, {5, 6, 7}};
+  const Points lattice = {{0.5, -0.0, 0x1p-149}, {static_cast<double>(0.1f), 1, 2}, {3, 4, 0x1.fffffep127}, {5, 6, 7}};
   writer.append(0, lattice);
   EXPECT_TRUE(same_bits(open_sequence({folder.path()})->frame(0).points, lattice));
   for (const double between : {0.1, 1e300, 0x1p-150}) {
