@@ -1,5 +1,6 @@
 #include "kernel/ccd_search.h"
 
+#include "kernel/assert.h"
 #include "kernel/closest_point.h"
 #include "kernel/coplanarity.h"
 #include "kernel/power_of_two.h"
@@ -19,6 +20,10 @@ constexpr double kAlarmGap = 0x1p-40;
 constexpr double kNoGap = 0x1p-49;
 /// Intervals no wider than this many ticks are worth the cubic in double-double arithmetic.
 constexpr Tick kPreciseWidth = Tick{1} << 32;
+/// Pieces that may wait while another is split at its root. A root that is found badly leaves a piece with a sign
+/// change behind, again and again; from here on pieces are halved, at most 52 times down to a tick, so that 128 places
+/// are enough.
+constexpr std::size_t kRootSplitDepth = 64;
 /// A contact with weights above this lies inside both features, so that a sign change of the cubic makes it a real one.
 constexpr double kInnerWeight = 0x1p-20;
 
@@ -158,14 +163,17 @@ bool Search::clear(const TickInterval& interval) {
       signs = cubic_signs(piece);
       free = signs.definite;
     }
-    if (!free && signs.root && width > kNarrowWidth) {
+    const bool at_wide_root = !free && signs.root && width > kNarrowWidth;
+    if (at_wide_root && depth < kRootSplitDepth) {
       // The tick of the root and its neighbours: the pieces beside these are then free of roots.
       const Tick at_root = begin + static_cast<Tick>(*signs.root * static_cast<double>(width));
       if (at_root + 2 < piece.end) ends[depth++] = at_root + 2;
       if (at_root > begin + 1) ends[depth++] = at_root - 1;
       continue;
     }
-    if (!free && !signs.root && width > 1 && (signs.nonzero_begin || is_apart(begin, at_begin))) {
+    const bool may_clear = !signs.root && width > 1 && (signs.nonzero_begin || is_apart(begin, at_begin));
+    if (at_wide_root || (!free && may_clear)) {
+      SELVAGE_ASSERT(depth < ends.size());
       ends[depth++] = begin + width / 2;
       continue;
     }
