@@ -62,7 +62,8 @@ double mass_of(const StepWorld& world, Eigen::Index vertex) {
 StepDefect check_balances(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
                           const sim::CollisionStepResult& result) {
   const double largest = std::max(candidate.cwiseAbs().maxCoeff(), x_t0.cwiseAbs().maxCoeff());
-  if (largest > kBalanceLimit || result.report.fail_safe_vertices > 0) return StepDefect::kNone;
+  if (largest > kBalanceLimit || result.report.fail_safe_vertices > 0 || result.report.cut_candidates > 0)
+    return StepDefect::kNone;
   const Positions before = (candidate - x_t0) / world.dt_s;
   Eigen::RowVector3d change = Eigen::RowVector3d::Zero();
   double size = 0;
@@ -87,7 +88,7 @@ StepDefect check_balances(const StepWorld& world, const Positions& x_t0, const P
 
 bool is_undisturbed(const sim::CollisionStepReport& report) {
   return report.proximities == 0 && report.first_collisions == 0 && report.below_tolerance.empty() &&
-         report.waiting_bodies.empty();
+         report.waiting_bodies.empty() && report.cut_candidates == 0;
 }
 
 }  // namespace
