@@ -47,7 +47,7 @@ struct CollisionBodies {
 
 enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
-  kStopped,      ///< no safe positions exist under the policy; the returned positions are V_t0
+  kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kInvalidInput  ///< NaN, sizes, domain: nothing was done
 };
 
