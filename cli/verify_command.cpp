@@ -26,9 +26,13 @@ struct Arguments {
   bool frames_only = false, motion = false, bodies = false;
   std::optional<double> min_distance;
   std::string json;
-  std::int64_t max_violations = 100;
+  std::optional<std::int64_t> max_violations;
   std::int64_t threads = 0;
 };
+
+/// Where the user names no number: what a reader of the JSON can page through, and what fits on a terminal.
+constexpr std::int64_t kViolationsInJson = 100;
+constexpr std::int64_t kViolationsInText = 10;
 
 void check(const Arguments& arguments) {
   if (arguments.min_distance && !(*arguments.min_distance >= 0 && std::isfinite(*arguments.min_distance))) {
@@ -38,7 +42,7 @@ void check(const Arguments& arguments) {
 
 verify::SequenceReport check_sequence(const io::SequenceReader& sequence, const Arguments& arguments) {
   verify::SequenceOptions options;
-  options.check.max_violations = static_cast<std::size_t>(arguments.max_violations);
+  options.check.max_violations = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInJson));
   options.check.min_distance = arguments.min_distance;
   options.check.check_bodies = arguments.bodies;
   options.motions = arguments.motion || (!arguments.frames_only && sequence.kind() == io::SequenceKind::kSteps);
@@ -86,7 +90,8 @@ ExitCode run(const Arguments& arguments) {
   verify::ReportContext context{std::string("selvage ") + SELVAGE_VERSION, arguments.sources, {}};
   for (std::size_t i = 0; i < sequence->frame_count(); ++i) context.frame_names.push_back(sequence->frame_name(i));
   if (!arguments.json.empty()) io::write_atomically(arguments.json, verify::json_report(report, context));
-  print(verify::text_report(report, context), report.verdict);
+  const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
+  print(verify::text_report(report, context, max_listed), report.verdict);
   return exit_code(report.verdict);
 }
 
@@ -109,9 +114,11 @@ void add_verify_command(CLI::App& program, Job& job) {
                   "Frames: features without a common vertex must be at least this far apart")
       ->type_name("LENGTH");
   command.add_option("--json", arguments->json, "Write the report as JSON")->type_name("FILE");
-  command.add_option("--max-violations", arguments->max_violations, "List at most this many; all are counted")
-      ->check(CLI::NonNegativeNumber)  // as a signed number: an unsigned one would wrap "-3" around
-      ->capture_default_str();
+  command
+      .add_option("--max-violations", arguments->max_violations,
+                  fmt::format("List at most this many; all are counted (default: {} in the JSON, {} on the terminal)",
+                              kViolationsInJson, kViolationsInText))
+      ->check(CLI::NonNegativeNumber);  // as a signed number: an unsigned one would wrap "-3" around
   command.add_option("--threads", arguments->threads, "Number of threads; 0: one a core")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

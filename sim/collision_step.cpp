@@ -211,6 +211,8 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
     result.velocity = Positions::Zero(V_t0.rows(), 3);
     return result;
   }
+  // What is not finite was not certified, whatever the tracker says.
+  SELVAGE_ASSERT(attempt.motion().x().allFinite());
   result.report.status = StepStatus::kSafe;
   result.report.certificate = attempt.tracker().report();
   result.report.below_tolerance = attempt.tracker().collisions();

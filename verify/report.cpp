@@ -1,5 +1,6 @@
 #include "verify/report.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -100,7 +101,7 @@ const char* name_of(EventKind event) {
   return "unknown";
 }
 
-std::string text_report(const SequenceReport& report, const ReportContext& context) {
+std::string text_report(const SequenceReport& report, const ReportContext& context, std::size_t max_listed) {
   const auto count = [](std::int64_t n) { return std::to_string(n); };
   std::string text = std::string(name_of(report.verdict)) + "\n";
   text += "frames:     " + count(report.frames.checked) + " of " + count(report.frames_expected) + " checked, " +
@@ -123,11 +124,10 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
             "each other or themselves (--bodies does)\n";
   }
   for (const std::string& what : report.unchecked) text += "unchecked:  " + what + "\n";
-  for (const Violation& violation : report.violations) text += line(violation, context);
-  const auto listed = static_cast<std::int64_t>(report.violations.size());
-  if (listed < report.violations_total.total()) {
-    text += "  and " + count(report.violations_total.total() - listed) + " more\n";
-  }
+  const std::size_t listed = std::min(max_listed, report.violations.size());
+  for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
+  const std::int64_t left_out = report.violations_total.total() - static_cast<std::int64_t>(listed);
+  if (left_out > 0) text += "  and " + count(left_out) + " more (--max-violations lists more)\n";
   return text;
 }
 

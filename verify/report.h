@@ -20,8 +20,9 @@ struct ReportContext {
   std::vector<std::string> frame_names;  ///< of all frames
 };
 
-/// Several lines, the verdict first, the violations last.
-[[nodiscard]] std::string text_report(const SequenceReport& report, const ReportContext& context);
+/// Several lines, the verdict first, the violations last: at most `max_listed`, and how many more there are.
+[[nodiscard]] std::string text_report(const SequenceReport& report, const ReportContext& context,
+                                      std::size_t max_listed);
 /// One JSON object; docs/formats.md describes its keys.
 [[nodiscard]] std::string json_report(const SequenceReport& report, const ReportContext& context);
 

@@ -1,5 +1,7 @@
 #include <csignal>
+#include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -81,6 +83,21 @@ TEST(VerifyCommand, MaxViolationsCapsTheListNotTheCount) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.out.find("violations: 3 vf"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("and 2 more"), std::string::npos) << result.out;
+}
+
+TEST(VerifyCommand, TheTerminalShowsTenViolationsAndTheJsonAHundred) {
+  const TemporaryFolder folder;
+  std::string flat;  // twelve faces without area
+  for (int face = 0; face < 12; ++face) {
+    for (int corner = 0; corner < 3; ++corner) flat += fmt::format("v {} {} 0\n", corner, 2 * face);
+  }
+  for (int face = 0; face < 12; ++face) flat += fmt::format("f {} {} {}\n", 3 * face + 1, 3 * face + 2, 3 * face + 3);
+  spit(folder.path() / "a.obj", flat);
+  const auto json = folder.path() / "report.json";
+  const auto result = run_program(folder, {"verify", "--json", json, folder.path() / "a.obj"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.out.find("and 2 more"), std::string::npos) << result.out;
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(json))["violations"].size(), 12U);
 }
 
 TEST(VerifyCommand, ChangingFacesAreUnknown) {
