@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <limits>
 #include <numeric>
 #include <random>
 
 #include <nlohmann/json.hpp>
 
+#include "bench/measure.h"
 #include "bench/textbook.h"
 #include "kernel/ccd.h"
 #include "verify/exact_motion.h"
@@ -82,21 +82,7 @@ std::vector<BenchQuery> flatten(std::span<const QueryFile> files, double toleran
 }
 
 using Clock = std::chrono::steady_clock;
-/// Processor time of this thread: what other programs take from a shared machine does not count.
-double thread_nanoseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
-}
-
 double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
-
-/// Of sorted values: the smallest that at least this share of them does not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5);
-  return sorted[rank];
-}
 
 double clock_cost() {
   double best = std::numeric_limits<double>::infinity();

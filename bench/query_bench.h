@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/measure.h"
 #include "io/query_csv.h"
 #include "kernel/types.h"
 
@@ -31,13 +32,6 @@ struct QueryBenchOptions {
 /// single queries in wall time, each at its best over the passes, with the clock's own cost in them (`clock_ns`).
 struct QueryTimes {
   double mean = 0, median = 0, p99 = 0, max = 0;
-};
-
-/// Time of impact against the exact first touch, as fractions of the step, over the contacts that were found.
-struct ToiError {
-  std::int64_t late = 0;  ///< answers later than the exact first touch, decided exactly
-  double late_max = 0;
-  double early_median = 0, early_p99 = 0, early_max = 0;
 };
 
 struct MethodReport {

@@ -15,8 +15,10 @@ bool point_near_triangle(const std::array<Vec3, 4>& x) {
   const Vec3 x23 = x[2] - x[3];
   const Vec3 x43 = x[0] - x[3];
   const Vec3 normal = x13.cross(x23);
-  const double twice_area = normal.norm();
-  if (twice_area == 0 || std::abs(x43.dot(normal)) >= kTextbookTolerance * twice_area) return false;
+  const double height = x43.dot(normal), four_area_squared = normal.squaredNorm();
+  constexpr double kToleranceSquared = kTextbookTolerance * kTextbookTolerance;
+  if (four_area_squared == 0 || height * height > kToleranceSquared * four_area_squared) return false;
+  const double twice_area = std::sqrt(four_area_squared);
   const double a11 = x13.squaredNorm();
   const double a12 = x13.dot(x23);
   const double a22 = x23.squaredNorm();
@@ -40,6 +42,10 @@ bool edges_near(const std::array<Vec3, 4>& x) {
   const Vec3 x21 = x[1] - x[0];
   const Vec3 x43 = x[3] - x[2];
   const Vec3 x31 = x[2] - x[0];
+  // Lines that are farther apart than this decide most pairs. Where they are parallel both sides are zero.
+  const Vec3 normal = x21.cross(x43);
+  const double height = x31.dot(normal);
+  if (height * height > kTextbookTolerance * kTextbookTolerance * normal.squaredNorm()) return false;
   const double a11 = x21.squaredNorm();
   const double a12 = -x21.dot(x43);
   const double a22 = x43.squaredNorm();
@@ -126,6 +132,12 @@ int monotone_ends(const Cubic& f, std::array<double, 4>& ends) {
   return count;
 }
 
+/// No root in [0,1]: the coefficients in Bernstein's basis have one sign. Decides most pairs without a division.
+bool has_one_sign(const Cubic& f) {
+  const double b0 = 3 * f.k0, b1 = b0 + f.k1, b2 = b1 + f.k1 + f.k2, b3 = f.at(1);
+  return (b0 > 0 && b1 > 0 && b2 > 0 && b3 > 0) || (b0 < 0 && b1 < 0 && b2 < 0 && b3 < 0);
+}
+
 template <typename NearTest>
 TextbookAnswer first_close_root(const Cubic& f, const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
                                 NearTest near) {
@@ -134,6 +146,7 @@ TextbookAnswer first_close_root(const Cubic& f, const std::array<Vec3, 4>& x_t0,
     for (std::size_t i = 0; i < 4; ++i) x[i] = x_t0[i] + t * (x_t1[i] - x_t0[i]);
     return near(x);
   };
+  if (has_one_sign(f)) return {near(x_t1), 1};
   std::array<double, 4> ends{};
   const int count = monotone_ends(f, ends);
   double low = f.at(0);

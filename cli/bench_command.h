@@ -1,4 +1,4 @@
-// selvage bench queries: speed against error on files of queries.
+// selvage bench: speed against error on files of queries (queries) and on the candidates of a motion (ccd).
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,0 +1,205 @@
+#include "bench/ccd_bench.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/ccd_methods.h"
+#include "verify/exact_distance.h"
+
+namespace selvage::bench {
+namespace {
+
+constexpr std::array<PairKind, 2> kKinds{PairKind::kVf, PairKind::kEe};
+/// An exact first touch costs some 50 us; this many contacts of each kind give quantiles of an error.
+constexpr std::size_t kToiSample = 4000;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// What one method says of all candidates of one kind.
+struct Answers {
+  std::vector<Alarm> alarms;
+  double ns = kNever;  ///< of the best pass
+};
+
+class CcdBench {
+ public:
+  CcdBench(const MeshMotion& motion, const CcdBenchOptions& options) : motion_(motion), repeat_(options.repeat) {
+    ccd_options_.tolerance = options.tolerance;
+    const double start = process_nanoseconds();
+    candidates_ = candidates_of(motion, options.tolerance);
+    report_.broad_phase_ns = process_nanoseconds() - start;
+  }
+
+  CcdBenchReport run(std::span<const LabelledPair> labels) {
+    report_.vertices = motion_.mesh.vertex_count;
+    report_.faces = static_cast<std::int64_t>(motion_.mesh.faces.size());
+    report_.vf_candidates = static_cast<std::int64_t>(candidates_.vf.size());
+    report_.ee_candidates = static_cast<std::int64_t>(candidates_.ee.size());
+    const auto methods = ccd_methods();
+    for (const CcdMethod& method : methods) report_.methods.emplace_back().name = method.name;
+    for (const PairKind kind : kKinds) measure(kind, methods);
+    compare_labels(labels);
+    summarize();
+    return std::move(report_);
+  }
+
+ private:
+  void measure(PairKind kind, std::span<const CcdMethod> methods);
+  void judge(PairKind kind, const CcdMethod& method, const std::vector<Alarm>& alarms, CcdMethodReport& of_method);
+  [[nodiscard]] bool within_gap(PairKind kind, const Alarm& alarm) const;
+  void measure_toi(PairKind kind, const std::vector<Alarm>& found, CcdMethodReport& of_method);
+  void compare_labels(std::span<const LabelledPair> labels);
+  void summarize();
+  std::vector<bool>& truth(PairKind kind) { return kind == PairKind::kVf ? vf_truth_ : ee_truth_; }
+
+  const MeshMotion& motion_;
+  int repeat_;
+  CcdOptions ccd_options_;
+  Candidates candidates_;
+  std::vector<bool> vf_truth_, ee_truth_;
+  std::map<std::string, std::vector<double>> early_;  // of each method, how early its times of impact are
+  CcdBenchReport report_;
+};
+
+void CcdBench::measure(PairKind kind, std::span<const CcdMethod> methods) {
+  std::vector<Answers> answers(methods.size());
+  for (int pass = 0; pass < repeat_; ++pass) {
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const double start = thread_nanoseconds();
+      std::vector<Alarm> alarms = methods[i].ask(kind, motion_, candidates_, ccd_options_);
+      answers[i].ns = std::min(answers[i].ns, thread_nanoseconds() - start);
+      if (pass > 0 && alarms.size() != answers[i].alarms.size()) {
+        throw std::logic_error(std::string(methods[i].name) + " answered one list in two ways");
+      }
+      answers[i].alarms = std::move(alarms);
+    }
+  }
+  const bool is_vf = kind == PairKind::kVf;
+  truth(kind).assign(is_vf ? candidates_.vf.size() : candidates_.ee.size(), false);
+  for (const Alarm& contact : answers.back().alarms) truth(kind)[contact.pair] = true;
+  (is_vf ? report_.vf_contacts : report_.ee_contacts) = static_cast<std::int64_t>(answers.back().alarms.size());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    judge(kind, methods[i], answers[i].alarms, report_.methods[i]);
+    (is_vf ? report_.methods[i].ns_vf : report_.methods[i].ns_ee) = answers[i].ns;
+  }
+}
+
+void CcdBench::judge(PairKind kind, const CcdMethod& method, const std::vector<Alarm>& alarms,
+                     CcdMethodReport& of_method) {
+  std::vector<Alarm> found;
+  for (const Alarm& alarm : alarms) {
+    of_method.unresolved += alarm.unresolved;
+    if (truth(kind)[alarm.pair]) {
+      found.push_back(alarm);
+      continue;
+    }
+    ++of_method.false_positives;
+    of_method.false_positives_beyond_gap += !(method.gives_gap_bound && !alarm.unresolved && within_gap(kind, alarm));
+  }
+  const std::int64_t contacts = kind == PairKind::kVf ? report_.vf_contacts : report_.ee_contacts;
+  of_method.alarms += static_cast<std::int64_t>(alarms.size());
+  of_method.false_negatives += contacts - static_cast<std::int64_t>(found.size());
+  if (method.gives_toi) measure_toi(kind, found, of_method);
+}
+
+/// The witness of an alarm is at toi_lower or, where only the end of the step is near, at 1.
+bool CcdBench::within_gap(PairKind kind, const Alarm& alarm) const {
+  const ExactQuery query = exact_query(kind, motion_, candidates_, alarm.pair);
+  const auto within_at = kind == PairKind::kVf ? verify::vf_within_at : verify::ee_within_at;
+  return within_at(query.x_t0, query.x_t1, alarm.toi, alarm.gap_bound);
+}
+
+void CcdBench::measure_toi(PairKind kind, const std::vector<Alarm>& found, CcdMethodReport& of_method) {
+  const std::size_t stride = found.size() / kToiSample + 1;
+  for (std::size_t i = 0; i < found.size(); i += stride) {
+    const ExactQuery query = exact_query(kind, motion_, candidates_, found[i].pair);
+    const bool is_vf = kind == PairKind::kVf;
+    const double first =
+        (is_vf ? verify::exact_vf_motion : verify::exact_ee_motion)(query.x_t0, query.x_t1, verify::Detail::kFirstTime)
+            .first.lower_approx;
+    const double toi = found[i].toi;
+    if (verify::compare_first_touch(query.x_t0, query.x_t1, is_vf, toi) < 0) {
+      ++of_method.toi.late;
+      of_method.toi.late_max = std::max(of_method.toi.late_max, toi - first);
+    }
+    early_[of_method.name].push_back(std::max(0.0, first - toi));
+  }
+}
+
+/// A published verdict is contradicted by another verdict of the exact checker; so is a published contact that is no
+/// candidate.
+void CcdBench::compare_labels(std::span<const LabelledPair> labels) {
+  report_.labels = static_cast<std::int64_t>(labels.size());
+  const auto touches = [](const auto& pairs, const auto& pair, const std::vector<bool>& truth) {
+    const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair);
+    return found != pairs.end() && *found == pair && truth[static_cast<std::size_t>(found - pairs.begin())];
+  };
+  for (const LabelledPair& label : labels) {
+    const bool real = label.kind == PairKind::kVf
+                          ? touches(candidates_.vf, VfCandidate{label.first, label.second}, vf_truth_)
+                          : touches(candidates_.ee, EeCandidate{label.first, label.second}, ee_truth_);
+    report_.labels_contradicted += real != label.touches;
+  }
+}
+
+void CcdBench::summarize() {
+  const auto vf = static_cast<double>(report_.vf_candidates), ee = static_cast<double>(report_.ee_candidates);
+  for (CcdMethodReport& of_method : report_.methods) {
+    of_method.ns_mean = (of_method.ns_vf + of_method.ns_ee) / std::max(1.0, vf + ee);
+    of_method.ns_vf /= std::max(1.0, vf);
+    of_method.ns_ee /= std::max(1.0, ee);
+    std::vector<double>& early = early_[of_method.name];
+    std::sort(early.begin(), early.end());
+    of_method.toi_examined = static_cast<std::int64_t>(early.size());
+    of_method.toi.early_median = quantile(early, 0.5);
+    of_method.toi.early_p99 = quantile(early, 0.99);
+    of_method.toi.early_max = early.empty() ? 0 : early.back();
+  }
+  const auto textbook = std::find_if(report_.methods.begin(), report_.methods.end(),
+                                     [](const CcdMethodReport& method) { return method.name == "textbook"; });
+  for (CcdMethodReport& of_method : report_.methods) of_method.ratio = of_method.ns_mean / textbook->ns_mean;
+}
+
+}  // namespace
+
+CcdBenchReport run_ccd_bench(const MeshMotion& motion, std::span<const LabelledPair> labels,
+                             const CcdBenchOptions& options) {
+  return CcdBench(motion, options).run(labels);
+}
+
+std::string to_json(const CcdBenchReport& report) {
+  nlohmann::ordered_json methods, ratio;
+  for (const CcdMethodReport& method : report.methods) {
+    methods[method.name] = {{"alarms", method.alarms},
+                            {"false_negatives", method.false_negatives},
+                            {"false_positives", method.false_positives},
+                            {"false_positives_beyond_gap", method.false_positives_beyond_gap},
+                            {"unresolved", method.unresolved},
+                            {"toi_examined", method.toi_examined},
+                            {"late_toi", method.toi.late},
+                            {"toi_error",
+                             {{"late_max", method.toi.late_max},
+                              {"early_median", method.toi.early_median},
+                              {"early_p99", method.toi.early_p99},
+                              {"early_max", method.toi.early_max}}},
+                            {"ns", {{"mean", method.ns_mean}, {"vf", method.ns_vf}, {"ee", method.ns_ee}}}};
+    ratio[method.name] = method.ratio;
+  }
+  const nlohmann::ordered_json json = {{"schema", "selvage.bench.ccd/1"},
+                                       {"motion", report.motion},
+                                       {"vertices", report.vertices},
+                                       {"faces", report.faces},
+                                       {"candidates", {{"vf", report.vf_candidates}, {"ee", report.ee_candidates}}},
+                                       {"contacts", {{"vf", report.vf_contacts}, {"ee", report.ee_contacts}}},
+                                       {"labels", report.labels},
+                                       {"labels_contradicted", report.labels_contradicted},
+                                       {"broad_phase_ns", report.broad_phase_ns},
+                                       {"methods", methods},
+                                       {"ratio_to_textbook", ratio}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace selvage::bench

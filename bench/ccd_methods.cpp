@@ -1,0 +1,115 @@
+#include "bench/ccd_methods.h"
+
+#include "bench/textbook.h"
+#include "kernel/collisions.h"
+
+namespace selvage::bench {
+namespace {
+
+std::array<VertexId, 4> vertices_of(const Mesh& mesh, const VfCandidate& pair) {
+  const auto& corners = mesh.faces[static_cast<std::size_t>(pair.face)];
+  return {pair.vertex, corners[0], corners[1], corners[2]};
+}
+std::array<VertexId, 4> vertices_of(const Mesh& mesh, const EeCandidate& pair) {
+  const auto &a = mesh.edges[static_cast<std::size_t>(pair.a)], &b = mesh.edges[static_cast<std::size_t>(pair.b)];
+  return {a[0], a[1], b[0], b[1]};
+}
+
+struct KernelQuery {
+  std::array<Vec3, 4> x_t0, x_t1;
+};
+KernelQuery kernel_query(const MeshMotion& motion, const std::array<VertexId, 4>& vertices) {
+  KernelQuery query;
+  for (std::size_t i = 0; i < 4; ++i) {
+    query.x_t0[i] = motion.V_t0.row(vertices[i]);
+    query.x_t1[i] = motion.V_t1.row(vertices[i]);
+  }
+  return query;
+}
+
+/// One after another; `ask` returns whether the pair is an alarm, and fills it in.
+template <typename Pairs, typename Ask>
+std::vector<Alarm> one_by_one(const MeshMotion& motion, const Pairs& pairs, const Ask& ask) {
+  std::vector<Alarm> alarms;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Alarm alarm{i, 0, 0, false};
+    if (ask(vertices_of(motion.mesh, pairs[i]), alarm)) alarms.push_back(alarm);
+  }
+  return alarms;
+}
+
+using CcdQuery = CcdResult (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&, const CcdOptions&);
+using TextbookQuery = TextbookAnswer (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&);
+using ExactDecision = verify::MotionAnswer (*)(const std::array<verify::Point, 4>&, const std::array<verify::Point, 4>&,
+                                               verify::Detail);
+
+template <typename Pairs>
+std::vector<Alarm> ask_scalar(const MeshMotion& motion, const Pairs& pairs, const CcdOptions& options, CcdQuery ccd) {
+  return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm& alarm) {
+    const KernelQuery query = kernel_query(motion, vertices);
+    const CcdResult result = ccd(query.x_t0, query.x_t1, options);
+    if (result.verdict == CcdVerdict::kSeparated) return false;
+    alarm.toi = result.toi_lower;
+    alarm.gap_bound = result.gap_bound;
+    alarm.unresolved = result.verdict == CcdVerdict::kUnresolved;
+    return true;
+  });
+}
+
+template <typename Pairs>
+std::vector<Alarm> ask_textbook(const MeshMotion& motion, const Pairs& pairs, TextbookQuery textbook) {
+  return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm& alarm) {
+    const KernelQuery query = kernel_query(motion, vertices);
+    const TextbookAnswer answer = textbook(query.x_t0, query.x_t1);
+    alarm.toi = answer.toi;
+    return answer.collides;
+  });
+}
+
+ExactQuery exact_query(const MeshMotion& motion, const std::array<VertexId, 4>& vertices) {
+  ExactQuery query;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      query.x_t0[i][k] = motion.V_t0(vertices[i], static_cast<Eigen::Index>(k));
+      query.x_t1[i][k] = motion.V_t1(vertices[i], static_cast<Eigen::Index>(k));
+    }
+  }
+  return query;
+}
+
+template <typename Pairs>
+std::vector<Alarm> ask_exact(const MeshMotion& motion, const Pairs& pairs, ExactDecision decide) {
+  return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm&) {
+    const ExactQuery query = exact_query(motion, vertices);
+    return decide(query.x_t0, query.x_t1, verify::Detail::kDecision).touches;
+  });
+}
+
+std::vector<Alarm> kernel_scalar(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
+                                 const CcdOptions& options) {
+  return kind == PairKind::kVf ? ask_scalar(motion, candidates.vf, options, vf_ccd)
+                               : ask_scalar(motion, candidates.ee, options, ee_ccd);
+}
+std::vector<Alarm> textbook(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions&) {
+  return kind == PairKind::kVf ? ask_textbook(motion, candidates.vf, textbook_vf)
+                               : ask_textbook(motion, candidates.ee, textbook_ee);
+}
+std::vector<Alarm> exact(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions&) {
+  return kind == PairKind::kVf ? ask_exact(motion, candidates.vf, verify::exact_vf_motion)
+                               : ask_exact(motion, candidates.ee, verify::exact_ee_motion);
+}
+
+constexpr std::array<CcdMethod, 3> kMethods{{{"kernel_scalar", kernel_scalar, true, true},
+                                             {"textbook", textbook, true, false},
+                                             {"exact", exact, false, false}}};
+
+}  // namespace
+
+std::span<const CcdMethod> ccd_methods() { return kMethods; }
+
+ExactQuery exact_query(PairKind kind, const MeshMotion& motion, const Candidates& candidates, std::size_t pair) {
+  return exact_query(motion, kind == PairKind::kVf ? vertices_of(motion.mesh, candidates.vf[pair])
+                                                   : vertices_of(motion.mesh, candidates.ee[pair]));
+}
+
+}  // namespace selvage::bench

@@ -1,0 +1,39 @@
+// The methods of `bench ccd`, each as one loop over a list of candidates, as a simulator would run it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bench/mesh_motion.h"
+#include "kernel/ccd.h"
+#include "verify/exact_motion.h"
+
+namespace selvage::bench {
+
+/// A pair that a method does not call separated. `pair` counts within the list of its kind.
+struct Alarm {
+  std::size_t pair = 0;
+  double toi = 0;
+  double gap_bound = 0;  ///< of the kernel's collisions
+  bool unresolved = false;
+};
+
+struct CcdMethod {
+  const char* name;
+  /// The alarms of one kind of candidates, in their order. One thread.
+  std::vector<Alarm> (*ask)(PairKind, const MeshMotion&, const Candidates&, const CcdOptions&);
+  bool gives_toi;
+  bool gives_gap_bound;
+};
+
+/// kernel_scalar: vf_ccd and ee_ccd one by one. textbook: the baseline, one by one. exact: the checker's bare decision.
+[[nodiscard]] std::span<const CcdMethod> ccd_methods();
+
+/// Both ends of a candidate's motion as the checker takes them.
+struct ExactQuery {
+  std::array<verify::Point, 4> x_t0, x_t1;
+};
+[[nodiscard]] ExactQuery exact_query(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
+                                     std::size_t pair);
+
+}  // namespace selvage::bench
