@@ -8,13 +8,14 @@
 #include <fmt/format.h>
 
 #include "cli/render/contact_sheet.h"
+#include "cli/sequence_argument.h"
 #include "cli/terminal.h"
 
 namespace selvage::cli {
 namespace {
 
 struct RenderArguments {
-  std::vector<std::filesystem::path> sources;
+  SequenceArgument sequence;
   std::filesystem::path picture;
   std::vector<std::size_t> frames;
   std::size_t tiles = 12;
@@ -24,7 +25,7 @@ struct RenderArguments {
 };
 
 ExitCode render_sequence(const RenderArguments& arguments) {
-  const std::unique_ptr<io::SequenceReader> sequence = io::open_sequence(arguments.sources);
+  const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
   SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};
   if (options.frames.empty()) options.frames = spread_frames(*sequence, arguments.tiles);
   for (const std::size_t frame : options.frames) {
@@ -46,8 +47,7 @@ void add_render_command(CLI::App& program, Job& job) {
       add_command(program, "render", "Draw frames of a sequence on one picture: cloth warm in front and cool behind",
                   "selvage render demo/curtain -o sheet.png");
   const auto arguments = std::make_shared<RenderArguments>();
-  command.add_option("sequence", arguments->sources, "A sequence folder, an .npz file, or mesh files in order")
-      ->required();
+  add_sequence_argument(command, arguments->sequence);
   command.add_option("-o,--output", arguments->picture, "The PNG file")->required();
   CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")->delimiter(',');
   command.add_option("--tiles", arguments->tiles, "How many frames, spread evenly in time")

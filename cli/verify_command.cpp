@@ -1,6 +1,7 @@
 #include "cli/verify_command.h"
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/sequence_argument.h"
 #include "cli/terminal.h"
 #include "io/atomic_file.h"
 #include "io/sequence.h"
@@ -22,7 +24,7 @@ namespace selvage::cli {
 namespace {
 
 struct Arguments {
-  std::vector<std::string> sources;
+  SequenceArgument sequence;
   bool frames_only = false, motion = false, bodies = false;
   std::optional<double> min_distance;
   std::string json;
@@ -82,12 +84,13 @@ ExitCode run(const Arguments& arguments) {
   if (arguments.threads > 0) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
   }
-  const auto sequence = io::open_sequence({arguments.sources.begin(), arguments.sources.end()});
+  const auto sequence = open_sequence(arguments.sequence);
   if (arguments.motion && sequence->frame_count() == 1) {
     throw UsageError("--motion needs at least two frames, and there is one: no motion would be checked");
   }
   const verify::SequenceReport report = check_sequence(*sequence, arguments);
-  verify::ReportContext context{std::string("selvage ") + SELVAGE_VERSION, arguments.sources, {}};
+  verify::ReportContext context{std::string("selvage ") + SELVAGE_VERSION, {}, {}};
+  for (const std::filesystem::path& source : arguments.sequence.sources) context.sources.push_back(source.string());
   for (std::size_t i = 0; i < sequence->frame_count(); ++i) context.frame_names.push_back(sequence->frame_name(i));
   if (!arguments.json.empty()) io::write_atomically(arguments.json, verify::json_report(report, context));
   const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
@@ -102,8 +105,7 @@ void add_verify_command(CLI::App& program, Job& job) {
       add_command(program, "verify", "Check a mesh sequence exactly: frames, and the motion between them",
                   "selvage verify run/ --json report.json");
   const auto arguments = std::make_shared<Arguments>();
-  command.add_option("SEQUENCE", arguments->sources, "A sequence folder, an .npz file, or mesh files in order")
-      ->required();
+  add_sequence_argument(command, arguments->sequence);
   CLI::Option* frames_only = command.add_flag("--frames-only", arguments->frames_only, "Check frames, never motions");
   command
       .add_flag("--motion", arguments->motion,

@@ -1,15 +1,15 @@
 #include "io/mesh_reader.h"
 
 #include "io/atomic_file.h"
+#include "io/extension.h"
 #include "io/fail.h"
 
 namespace selvage::io {
 
 MeshData read_mesh(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);  // a path that does not exist is that first, whatever its extension
-  const std::filesystem::path extension = file.extension();
-  if (extension == ".obj" || extension == ".OBJ") return parse_obj(bytes, file.string());
-  if (extension == ".ply" || extension == ".PLY") return parse_ply(bytes, file.string());
+  if (has_extension(file, ".obj")) return parse_obj(bytes, file.string());
+  if (has_extension(file, ".ply")) return parse_ply(bytes, file.string());
   bad_input(file.string(), "the extension is neither .obj nor .ply; convert the mesh");
 }
 

@@ -1,20 +1,33 @@
 #include "io/sequence.h"
 
 #include <system_error>
+#include <utility>
 
+#include "io/extension.h"
 #include "io/fail.h"
+#include "io/mesh_reader.h"
 #include "io/sequence_readers.h"
 
 namespace selvage::io {
 
-std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources) {
-  if (sources.empty()) bad_input("sequence", "no file is named; name a folder, an .npz or mesh files");
+std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources,
+                                              const std::filesystem::path& base) {
+  if (sources.empty()) bad_input("sequence", "no file is named; name a folder, an .npz, a point cache or mesh files");
   std::error_code status;
   const std::filesystem::path& first = sources.front();
   const bool is_folder = std::filesystem::is_directory(first, status);
-  if (!is_folder && first.extension() != ".npz") return open_mesh_files(sources);
-  if (sources.size() > 1) bad_input(sources[1].string(), "a folder or an .npz is a sequence by itself; name it alone");
-  return is_folder ? open_folder_sequence(first) : open_npz_sequence(open_file(first), first.string());
+  const bool is_cache = !is_folder && is_point_cache(first);
+  const bool is_npz = !is_folder && has_extension(first, ".npz");
+  if (!base.empty() && !is_cache) bad_input(base.string(), "only a .pc2 or .mdd needs a base mesh; leave it out");
+  if (!is_folder && !is_npz && !is_cache) return open_mesh_files(sources);
+  if (sources.size() > 1) {
+    bad_input(sources[1].string(), "a folder, an .npz or a point cache is a sequence by itself; name it alone");
+  }
+  if (is_folder) return open_folder_sequence(first);
+  if (is_npz) return open_npz_sequence(open_file(first), first.string());
+  std::shared_ptr<const ByteSource> cache = open_file(first);  // a file that is missing is that, not one without base
+  MeshData mesh = read_mesh(base.empty() ? find_base_mesh(first) : base);
+  return open_point_cache(std::move(cache), point_cache_format(first), std::move(mesh), first.string());
 }
 
 void check_indices(const Triangles& triangles, std::size_t vertex_count, const std::string& name) {

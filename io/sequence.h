@@ -28,7 +28,7 @@ class SequenceReader {
   [[nodiscard]] virtual const std::vector<Group>& groups() const = 0;
   /// A name a person can find again: the file of frame i, or "FILE[i]".
   [[nodiscard]] virtual std::string frame_name(std::size_t frame) const = 0;
-  /// Time of frame i in seconds, or i where the source has no times.
+  /// Time of frame i in seconds; in frames for PC2, which counts these; i where the source has no times.
   [[nodiscard]] virtual double time(std::size_t frame) const = 0;
   /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
   /// True for frame 0.
@@ -37,8 +37,10 @@ class SequenceReader {
   [[nodiscard]] virtual MeshData frame(std::size_t frame) const = 0;
 };
 
-/// One folder, one .npz, or one or more mesh files in the given order. Throws Error.
-[[nodiscard]] std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources);
+/// One folder, one .npz, one .pc2 or .mdd, or one or more mesh files in the given order. `base` is the mesh that a
+/// point cache moves; empty: the .obj or .ply of the same name beside it. Throws Error.
+[[nodiscard]] std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources,
+                                                            const std::filesystem::path& base = {});
 
 struct SequenceHeader {
   Triangles triangles;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/byte_source.h"
+#include "io/point_cache.h"
 #include "io/sequence.h"
 
 namespace selvage::io {
@@ -16,6 +17,12 @@ namespace selvage::io {
 /// An .npz with V, F and maybe group; `name` appears in errors.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_npz_sequence(std::shared_ptr<const ByteSource> source,
                                                                 std::string name);
+/// A PC2 or MDD with the mesh that it moves: `base` gives the faces and groups, its positions are not used.
+[[nodiscard]] std::unique_ptr<SequenceReader> open_point_cache(std::shared_ptr<const ByteSource> source,
+                                                               PointCacheFormat format, MeshData base,
+                                                               std::string name);
+/// cloth.obj, or else cloth.ply, beside cloth.pc2. Throws Error if there is neither.
+[[nodiscard]] std::filesystem::path find_base_mesh(const std::filesystem::path& cache);
 /// Mesh files, one a frame. All are read once here: a damaged frame is found before work starts on the first.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_mesh_files(std::vector<std::filesystem::path> files);
 

@@ -5,6 +5,7 @@
 #include "io/sequence_json.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/parsers.h"
+#include "tests/io/point_cache_builder.h"
 #include "tests/io/support.h"
 
 namespace selvage::io {
@@ -242,6 +243,52 @@ std::vector<Hostile> hostile_files() {
   };
 }
 
+/// A sound cache of 4 vertices and 2 frames with `bytes` at `offset`.
+std::string cache_with(std::string cache, std::size_t offset, const std::string& bytes) {
+  return cache.replace(offset, bytes.size(), bytes);
+}
+
+std::vector<Hostile> hostile_caches() {
+  const std::string pc2 = testing::pc2(4, 2), mdd = testing::mdd(4, {0, 1});
+  const std::string nan_little("\0\0\xc0\x7f", 4), nan_big("\x7f\xc0\0\0", 4), zero(4, '\0'), minus_one(4, '\xff');
+  const std::string infinity_big("\xff\x80\0\0", 4);
+  return {
+      {"pc2_empty", "pc2", "", "in: byte 0: the header is cut short"},
+      {"pc2_header_cut", "pc2", pc2.substr(0, 31), "in: byte 31: the header is cut short"},
+      {"pc2_signature", "pc2", cache_with(pc2, 10, "3"), "in: byte 0: not 'POINTCACHE2'"},
+      {"pc2_version", "pc2", cache_with(pc2, 12, "\2"), "in: byte 12: PC2 version 2 is not known"},
+      {"pc2_big_endian", "pc2", cache_with(pc2, 12, std::string("\0\0\0\1", 4)), "in: byte 12: PC2 version 16777216"},
+      {"pc2_no_vertices", "pc2", cache_with(pc2, 16, zero), "in: byte 16: the number of vertices is 0"},
+      {"pc2_negative_vertices", "pc2", cache_with(pc2, 16, minus_one), "in: byte 16: the number of vertices is -1"},
+      {"pc2_other_vertices", "pc2", testing::pc2(5, 2), "in: 5 vertices, the base mesh has 4"},
+      {"pc2_no_frames", "pc2", cache_with(pc2, 28, zero), "in: byte 28: the number of frames is 0"},
+      {"pc2_more_frames", "pc2", cache_with(pc2, 28, "\3"),
+       "in: byte 128: 3 frames of 4 vertices make 176 bytes, the file has 128"},
+      {"pc2_fewer_frames", "pc2", cache_with(pc2, 28, "\1"),
+       "in: byte 80: 1 frames of 4 vertices make 80 bytes, the file has 128"},
+      {"pc2_huge", "pc2", cache_with(cache_with(pc2, 16, "\xff\xff\xff\x7f"), 28, "\xff\xff\xff\x7f"),
+       "in: byte 128: 2147483647 frames"},
+      {"pc2_start_nan", "pc2", cache_with(pc2, 20, nan_little), "in: byte 20: the start frame or the sampling rate"},
+      {"pc2_rate_nan", "pc2", cache_with(pc2, 24, nan_little), "in: byte 20: the start frame or the sampling rate"},
+      {"pc2_rate_zero", "pc2", cache_with(pc2, 24, zero), "in: byte 24: the time of frame 1 is not later"},
+      {"pc2_nan", "pc2", cache_with(pc2, 32 + 48 + 12 + 4, nan_little), "in: byte 96: frame 1, vertex 1 is not finite"},
+      {"mdd_empty", "mdd", "", "in: byte 0: the header is cut short"},
+      {"mdd_header_cut", "mdd", mdd.substr(0, 7), "in: byte 7: the header is cut short"},
+      {"mdd_little_endian", "mdd", cache_with(mdd, 0, std::string("\2\0\0\0\4\0\0\0", 8)),
+       "in: byte 112: 33554432 frames of 67108864 vertices"},
+      {"mdd_no_frames", "mdd", cache_with(mdd, 0, zero), "in: byte 0: the number of frames is 0"},
+      {"mdd_negative_vertices", "mdd", cache_with(mdd, 4, minus_one), "in: byte 4: the number of vertices is -1"},
+      {"mdd_other_vertices", "mdd", testing::mdd(3, {0, 1}), "in: 3 vertices, the base mesh has 4"},
+      {"mdd_more_frames", "mdd", cache_with(mdd, 3, "\3"),
+       "in: byte 112: 3 frames of 4 vertices make 164 bytes, the file has 112"},
+      {"mdd_huge", "mdd", cache_with(mdd, 0, "\x7f\xff\xff\xff\x7f\xff\xff\xff"), "in: byte 112: 2147483647 frames"},
+      {"mdd_time_nan", "mdd", cache_with(mdd, 12, nan_big), "in: byte 12: the time of frame 1 is not finite"},
+      {"mdd_time_back", "mdd", cache_with(mdd, 12, zero), "in: byte 12: the time of frame 1 is not later"},
+      {"mdd_infinity", "mdd", cache_with(mdd, 16 + 48 + 12 + 8, infinity_big),
+       "in: byte 84: frame 1, vertex 1 is not finite"},
+  };
+}
+
 class HostileFile : public ::testing::TestWithParam<Hostile> {};
 
 TEST_P(HostileFile, IsRefused) {
@@ -249,6 +296,8 @@ TEST_P(HostileFile, IsRefused) {
   expect_error(ErrorKind::kBadInput, file.fragment, [&] { testing::parser_named(file.parser).parse(file.bytes); });
 }
 
+INSTANTIATE_TEST_SUITE_P(PointCaches, HostileFile, ::testing::ValuesIn(hostile_caches()),
+                         [](const auto& of) { return of.param.name; });
 INSTANTIATE_TEST_SUITE_P(All, HostileFile, ::testing::ValuesIn(hostile_files()),
                          [](const auto& of) { return of.param.name; });
 

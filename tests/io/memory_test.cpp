@@ -2,6 +2,7 @@
 // C++, so it stands alone.
 #include <cstdlib>
 #include <new>
+#include <numeric>
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -9,6 +10,7 @@
 #include "io/error.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/parsers.h"
+#include "tests/io/point_cache_builder.h"
 #include "tests/io/zip_writer.h"
 
 namespace {
@@ -76,6 +78,8 @@ std::vector<Dense> dense_files() {
   std::string alternating;
   for (std::size_t i = 0; i < 200'000; ++i) alternating += static_cast<char>(i % 2);
   const std::string triangles = repeated({"\0\1\2", 3}, 600'000);
+  std::vector<float> many_times(20'000);
+  std::iota(many_times.begin(), many_times.end(), 0.0f);
   const auto array = [](const std::string& descr, const std::string& shape, const std::string& data) {
     return testing::npy(testing::dictionary(descr, shape), data);
   };
@@ -101,6 +105,10 @@ std::vector<Dense> dense_files() {
                       .deflate = true,
                       .size_error = 1000 - 50'000'000}})},
       {"npz_members", "npz", testing::zip(std::vector<testing::ZipEntry>(20'000))},
+      {"pc2", "pc2", testing::pc2(4, 20'000), 10},
+      {"pc2_liar", "pc2", testing::pc2(4, 20'000, 0x7fffffff), 10},
+      {"mdd", "mdd", testing::mdd(4, many_times), 10},
+      {"mdd_liar", "mdd", testing::mdd(4, many_times, 0x7fffffff), 10},
       {"query_csv", "query_csv", repeated("1,1,1,1,1,1\n", 12 * 8 * 20'000)},
       {"sequence_json", "sequence_json", "[" + repeated("0,", 1'000'000) + "0]", 18},  // of a file of at most 1 MiB
       {"frame_list", "frame_list", repeated("{\"file\":\"a\"}\n", kSize)},

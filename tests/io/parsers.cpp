@@ -9,6 +9,7 @@
 #include "io/sequence_json.h"
 #include "io/sequence_readers.h"
 #include "tests/io/npy_builder.h"
+#include "tests/io/point_cache_builder.h"
 #include "tests/io/zip_writer.h"
 
 namespace selvage::testing {
@@ -55,6 +56,28 @@ void parse_npz(const std::string& bytes) {
   require(reader->frame_count() <= bytes.size(), "there are more frames than bytes");
   for (std::size_t i = 0; i < reader->frame_count(); ++i) check_mesh(reader->frame(i));
 }
+
+/// The mesh that the caches of the tests move.
+io::MeshData base_mesh() {
+  io::MeshData base;
+  base.points.resize(4);
+  base.triangles = {{0, 1, 2}, {2, 1, 3}};
+  return base;
+}
+
+void parse_point_cache(const std::string& bytes, io::PointCacheFormat format) {
+  const auto reader = io::open_point_cache(io::in_memory(bytes), format, base_mesh(), "in");
+  require(reader->frame_count() <= bytes.size(), "there are more frames than bytes");
+  for (std::size_t i = 0; i < reader->frame_count(); ++i) {
+    const io::MeshData mesh = reader->frame(i);
+    check_mesh(mesh);
+    require(mesh.points.size() == 4, "a frame has not the vertices of the base mesh");
+    require(std::isfinite(reader->time(i)), "a time is not finite");
+    require(i == 0 || reader->time(i - 1) < reader->time(i), "times do not increase");
+  }
+}
+void parse_pc2(const std::string& bytes) { parse_point_cache(bytes, io::PointCacheFormat::kPc2); }
+void parse_mdd(const std::string& bytes) { parse_point_cache(bytes, io::PointCacheFormat::kMdd); }
 
 void parse_query_csv(const std::string& bytes) {
   for (const io::CcdQuery& query : io::parse_query_csv(bytes, "in")) {
@@ -145,6 +168,8 @@ std::vector<Parser> make_parsers() {
         npy(dictionary(">u8", "(2, 3)", true), numbers<std::uint64_t>({0, 1, 2, 2, 1, 3}, std::endian::big), 3)}},
       {"npy_integers", parse_npy_integers, {npy(dictionary("<i2", "(4,)"), numbers<std::int16_t>({0, 1, -1, 300}))}},
       {"npz", parse_npz, sound_npz()},
+      {"pc2", parse_pc2, {pc2(4, 2), pc2(4, 1)}},
+      {"mdd", parse_mdd, {mdd(4, {0, 0.04f}), mdd(4, {-1})}},
       {"query_csv", parse_query_csv, {queries, queries.substr(0, queries.size() / 2)}},
       {"sequence_json",
        parse_sequence_json,

@@ -1,0 +1,25 @@
+// The sequence that a subcommand reads: the same words and the same options everywhere.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "io/sequence.h"
+
+namespace selvage::cli {
+
+struct SequenceArgument {
+  std::vector<std::filesystem::path> sources;
+  std::filesystem::path base;  ///< the mesh that a point cache moves; may be empty
+};
+
+/// Adds the positional SEQUENCE and --base; `argument` must outlive the parsing.
+void add_sequence_argument(CLI::App& command, SequenceArgument& argument);
+
+/// Throws io::Error, and UsageError where --base is given for what has faces of its own.
+[[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argument);
+
+}  // namespace selvage::cli

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "tests/cli/run_program.h"
+#include "tests/io/point_cache_builder.h"
+
+namespace selvage {
+namespace {
+
+using testing::run_program;
+using testing::spit;
+using testing::TemporaryFolder;
+
+const char* const kTwoFaces = "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 1\nv 2 1 1\nv 1 2 1\nf 4 5 6\n";
+
+/// Two frames of kTwoFaces; the second face is `height` above the first in the second frame.
+std::string cache(float height) {
+  const float bottom[] = {0, 0, 0, 4, 0, 0, 0, 4, 0};
+  std::string bytes = testing::pc2(6, 0, 2);
+  for (const float z : {1.0f, height}) {
+    for (const float x : bottom) testing::append_bytes(bytes, x, false);
+    for (const float x : {1.0f, 1.0f, z, 2.0f, 1.0f, z, 1.0f, 2.0f, z}) testing::append_bytes(bytes, x, false);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST(SequenceArgument, PointCacheIsVerifiedWithTheMeshBesideIt) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloth.pc2";
+  spit(folder.path() / "cloth.obj", kTwoFaces);
+  spit(file, cache(0x1p-149f));  // the smallest float keeps them apart
+  const auto clean = run_program(folder, {"verify", file});
+  EXPECT_EQ(clean.exit_code, 0) << clean.err;
+  EXPECT_NE(clean.out.find("2 of 2 checked, 0 violated"), std::string::npos) << clean.out;
+  EXPECT_NE(clean.out.find("float32 coordinates checked as stored"), std::string::npos) << clean.out;
+  spit(file, cache(0));
+  const auto touching = run_program(folder, {"verify", file});
+  EXPECT_EQ(touching.exit_code, 1) << touching.err;
+  EXPECT_NE(touching.out.find("cloth.pc2[1]"), std::string::npos) << touching.out;
+  spit(file, cache(-1));
+  EXPECT_EQ(run_program(folder, {"verify", file}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", "--motion", file}).exit_code, 1);
+}
+
+TEST(SequenceArgument, BaseMeshIsNamedOrMissed) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloth.pc2", mesh = folder.path() / "mesh.obj";
+  spit(file, cache(1));
+  const auto missing = run_program(folder, {"verify", file});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.err.find("--base"), std::string::npos) << missing.err;
+  spit(mesh, kTwoFaces);
+  EXPECT_EQ(run_program(folder, {"verify", file, "--base", mesh}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", file, "--base", folder.path() / "none.obj"}).exit_code, 4);
+  const auto needless = run_program(folder, {"verify", mesh, "--base", mesh});
+  EXPECT_EQ(needless.exit_code, 2);
+  EXPECT_NE(needless.err.find("faces of its own"), std::string::npos) << needless.err;
+}
+
+TEST(SequenceArgument, PointCacheIsDrawn) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloth.pc2", mesh = folder.path() / "mesh.obj", sheet = folder.path() / "sheet.png";
+  spit(file, cache(1));
+  spit(mesh, kTwoFaces);
+  const auto result = run_program(folder, {"render", file, "--base", mesh, "-o", sheet, "--width", "200"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(testing::slurp(sheet).starts_with("\x89PNG"));
+}
+
+}  // namespace selvage
