@@ -1,5 +1,4 @@
-// The paper's bounding-box hierarchy (section 6): leaves are faces, adjacent nodes merged greedily in alternating
-// sweeps, built once from connectivity, refit each step.
+// The bounding-box hierarchy (paper, section 6): leaves are faces; made once, refit each step.
 #pragma once
 
 #include <memory>
@@ -8,15 +7,23 @@
 
 namespace selvage {
 
+/// How the tree over the faces is made. The candidates are the same; docs/broad-phase.md says what each costs.
+enum class HierarchyKind : std::uint8_t {
+  kSpatial,   ///< by position: made at the first refit, and anew when its clusters have spread by a quarter
+  kTopology,  ///< the paper's: adjacent nodes are paired greedily in alternating sweeps, from connectivity alone, once
+};
+
 class BoxHierarchy {
  public:
-  /// Depends on connectivity alone. O(#F log #F). The mesh must outlive the hierarchy.
-  explicit BoxHierarchy(const Mesh& mesh);
+  /// O(#F log #F). The mesh must outlive the hierarchy.
+  explicit BoxHierarchy(const Mesh& mesh, HierarchyKind kind = HierarchyKind::kSpatial);
+  explicit BoxHierarchy(Mesh&&, HierarchyKind = HierarchyKind::kSpatial) = delete;
   ~BoxHierarchy();
   BoxHierarchy(BoxHierarchy&&) noexcept;
   BoxHierarchy& operator=(BoxHierarchy&&) noexcept;
 
-  /// Boxes of the motion from V_t0 to V_t1 (pass one twice for an instant), grown as CandidateOptions says.
+  /// Boxes of the motion from V_t0 to V_t1 (pass one twice for an instant), grown as CandidateOptions says. O(#V + #F),
+  /// in parallel; where a tree by position is made anew, O(#F log #F).
   void refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options);
   /// Equal to find_candidates_brute_force for the last refit (K6), for any thread count (K7).
   [[nodiscard]] Candidates candidates() const;

@@ -115,10 +115,9 @@ PerCluster<Id> group_by_owner(const std::vector<FaceId>& owner, const std::vecto
 
 }  // namespace
 
-FaceClusters make_face_clusters(const Mesh& mesh) {
+FaceClusters make_face_clusters(const Mesh& mesh, const FaceTree& face_tree) {
   FaceClusters out;
   if (mesh.faces.empty()) return out;
-  const FaceTree face_tree = make_face_tree(mesh);
   const TreeView tree(face_tree, mesh.faces.size());
   make_nodes(tree, number_clusters(tree, out.faces), out);
 

@@ -1,5 +1,5 @@
 // The face tree laid out for traversal: its lowest subtrees become clusters of a few faces, the rest becomes nodes of
-// up to eight children. Depends on connectivity alone.
+// up to eight children.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct FaceClusters {
   [[nodiscard]] std::size_t cluster_count() const { return faces.begin.size() - 1; }
 };
 
-/// O(#F log #F). A mesh without faces has no nodes and no clusters.
-[[nodiscard]] FaceClusters make_face_clusters(const Mesh& mesh);
+/// O(#F). `tree` is over the faces of `mesh`; a mesh without faces has no nodes and no clusters.
+[[nodiscard]] FaceClusters make_face_clusters(const Mesh& mesh, const FaceTree& tree);
 
 }  // namespace selvage

@@ -1,5 +1,9 @@
 #include "kernel/box_hierarchy.h"
 
+#include <array>
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "tests/kernel/public_frames.h"
@@ -11,38 +15,113 @@ namespace selvage {
 
 namespace {
 
+constexpr std::array kKinds = {HierarchyKind::kSpatial, HierarchyKind::kTopology};
+
 void expect_counts(const char* scene, const char* frame_t0, const char* frame_t1, std::size_t vf, std::size_t ee) {
   const auto frames = testing::public_frames(scene, frame_t0, frame_t1);
   if (!frames) GTEST_SKIP() << "the public frames of " << scene << " are not here (SELVAGE_DATA)";
-  BoxHierarchy hierarchy(frames->mesh);
-  hierarchy.refit(frames->V_t0, frames->V_t1, {});
-  const Candidates found = hierarchy.candidates();
-  EXPECT_EQ(found.vf.size(), vf);
-  EXPECT_EQ(found.ee.size(), ee);
+  std::vector<Candidates> found;
+  for (const HierarchyKind kind : kKinds) {
+    BoxHierarchy hierarchy(frames->mesh, kind);
+    hierarchy.refit(frames->V_t0, frames->V_t1, {});
+    found.push_back(hierarchy.candidates());
+    EXPECT_EQ(found.back().vf.size(), vf);
+    EXPECT_EQ(found.back().ee.size(), ee);
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+/// A sheet of n by n squares whose corners are at `V` = position(i, j).
+template <typename Position>
+std::pair<Mesh, Positions> sheet(VertexId n, const Position& position) {
+  Faces F(2 * n * n, 3);
+  Positions V((n + 1) * (n + 1), 3);
+  for (VertexId i = 0; i <= n; ++i) {
+    for (VertexId j = 0; j <= n; ++j) V.row(i * (n + 1) + j) = position(i, j);
+  }
+  for (VertexId i = 0; i < n; ++i) {
+    for (VertexId j = 0; j < n; ++j) {
+      const VertexId a = i * (n + 1) + j, b = a + n + 1;
+      F.row(2 * (i * n + j)) << a, b, a + 1;
+      F.row(2 * (i * n + j) + 1) << b + 1, a + 1, b;
+    }
+  }
+  return {make_mesh(static_cast<VertexId>(V.rows()), F), V};
+}
+
+void expect_brute_force(const Mesh& mesh, const Positions& V_t0, const Positions& V_t1,
+                        const CandidateOptions& options) {
+  const Candidates expected = find_candidates_brute_force(mesh, V_t0, V_t1, options);
+  for (const HierarchyKind kind : kKinds) {
+    BoxHierarchy hierarchy(mesh, kind);
+    hierarchy.refit(V_t0, V_t1, options);
+    EXPECT_EQ(hierarchy.candidates(), expected);
+  }
 }
 
 }  // namespace
 
-/// K6 and K7: the hierarchy answers like brute force after every refit, with any number of threads.
+/// K6 and K7: both hierarchies answer like brute force after every refit, with any number of threads. Positions change
+/// so much between refits that the tree by position is made anew in most of them.
 TEST(BoxHierarchy, PropEqualsBruteForce) {
   testing::check_property(2000, 6, [] {
     const auto shape = testing::random_shape();
     RC_LOG() << shape << '\n';
     const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
-    BoxHierarchy hierarchy(mesh);
+    std::array hierarchies = {BoxHierarchy(mesh, kKinds[0]), BoxHierarchy(mesh, kKinds[1])};
     const int thread_count = *rc::gen::element(1, 2, 3, 8);
     const int refit_count = *rc::gen::inRange(1, 4);
     for (int refit = 0; refit < refit_count; ++refit) {
       const auto motion = testing::random_motion(shape.vertex_count);
       RC_LOG() << motion << '\n';
-      Candidates found;
-      testing::with_threads(thread_count, [&] {
-        hierarchy.refit(motion.V_t0, motion.V_t1, motion.options());
-        found = hierarchy.candidates();
-      });
-      RC_ASSERT(found == find_candidates_brute_force(mesh, motion.V_t0, motion.V_t1, motion.options()));
+      const Candidates expected = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t1, motion.options());
+      for (BoxHierarchy& hierarchy : hierarchies) {
+        Candidates found;
+        testing::with_threads(thread_count, [&] {
+          hierarchy.refit(motion.V_t0, motion.V_t1, motion.options());
+          found = hierarchy.candidates();
+        });
+        RC_ASSERT(found == expected);
+      }
     }
   });
+}
+
+TEST(BoxHierarchy, NoFacesAndOneFace) {
+  const Positions none(0, 3), three = Positions::Random(3, 3);
+  expect_brute_force(make_mesh(0, Faces(0, 3)), none, none, {});
+  expect_brute_force(make_mesh(3, Faces(0, 3)), three, three, {});
+  Faces F(1, 3);
+  F << 2, 0, 1;
+  expect_brute_force(make_mesh(3, F), three, -three, {});
+}
+
+TEST(BoxHierarchy, AllVerticesCoincide) {
+  const auto [mesh, V] = sheet(12, [](VertexId, VertexId) { return Eigen::RowVector3d(1, 2, 3); });
+  expect_brute_force(mesh, V, V, {});
+  Positions away = V;
+  away.row(5) << -1, 0, 7;
+  expect_brute_force(mesh, V, away, {});
+}
+
+TEST(BoxHierarchy, TheLargestAndTheSmallestCoordinates) {
+  for (const double scale : {kMaxCoordinate / 13, 0x1p-1074}) {
+    const auto [mesh, V] = sheet(13, [scale](VertexId i, VertexId j) {
+      return Eigen::RowVector3d(scale * (i % 5), scale * (j % 4), i % 2 == 0 ? -13 * scale : 13 * scale);
+    });
+    expect_brute_force(mesh, V, -V, {});
+    expect_brute_force(mesh, V, V, {scale, {}});
+  }
+}
+
+/// Far outside the domain nothing is promised but that the program goes on.
+TEST(BoxHierarchy, SurvivesPositionsOutsideTheDomain) {
+  auto [mesh, V] = sheet(20, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i, j, i * j % 7); });
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (Eigen::Index v = 0; v < V.rows(); v += 3) V(v, v % 2) = v % 4 == 0 ? std::nan("") : kInfinity;
+  BoxHierarchy hierarchy(mesh);
+  hierarchy.refit(V, -V, {});
+  EXPECT_FALSE(hierarchy.candidates().ee.empty());
 }
 
 TEST(BoxHierarchy, ClothBallHasThePublishedNumberOfCandidates) {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "kernel/spatial_face_tree.h"
 #include "tests/kernel/random_motion.h"
+#include "tests/kernel/with_threads.h"
 #include "tests/property.h"
 
 namespace selvage {
@@ -94,6 +96,34 @@ TEST(FaceTree, IsShallowForDegenerateAdjacency) {
     const int depth = depth_of(make_face_tree(mesh), mesh.faces.size());
     EXPECT_GE(depth, 0);
     EXPECT_LE(depth, depth_bound(mesh.faces.size()));
+  }
+}
+
+/// Halving bounds the depth whatever the positions are: log2 of the leaves, four levels in a leaf, and rounding.
+TEST(SpatialFaceTree, PropHoldsEveryFaceOnceAndIsShallow) {
+  testing::check_property(300, 4, [] {
+    const auto shape = testing::random_shape();
+    const auto motion = testing::random_motion(shape.vertex_count);
+    RC_LOG() << shape << '\n' << motion << '\n';
+    const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
+    const FaceTree tree = make_spatial_face_tree(mesh, motion.V_t0, motion.V_t1);
+    const std::size_t face_count = mesh.faces.size();
+    RC_ASSERT(tree.children.size() == (face_count == 0 ? 0 : face_count - 1));
+    const int depth = depth_of(tree, face_count);
+    RC_ASSERT(depth >= 0);
+    RC_ASSERT(depth <= static_cast<int>(std::log2(static_cast<double>(face_count) + 1)) + 2);
+  });
+}
+
+/// Large enough for several tasks.
+TEST(SpatialFaceTree, IsTheSameForAnyThreadCount) {
+  const Mesh mesh = comb(8000, 2);
+  Positions V(mesh.vertex_count, 3);
+  for (int v = 0; v < mesh.vertex_count; ++v) V.row(v) << (v * 7919) % 1013, (v * 104729) % 4801, v % 5;
+  const FaceTree tree = make_spatial_face_tree(mesh, V, V);
+  EXPECT_LE(depth_of(tree, mesh.faces.size()), std::log2(static_cast<double>(mesh.faces.size())) + 2);
+  for (const int count : {1, 2, 3, 8}) {
+    testing::with_threads(count, [&] { EXPECT_EQ(make_spatial_face_tree(mesh, V, V).children, tree.children); });
   }
 }
 
