@@ -6,13 +6,9 @@ namespace selvage::detail {
 
 namespace {
 
-/// The blossom: the polynomial made symmetric and affine in three times; it gives Bernstein coefficients over any
-/// interval.
 template <class Real>
-Real blossom(const std::array<Real, 4>& c, double t1, double t2, double t3) {
-  const auto blend = [](const Real& a, const Real& b, double t) { return Real(1 - t) * a + Real(t) * b; };
-  return blend(blend(blend(c[0], c[1], t1), blend(c[1], c[2], t1), t2),
-               blend(blend(c[1], c[2], t1), blend(c[2], c[3], t1), t2), t3);
+Real blend(const Real& a, const Real& b, double t) {
+  return Real(1 - t) * a + Real(t) * b;
 }
 
 template <class Real>
@@ -43,11 +39,24 @@ CoplanarityCubic<Real> coplanarity_cubic(const PairMotion<Real>& motion) {
   return cubic;
 }
 
+double value_at(const CoplanarityCubic<double>& cubic, double t) {
+  const auto& c = cubic.coefficient;
+  const double a = blend(c[0], c[1], t), b = blend(c[1], c[2], t), d = blend(c[2], c[3], t);
+  return blend(blend(a, b, t), blend(b, d, t), t);
+}
+
+// The blossom, the polynomial made symmetric and affine in three times, at all choices of them from both ends; what two
+// choices share is computed once. b: one time at the begin, e: at the end.
 template <class Real>
 std::array<Real, 4> local_coefficients(const CoplanarityCubic<Real>& cubic, const TickInterval& interval) {
   const double t0 = time_of(interval.begin), t1 = time_of(interval.end);
   const auto& c = cubic.coefficient;
-  return {blossom(c, t0, t0, t0), blossom(c, t0, t0, t1), blossom(c, t0, t1, t1), blossom(c, t1, t1, t1)};
+  const Real b0 = blend(c[0], c[1], t0), b1 = blend(c[1], c[2], t0), b2 = blend(c[2], c[3], t0);
+  const Real e0 = blend(c[0], c[1], t1), e1 = blend(c[1], c[2], t1), e2 = blend(c[2], c[3], t1);
+  const Real bb0 = blend(b0, b1, t0), bb1 = blend(b1, b2, t0);
+  const Real be0 = blend(b0, b1, t1), be1 = blend(b1, b2, t1);
+  const Real ee0 = blend(e0, e1, t1), ee1 = blend(e1, e2, t1);
+  return {blend(bb0, bb1, t0), blend(bb0, bb1, t1), blend(be0, be1, t1), blend(ee0, ee1, t1)};
 }
 
 template <class Real>

@@ -17,6 +17,9 @@ struct CoplanarityCubic {
 template <class Real>
 [[nodiscard]] CoplanarityCubic<Real> coplanarity_cubic(const PairMotion<Real>& motion);
 
+/// The cubic at t, good to error_bound.
+[[nodiscard]] double value_at(const CoplanarityCubic<double>& cubic, double t);
+
 /// Bernstein coefficients over the interval, each good to error_bound.
 template <class Real>
 [[nodiscard]] std::array<Real, 4> local_coefficients(const CoplanarityCubic<Real>& cubic, const TickInterval& interval);

@@ -68,21 +68,25 @@ PairMotion<Real> make_pair_motion(PairKind kind, const PairPoints& x_t0, const P
   motion.kind = kind;
   motion.t0 = differences<Real>(kind, x_t0);
   motion.t1 = differences<Real>(kind, x_t1);
-  const double largest = max_component(max(extent_of(motion.t0), extent_of(motion.t1)));
-  motion.exponent = largest > 0 ? exponent_of(largest) : 0;
-  // Scaling up is exact. Scaling down is, unless a value falls below the normal doubles.
-  const int e = motion.exponent;
-  const double least_exact = e > 0 ? times_power(std::numeric_limits<double>::min(), e) : 0;
-  const auto scale = [&motion, e, least_exact](Triple<Real>& v) {
-    for (const double value : {leading(v.x), leading(v.y), leading(v.z)}) {
-      motion.exact_scaling &= value == 0 || !(std::fabs(value) < least_exact);
-    }
-    v = times_power(v, -e);
-  };
+  const Double3 extent = max(extent_of(motion.t0), extent_of(motion.t1));
+  const Double3 edge_extent = max(edge_extent_of(motion.t0), edge_extent_of(motion.t1));
+  const double largest = max_component(extent);
+  const int e = motion.exponent = largest > 0 ? exponent_of(largest) : 0;
+  if (e > 0) {  // scaling down loses bits of values that fall below the normal doubles; scaling up is exact
+    const double least_exact = times_power(std::numeric_limits<double>::min(), e);
+    const auto check = [&motion, least_exact](const Triple<Real>& v) {
+      for (const double value : {leading(v.x), leading(v.y), leading(v.z)}) {
+        motion.exact_scaling &= value == 0 || !(std::fabs(value) < least_exact);
+      }
+    };
+    for_each_vector(motion.t0, check);
+    for_each_vector(motion.t1, check);
+  }
+  const auto scale = [e](Triple<Real>& v) { v = times_power(v, -e); };
   for_each_vector(motion.t0, scale);
   for_each_vector(motion.t1, scale);
-  motion.extent = max(extent_of(motion.t0), extent_of(motion.t1));
-  motion.edge_extent = max(edge_extent_of(motion.t0), edge_extent_of(motion.t1));
+  motion.extent = times_power(extent, -e);  // scaling is monotone: these bound the scaled values
+  motion.edge_extent = times_power(edge_extent, -e);
   return motion;
 }
 

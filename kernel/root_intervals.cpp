@@ -9,14 +9,8 @@ namespace {
 
 /// A piece whose coefficients are all below this many error bounds is kept whole: within it nothing can be told apart.
 constexpr double kFlatFactor = 4;
-/// Newton steps on a bracketed simple root; from a bracket of 2^-3 four steps reach the precision of doubles.
+/// Steps on a bracketed simple root; from within 2^-4 of it three reach the precision of doubles.
 constexpr int kRootSteps = 8;
-
-double value_at(const std::array<double, 4>& c, double t) {
-  const double s = 1 - t;
-  const double a = s * c[0] + t * c[1], b = s * c[1] + t * c[2], d = s * c[2] + t * c[3];
-  return s * (s * a + t * b) + t * (s * b + t * d);
-}
 
 double slope_at(const std::array<double, 4>& c, double t) {
   const double s = 1 - t;
@@ -24,8 +18,13 @@ double slope_at(const std::array<double, 4>& c, double t) {
   return 3 * (s * (s * a + t * b) + t * (s * b + t * d));
 }
 
-bool is_monotone(const std::array<double, 4>& c) {
-  return (c[0] < c[1] && c[1] < c[2] && c[2] < c[3]) || (c[0] > c[1] && c[1] > c[2] && c[2] > c[3]);
+/// PROVED when true: the exact cubic has one root in the interval of these coefficients and passes through zero there.
+/// Its signs at the ends differ, and so Descartes' rule allows a second and third root only where the signs of all four
+/// coefficients alternate.
+bool has_single_root(const std::array<double, 4>& c, double bound) {
+  const bool rises = c[0] < -bound && c[3] > bound && (c[1] < -bound || c[2] > bound);
+  const bool falls = c[0] > bound && c[3] < -bound && (c[1] > bound || c[2] < -bound);
+  return rises || falls;
 }
 
 class Isolation {
@@ -39,7 +38,7 @@ class Isolation {
 
  private:
   void examine(const TickInterval& piece);
-  bool narrow_to_simple_root(const TickInterval& piece, const std::array<double, 4>& local);
+  bool narrow_to_single_root(const TickInterval& piece, const std::array<double, 4>& local);
   void emit(const TickInterval& piece);
 
   const CoplanarityCubic<double>& cubic_;
@@ -58,24 +57,27 @@ void Isolation::examine(const TickInterval& piece) {
   const Tick width = piece.end - piece.begin;
   const bool flat = least > -kFlatFactor * bound && greatest < kFlatFactor * bound;
   if (flat || width == 1) return emit(piece);
-  if (is_monotone(local) && narrow_to_simple_root(piece, local)) return;
+  if (has_single_root(local, bound) && narrow_to_single_root(piece, local)) return;
   const Tick middle = piece.begin + width / 2;
   examine({piece.begin, middle});
   examine({middle, piece.end});
 }
 
-/// Guesses the root and a margin; the two sides are then proved free of roots, or nothing is claimed.
-bool Isolation::narrow_to_simple_root(const TickInterval& piece, const std::array<double, 4>& local) {
-  const double root = root_fraction(local);
-  const double margin = 1.5 * cubic_.error_bound / std::fabs(slope_at(local, root));
+/// Guesses the root and a margin around it. Where the cubic has the sign that it has at an end of the piece, all up to
+/// that end is free of roots; if it has not, nothing is claimed.
+bool Isolation::narrow_to_single_root(const TickInterval& piece, const std::array<double, 4>& local) {
+  const double bound = cubic_.error_bound;
+  const double root = root_fraction(local, 0.125 * bound);
+  const double margin = 1.5 * bound / std::fabs(slope_at(local, root));
   const auto width = static_cast<double>(piece.end - piece.begin);
   const double first = std::floor((root - margin) * width) - 1, last = std::ceil((root + margin) * width) + 1;
   if (!(last - first < width)) return false;
   TickInterval inner = piece;
   if (first > 0) inner.begin += static_cast<Tick>(first);
   if (last < width) inner.end = piece.begin + static_cast<Tick>(last);
-  if (inner.begin > piece.begin && !is_definite(cubic_, {piece.begin, inner.begin})) return false;
-  if (inner.end < piece.end && !is_definite(cubic_, {inner.end, piece.end})) return false;
+  const double side = local[0] > 0 ? 1 : -1;
+  if (!(side * value_at(cubic_, time_of(inner.begin)) > bound)) return false;
+  if (!(-side * value_at(cubic_, time_of(inner.end)) > bound)) return false;
   emit(inner);
   return true;
 }
@@ -93,17 +95,20 @@ void Isolation::emit(const TickInterval& piece) {
 
 }  // namespace
 
-// Newton's method, kept inside the bracket.
-double root_fraction(const std::array<double, 4>& c) {
+// Halley's method, kept inside the bracket.
+double root_fraction(const std::array<double, 4>& c, double residual) {
   const bool rising = c[0] < c[3];
   if ((c[0] < 0) != rising) return 0;
   if ((c[3] > 0) != rising) return 1;
+  const double linear = 3 * (c[1] - c[0]), square = 3 * ((c[2] - c[1]) - (c[1] - c[0])),
+               cube = (c[3] - c[0]) - 3 * (c[2] - c[1]);
   double low = 0, high = 1, t = c[0] / (c[0] - c[3]);
   for (int step = 0; step < kRootSteps; ++step) {
-    const double value = value_at(c, t);
+    const double value = ((cube * t + square) * t + linear) * t + c[0];
+    if (std::fabs(value) <= residual) break;
     ((value < 0) == rising ? low : high) = t;
-    const double next = t - value / slope_at(c, t);
-    if (next == t) break;
+    const double slope = (3 * cube * t + 2 * square) * t + linear, half_curvature = 3 * cube * t + square;
+    const double next = t - value * slope / (slope * slope - value * half_curvature);
     t = next > low && next < high ? next : 0.5 * (low + high);
   }
   return t;

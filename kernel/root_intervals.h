@@ -19,8 +19,8 @@ struct RootIntervals {
 /// Twice the bisections that a double root can take, and the pieces that these leave open.
 inline constexpr int kMaxIsolation = 256;
 
-/// The root in [0,1] of a cubic in Bernstein form that is monotone or changes sign, or the end nearer to its root: a
-/// guess, good to rounding.
-[[nodiscard]] double root_fraction(const std::array<double, 4>& coefficient);
+/// A root in [0,1] of a cubic in Bernstein form that changes sign, or the end where it is zero: a guess, at which the
+/// cubic is hoped to be within `residual` of zero.
+[[nodiscard]] double root_fraction(const std::array<double, 4>& coefficient, double residual);
 
 }  // namespace selvage::detail

@@ -60,6 +60,21 @@ bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& be
   return leading(support(motion, begin, end, n).least) > support_error(n, motion.extent);
 }
 
+// n . D_j is linear in time; it must stay above its error bound, twice that to leave room for the rounding of the
+// split.
+template <class Real>
+double separated_share(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                       const DifferencePolygon<Real>& end, const Triple<Real>& n) {
+  const double error = 2 * support_error(n, motion.extent);
+  double share = 1;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(motion.kind)); ++i) {
+    const double first = leading(dot(n, begin.corner[i])) - error, last = leading(dot(n, end.corner[i])) - error;
+    if (!(first > 0)) return 0;
+    if (last < 0) share = std::min(share, first / (first - last));
+  }
+  return share;
+}
+
 template <class Real>
 bool winds_apart(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
                  const DifferencePolygon<Real>& end) {
@@ -112,6 +127,10 @@ template bool separates(const PairMotion<double>&, const DifferencePolygon<doubl
                         const Double3&);
 template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
                         const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+template double separated_share(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                const DifferencePolygon<double>&, const Double3&);
+template double separated_share(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                                const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
 template bool winds_apart(const PairMotion<double>&, const DifferencePolygon<double>&,
                           const DifferencePolygon<double>&);
 template bool winds_apart(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,

@@ -36,6 +36,11 @@ template <class Real>
   return scaled(kWindingError<Real>, minors) + Double3{kUnderflowError, kUnderflowError, kUnderflowError};
 }
 
+/// The share of the time from `begin` to `end` during which n separates: a guess, in [0, 1].
+template <class Real>
+[[nodiscard]] double separated_share(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                                     const DifferencePolygon<Real>& end, const Triple<Real>& n);
+
 /// PROVED when true: no touch while t goes from the instant of `begin` to the instant of `end`. Touching features have
 /// the origin in their polygon, so that the cross products corner x edge around it are all multiples of one vector by
 /// factors
@@ -70,6 +75,10 @@ extern template bool separates(const PairMotion<double>&, const DifferencePolygo
                                const DifferencePolygon<double>&, const Double3&);
 extern template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
                                const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+extern template double separated_share(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                       const DifferencePolygon<double>&, const Double3&);
+extern template double separated_share(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                                       const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
 extern template bool winds_apart(const PairMotion<double>&, const DifferencePolygon<double>&,
                                  const DifferencePolygon<double>&);
 extern template bool winds_apart(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,

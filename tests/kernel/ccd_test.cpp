@@ -228,7 +228,7 @@ TEST(Ccd, TimesOfSimpleContactsAreTight) {
     for (const CcdResult& result : {vf_ccd(face_t0, face_t1, kNoTolerance), ee_ccd(edge_t0, edge_t1, kNoTolerance)}) {
       EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
       EXPECT_TRUE(exact(result.toi_lower) <= contact);
-      EXPECT_TRUE(contact - exact(result.toi_lower) <= 4 * testing::scaled_exactly(1, -52));
+      EXPECT_TRUE(contact - exact(result.toi_lower) <= testing::scaled_exactly(1, -44));
       EXPECT_NEAR(std::fabs(result.normal[2]), 1, 0x1p-20);
     }
     EXPECT_GT(vf_ccd(face_t0, face_t1, kNoTolerance).normal[2], 0);

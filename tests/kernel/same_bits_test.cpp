@@ -23,7 +23,7 @@ using Points = std::array<Vec3, 4>;
 
 namespace {
 
-constexpr std::uint64_t kGoldenHash = 0x549cf0d32b948605U;
+constexpr std::uint64_t kGoldenHash = 0xac0570fd0a8f6316U;
 
 /// FNV-1a over the bits of the values.
 class Hash {
