@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include "io/fail.h"
-#include "io/posix_file.h"
 
 namespace selvage::io {
 namespace fs = std::filesystem;
@@ -21,34 +20,12 @@ namespace {
 
 constexpr std::string_view kTemporaryMark = ".tmp-";
 
-/// Removes the temporary file unless it was renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target) : file_(create(target)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (!renamed_) ::unlink(file_.path().c_str());
-  }
-
-  PosixFile& file() { return file_; }
-  void rename_to(const fs::path& target) {
-    if (std::rename(file_.path().c_str(), target.c_str()) != 0) file_error(target.string(), "replace", errno);
-    renamed_ = true;
-  }
-
- private:
-  /// Random and O_EXCL: process ids repeat between machines that share a file system.
-  static PosixFile create(const fs::path& target) {
-    std::random_device random;
-    fs::path name = target;
-    name += std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
-    return {std::move(name), O_WRONLY | O_CREAT | O_EXCL};
-  }
-
-  PosixFile file_;
-  bool renamed_ = false;
-};
+/// Random and O_EXCL: process ids repeat between machines that share a file system.
+PosixFile create_temporary(fs::path target) {
+  std::random_device random;
+  target += std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
+  return {std::move(target), O_WRONLY | O_CREAT | O_EXCL};
+}
 
 void write_in_place(const fs::path& file, std::string_view bytes) {
   PosixFile out(file, O_WRONLY);
@@ -58,6 +35,20 @@ void write_in_place(const fs::path& file, std::string_view bytes) {
 
 }  // namespace
 
+AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), file_(create_temporary(target_)) {}
+
+AtomicFile::~AtomicFile() {
+  if (!is_committed_) ::unlink(file_.path().c_str());
+}
+
+void AtomicFile::commit() {
+  file_.sync();
+  file_.close();
+  if (std::rename(file_.path().c_str(), target_.c_str()) != 0) file_error(target_.string(), "replace", errno);
+  is_committed_ = true;
+  sync_folder(target_.parent_path());
+}
+
 void write_atomically(const fs::path& file, std::string_view bytes) {
   std::error_code status;
   fs::path target = file;
@@ -66,12 +57,9 @@ void write_atomically(const fs::path& file, std::string_view bytes) {
     target = fs::canonical(file, status);
     if (status) file_error(file.string(), "resolve", status.value());
   }
-  TemporaryFile temporary(target);
-  temporary.file().write(bytes);
-  temporary.file().sync();
-  temporary.file().close();
-  temporary.rename_to(target);
-  sync_folder(target.parent_path());
+  AtomicFile temporary(std::move(target));
+  temporary.write(bytes);
+  temporary.commit();
 }
 
 bool is_temporary_name(std::string_view name) {

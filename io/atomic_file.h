@@ -2,13 +2,38 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "io/error.h"
+#include "io/posix_file.h"
 
 namespace selvage::io {
+
+/// A file that is written piece by piece and appears whole, by commit(), or not at all. Every call throws Error(kFile)
+/// where the system fails.
+class AtomicFile {
+ public:
+  /// Opens a temporary file "NAME.tmp-..." beside `target`; a kill leaves at most that.
+  explicit AtomicFile(std::filesystem::path target);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();  ///< removes it, unless it was committed
+
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+  void write(std::string_view bytes) { file_.write(bytes); }
+  /// Replaces bytes that were written already.
+  void overwrite(std::uint64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
+  /// Replaces the target; on disk when it returns.
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  PosixFile file_;
+  bool is_committed_ = false;
+};
 
 /// Replaces `file` by `bytes`; on disk when it returns. On failure throws Error(kFile) and leaves the old file intact.
 /// A kill leaves at most a file "NAME.tmp-..." beside it. A link is followed. What is no regular file (a pipe, a

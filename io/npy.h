@@ -49,6 +49,9 @@ struct NpyPoints {
 /// `count` points from C-ordered `data` of the header's type. Throws Error where one is not finite.
 [[nodiscard]] Points decode_npy_points(const NpyHeader& header, std::string_view data, const std::string& name);
 
+/// What precedes the data of an array in C order, `type` being numpy's word for it ("<f8").
+[[nodiscard]] std::string npy_start(std::string_view type, const std::vector<std::uint64_t>& shape);
+[[nodiscard]] std::string_view npy_type(Precision precision);
 /// float64, or float32 where `precision` says so; throws Error(kBadInput) where a value is not exactly a float32.
 [[nodiscard]] std::string npy_bytes(const Points& points, Precision precision, const std::string& name);
 /// int32.

@@ -1,16 +1,16 @@
 // Writes .npy version 1.0, C order, little endian, the data aligned to 64 bytes as numpy does.
-#include <limits>
-
 #include "io/byte_order.h"
-#include "io/fail.h"
 #include "io/npy.h"
+#include "io/points.h"
 
 namespace selvage::io {
-namespace {
 
-std::string npy_start(std::string_view type, std::size_t rows) {
+std::string npy_start(std::string_view type, const std::vector<std::uint64_t>& shape) {
+  std::string extents;
+  for (const std::uint64_t extent : shape) extents += (extents.empty() ? "" : ", ") + std::to_string(extent);
+  if (shape.size() == 1) extents += ",";  // Python's tuple of one
   std::string dictionary =
-      "{'descr': '" + std::string(type) + "', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", 3), }";
+      "{'descr': '" + std::string(type) + "', 'fortran_order': False, 'shape': (" + extents + "), }";
   constexpr std::size_t kPrefix = 10, kAlignment = 64;  // magic, version and length; numpy aligns for memory mapping
   const std::size_t length = (kPrefix + dictionary.size() + 1 + kAlignment - 1) / kAlignment * kAlignment - kPrefix;
   dictionary.resize(length - 1, ' ');
@@ -19,31 +19,21 @@ std::string npy_start(std::string_view type, std::size_t rows) {
   return bytes + dictionary + '\n';
 }
 
-template <typename Item, typename Rows>
-std::string rows_of_three(std::string_view type, const Rows& rows) {
-  std::string bytes = npy_start(type, rows.size());
-  bytes.reserve(bytes.size() + rows.size() * 3 * sizeof(Item));
-  for (const auto& row : rows) {
-    for (const auto value : row) append(bytes, static_cast<Item>(value), std::endian::little);
-  }
+std::string_view npy_type(Precision precision) { return precision == Precision::kFloat32 ? "<f4" : "<f8"; }
+
+std::string npy_bytes(const Points& points, Precision precision, const std::string& name) {
+  std::string bytes = npy_start(npy_type(precision), {points.size(), 3});
+  append_points(bytes, points, precision, name);
   return bytes;
 }
 
-}  // namespace
-
-std::string npy_bytes(const Points& points, Precision precision, const std::string& name) {
-  if (precision == Precision::kFloat64) return rows_of_three<double>("<f8", points);
-  for (std::size_t row = 0; row < points.size(); ++row) {
-    for (const double value : points[row]) {
-      const bool fits = std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
-      if (!fits || static_cast<double>(static_cast<float>(value)) != value) {
-        bad_input(name, "vertex " + std::to_string(row) + " is not on the float32 lattice; record float64");
-      }
-    }
+std::string npy_bytes(const Triangles& triangles) {
+  std::string bytes = npy_start("<i4", {triangles.size(), 3});
+  bytes.reserve(bytes.size() + triangles.size() * 3 * sizeof(std::int32_t));
+  for (const auto& corners : triangles) {
+    for (const std::int32_t corner : corners) append(bytes, corner, std::endian::little);
   }
-  return rows_of_three<float>("<f4", points);
+  return bytes;
 }
-
-std::string npy_bytes(const Triangles& triangles) { return rows_of_three<std::int32_t>("<i4", triangles); }
 
 }  // namespace selvage::io

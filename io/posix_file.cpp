@@ -70,6 +70,16 @@ void PosixFile::write(std::string_view bytes) const {
   }
 }
 
+void PosixFile::write_at(std::uint64_t offset, std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t put = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) file_error(path_.string(), "write", errno);
+    offset += static_cast<std::uint64_t>(put);
+    bytes.remove_prefix(static_cast<std::size_t>(put));
+  }
+}
+
 void PosixFile::sync() const {
   if (::fsync(descriptor_) != 0) file_error(path_.string(), "sync", errno);
 }

@@ -28,6 +28,8 @@ class PosixFile {
   /// Exactly `count` bytes from `offset`; may be called from several threads.
   void read_at(std::uint64_t offset, char* bytes, std::size_t count) const;
   void write(std::string_view bytes) const;
+  /// At `offset`, wherever the current position is.
+  void write_at(std::uint64_t offset, std::string_view bytes) const;
   /// On disk when it returns: fsync.
   void sync() const;
   /// Reports what close(2) says; the destructor cannot.

@@ -3,8 +3,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <dlfcn.h>
@@ -15,6 +17,7 @@
 
 #include "io/atomic_file.h"
 #include "io/sequence.h"
+#include "io/sequence_output.h"
 #include "tests/io/support.h"
 
 namespace {
@@ -81,6 +84,11 @@ ssize_t write(int descriptor, const void* bytes, size_t count) {
     if (plan.fault == Fault::kKillHalfway) ::raise(SIGKILL);
   }
   return fail();
+}
+
+ssize_t pwrite(int descriptor, const void* bytes, size_t count, off_t offset) {
+  if (is_due("overwrite " + name_of(descriptor))) return fail();
+  return original<ssize_t(int, const void*, size_t, off_t)>("pwrite")(descriptor, bytes, count, offset);
 }
 
 /// A kill does not lose what is in the system's memory, so that the disk need not be waited for.
@@ -244,6 +252,69 @@ TEST(AtomicFileFaults, TheOldFileStaysWhateverCallFails) {
     }
   }
 }
+
+class EveryCallOfAnOutput : public ::testing::TestWithParam<std::tuple<std::string, Fault>> {};
+
+void convert(const std::filesystem::path& target) {
+  const auto output = create_output(target, {kHeader, 3, kFrames});
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    output->append(static_cast<double>(i), {points_of(i), kHeader.triangles, {}, Precision::kFloat64});
+  }
+  output->finish();
+}
+
+/// Name and bytes of all files below a folder but temporary ones.
+std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && !is_temporary_name(name)) files[name] = read_plainly(entry.path());
+  }
+  return files;
+}
+
+TEST_P(EveryCallOfAnOutput, LeavesNothingOrWholeFiles) {
+  const auto& [name, fault] = GetParam();
+  const TemporaryFolder sound;
+  convert(sound / name);
+  const std::map<std::string, std::string> expected = files_below(sound.path());
+  int calls = 0;
+  for (bool was_hit = true; was_hit; ++calls) {
+    ASSERT_LT(calls, 1000) << "the fault never ends";
+    SCOPED_TRACE(calls);
+    const TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+      plan = {.is_armed = true, .fault = fault, .calls_before = calls, .log = {}};
+      try {
+        convert(folder / name);
+      } catch (const Error&) {
+        ::_exit(1);
+      }
+      ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    was_hit = WIFSIGNALED(status) || WEXITSTATUS(status) != 0;
+    const std::map<std::string, std::string> files = files_below(folder.path());
+    if (!was_hit) {
+      EXPECT_EQ(files, expected);
+    } else if (WIFSIGNALED(status)) {
+      for (const auto& [file, bytes] : files) {
+        if (file == "frames.jsonl") continue;  // shorter, as the tests above say
+        EXPECT_EQ(bytes, expected.at(file)) << file << " is not whole";
+      }
+    } else {
+      EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 0) << "something is left behind";
+    }
+  }
+  EXPECT_GT(calls, 8) << "the calls are not seen";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryCallOfAnOutput,
+                         ::testing::Combine(::testing::Values("a.npz", "a.obj", "a.pc2", "a.pvd", "folder"),
+                                            ::testing::Values(Fault::kKill, Fault::kKillHalfway, Fault::kFailOnce,
+                                                              Fault::kFailHalfway)));
 
 }  // namespace
 }  // namespace selvage::io

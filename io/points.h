@@ -1,0 +1,26 @@
+// Positions as the numbers of a binary file, float64 or float32, never rounded by the way.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/error.h"
+#include "io/mesh_data.h"
+
+namespace selvage::io {
+
+/// Appends x, y, z of every point, little endian. Throws Error(kBadInput) naming `name` and the vertex where
+/// `precision` is float32 and a value is not exactly one.
+void append_points(std::string& bytes, const Points& points, Precision precision, const std::string& name);
+
+/// What rounding to float32 did.
+struct Rounding {
+  std::int64_t values = 0, changed = 0;
+  double largest_change = 0;  ///< |rounded - original|: exact, the two being within a factor of two or one being zero
+};
+
+/// Rounds every coordinate to the nearest float32, ties to even, and adds to `rounding`. Throws Error(kBadInput) where
+/// that is infinity.
+void round_to_float32(Points& points, Rounding& rounding, const std::string& name);
+
+}  // namespace selvage::io

@@ -1,0 +1,144 @@
+#include "io/sequence_output.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "io/atomic_file.h"
+#include "io/extension.h"
+#include "io/fail.h"
+#include "io/sequence_outputs.h"
+
+namespace selvage::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr OutputTraits kFolderTraits = {.name = "sequence folder",
+                                        .is_float32 = false,
+                                        .changes_mesh = false,
+                                        .keeps_times = true,
+                                        .keeps_kind = true,
+                                        .keeps_roles = true,
+                                        .keeps_group_names = true,
+                                        .is_read = true};
+constexpr OutputTraits kNpzTraits = {.name = "npz",
+                                     .is_float32 = false,
+                                     .changes_mesh = false,
+                                     .keeps_times = false,
+                                     .keeps_kind = false,
+                                     .keeps_roles = true,
+                                     .keeps_group_names = false,
+                                     .is_read = true};
+constexpr OutputTraits kObjTraits = {.name = "OBJ",
+                                     .is_float32 = false,
+                                     .changes_mesh = true,
+                                     .keeps_times = false,
+                                     .keeps_kind = false,
+                                     .keeps_roles = false,
+                                     .keeps_group_names = true,
+                                     .is_read = true};
+constexpr OutputTraits kPc2Traits = {.name = "PC2",
+                                     .is_float32 = true,
+                                     .changes_mesh = false,
+                                     .keeps_times = false,
+                                     .keeps_kind = false,
+                                     .keeps_roles = false,
+                                     .keeps_group_names = true,
+                                     .is_read = true};
+constexpr OutputTraits kPvdTraits = {.name = "VTP",
+                                     .is_float32 = false,
+                                     .changes_mesh = true,
+                                     .keeps_times = true,
+                                     .keeps_kind = false,
+                                     .keeps_roles = true,
+                                     .keeps_group_names = false,
+                                     .is_read = false};
+
+}  // namespace
+
+OutputFormat output_format(const fs::path& target) {
+  if (!target.has_filename() || !target.has_extension()) return OutputFormat::kFolder;
+  if (has_extension(target, ".npz")) return OutputFormat::kNpz;
+  if (has_extension(target, ".obj")) return OutputFormat::kObj;
+  if (has_extension(target, ".pc2")) return OutputFormat::kPc2;
+  if (has_extension(target, ".pvd")) return OutputFormat::kPvd;
+  bad_input(target.string(),
+            "the extension is none that is written; name an .npz, .obj, .pc2 or .pvd, or end the name "
+            "of a folder in a slash");
+}
+
+const OutputTraits& traits(OutputFormat format) {
+  switch (format) {
+    case OutputFormat::kNpz:
+      return kNpzTraits;
+    case OutputFormat::kObj:
+      return kObjTraits;
+    case OutputFormat::kPc2:
+      return kPc2Traits;
+    case OutputFormat::kPvd:
+      return kPvdTraits;
+    case OutputFormat::kFolder:
+      break;
+  }
+  return kFolderTraits;
+}
+
+std::unique_ptr<SequenceOutput> create_output(const fs::path& target, OutputHeader header) {
+  switch (output_format(target)) {
+    case OutputFormat::kNpz:
+      return create_npz_output(target, std::move(header));
+    case OutputFormat::kObj:
+      return create_obj_output(target, std::move(header));
+    case OutputFormat::kPc2:
+      return create_pc2_output(target, std::move(header));
+    case OutputFormat::kPvd:
+      return create_pvd_output(target, std::move(header));
+    case OutputFormat::kFolder:
+      break;
+  }
+  return create_folder_output(target, std::move(header));
+}
+
+std::string role_bytes(std::size_t face_count, const std::vector<Group>& groups) {
+  std::string roles(face_count, '\0');
+  for (const Group& group : groups) {
+    if (group.role != Group::Role::kBody) continue;
+    std::fill(roles.begin() + group.face_begin, roles.begin() + group.face_end, '\1');
+  }
+  return roles;
+}
+
+fs::path frame_path(const fs::path& target, std::size_t frame, const char* extension) {
+  const std::string number = std::to_string(frame);
+  const std::string zeros(number.size() < 6 ? 6 - number.size() : 0, '0');
+  return target.parent_path() / (target.stem().string() + "_" + zeros + number + extension);
+}
+
+void require_absent(const fs::path& file) {
+  std::error_code status;
+  if (!fs::exists(fs::symlink_status(file, status))) return;
+  throw Error(ErrorKind::kFile, file.string() + ": is there already; remove it, or choose another name");
+}
+
+void require_same_mesh(const OutputHeader& header, const MeshData& mesh, const fs::path& target) {
+  if (mesh.points.size() == header.vertex_count && mesh.triangles == header.sequence.triangles) return;
+  bad_input(target.string(),
+            "the faces or the number of vertices change between frames; write .obj or .pvd, which hold a mesh a frame");
+}
+
+WrittenFiles::~WrittenFiles() {
+  std::error_code status;
+  for (const fs::path& file : files_) fs::remove(file, status);
+}
+
+void WrittenFiles::claim(const fs::path& file) {
+  require_absent(file);
+  files_.push_back(file);
+}
+
+void WrittenFiles::write(const fs::path& file, std::string_view bytes) {
+  claim(file);
+  write_atomically(file, bytes);
+}
+
+}  // namespace selvage::io

@@ -1,0 +1,57 @@
+// Mesh sequences written frame by frame in the formats of docs/formats.md, whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "io/error.h"
+#include "io/sequence.h"
+
+namespace selvage::io {
+
+enum class OutputFormat { kFolder, kNpz, kObj, kPc2, kPvd };
+
+/// By extension: .npz, .obj, .pc2, .pvd; a folder where there is none or the name ends in a slash. Throws
+/// Error(kBadInput).
+[[nodiscard]] OutputFormat output_format(const std::filesystem::path& target);
+
+/// What the format keeps of a sequence besides positions and faces.
+struct OutputTraits {
+  const char* name;
+  bool is_float32;    ///< stores float32 whatever the input; otherwise every double is kept
+  bool changes_mesh;  ///< faces and number of vertices may change from frame to frame
+  bool keeps_times, keeps_kind, keeps_roles, keeps_group_names;
+  bool is_read;  ///< open_sequence() reads it
+};
+[[nodiscard]] const OutputTraits& traits(OutputFormat format);
+
+/// What is known of the whole sequence before its first frame.
+struct OutputHeader {
+  SequenceHeader sequence;       ///< faces and groups of the first frame, precision of all
+  std::size_t vertex_count = 0;  ///< of the first frame
+  std::size_t frame_count = 0;
+};
+
+/// One sequence on its way to disk. What was written is removed again unless finish() returns; a kill may leave the
+/// frames of an OBJ or VTP sequence, a folder that is valid and shorter, or temporary files, never half a file.
+class SequenceOutput {
+ public:
+  virtual ~SequenceOutput() = default;
+  /// Frames come in order, as many as the header announces. Throws Error: another mesh than the first where the format
+  /// has one, a value that is no float32 where it stores these (they are never rounded here), times that do not
+  /// increase, any failure of the file system.
+  virtual void append(double time_s, const MeshData& mesh) = 0;
+  /// REQUIRES all frames. On disk, under its own name, when it returns.
+  virtual void finish() = 0;
+  /// What to give to open_sequence(), after finish().
+  [[nodiscard]] virtual std::vector<std::filesystem::path> sources() const = 0;
+};
+
+/// Writes to `target`: the file; for OBJ with several frames cloth_000000.obj, ... in place of cloth.obj; for PC2 also
+/// the base mesh cloth.obj beside cloth.pc2; for PVD also cloth_000000.vtp, ... Throws Error(kFile) if one of these is
+/// there already, or a folder that is not empty.
+[[nodiscard]] std::unique_ptr<SequenceOutput> create_output(const std::filesystem::path& target, OutputHeader header);
+
+}  // namespace selvage::io

@@ -1,0 +1,232 @@
+#include "io/sequence_output.h"
+
+#include <gtest/gtest.h>
+
+// gtest before RapidCheck's bridge
+#include <cmath>
+#include <string>
+
+#include <rapidcheck/gtest.h>
+
+#include "io/mesh_reader.h"
+#include "io/sequence_outputs.h"
+#include "tests/io/random_doubles.h"
+#include "tests/io/support.h"
+#include "tests/property.h"
+
+namespace selvage::io {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::expect_error;
+using testing::read_plainly;
+using testing::same_bits;
+using testing::TemporaryFolder;
+using testing::write_plainly;
+
+const Triangles kTriangles = {{0, 1, 2}, {2, 1, 0}, {1, 0, 2}, {0, 2, 1}};
+const std::vector<Group> kGroups = {{"left sleeve", Group::Role::kCloth, 0, 1},
+                                    {"ball \xc3\xa9", Group::Role::kBody, 1, 4}};
+
+MeshData mesh_of(Points points) { return {std::move(points), kTriangles, kGroups, Precision::kFloat64}; }
+
+/// Three frames of three points or more, the same number in all.
+std::vector<Points> draw_frames() {
+  Points all = *testing::finite_points();
+  if (all.size() < 9) all.resize(9, {-0.0, 0x1p-1074, 1e300});
+  const std::size_t count = all.size() / 3;
+  std::vector<Points> frames;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i * count);
+    frames.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(count));
+  }
+  return frames;
+}
+
+std::unique_ptr<SequenceOutput> create(const fs::path& target, const std::vector<Points>& frames,
+                                       Precision precision = Precision::kFloat64) {
+  return create_output(
+      target, {{kTriangles, kGroups, SequenceKind::kSteps, precision, "test"}, frames.front().size(), frames.size()});
+}
+
+std::unique_ptr<SequenceReader> write_and_open(const fs::path& target, const std::vector<Points>& frames,
+                                               Precision precision = Precision::kFloat64) {
+  const auto output = create(target, frames, precision);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    output->append(0.25 * static_cast<double>(i), {frames[i], kTriangles, kGroups, precision});
+  }
+  output->finish();
+  return open_sequence(output->sources());
+}
+
+void assert_same(const SequenceReader& reader, const std::vector<Points>& frames) {
+  RC_ASSERT(reader.frame_count() == frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const MeshData mesh = reader.frame(i);
+    RC_ASSERT(same_bits(mesh.points, frames[i]));
+    RC_ASSERT(mesh.triangles == kTriangles);
+  }
+}
+
+class Float64Output : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Float64Output, prop_every_double_comes_back) {
+  testing::check_property(15, 1, [] {
+    const TemporaryFolder folder;
+    const std::vector<Points> frames = draw_frames();
+    assert_same(*write_and_open(folder / GetParam(), frames), frames);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Float64Output, ::testing::Values("a.npz", "a.obj", "a/"),
+                         [](const auto& of) { return of.param == "a/" ? std::string("folder") : of.param.substr(2); });
+
+class Float32Output : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Float32Output, prop_the_float32_lattice_comes_back) {
+  testing::check_property(15, 2, [] {
+    const TemporaryFolder folder;
+    std::vector<Points> frames = draw_frames();
+    for (Points& points : frames) {
+      for (auto& point : points) {
+        for (double& x : point) x = testing::to_lattice(x);
+      }
+    }
+    const auto reader = write_and_open(folder / GetParam(), frames, Precision::kFloat32);
+    RC_ASSERT(reader->precision() == Precision::kFloat32);
+    assert_same(*reader, frames);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Float32Output, ::testing::Values("a.npz", "a.pc2", "a/"),
+                         [](const auto& of) { return of.param == "a/" ? std::string("folder") : of.param.substr(2); });
+
+const std::vector<Points> kTwoFrames = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}}, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1.5}}};
+
+TEST(SequenceOutput, TraitsAreTrue) {
+  for (const std::string name : {"a.npz", "a.obj", "a.pc2", "folder"}) {
+    SCOPED_TRACE(name);
+    const TemporaryFolder folder;
+    const auto reader = write_and_open(folder / name, kTwoFrames);
+    const OutputTraits& kept = traits(output_format(folder / name));
+    EXPECT_EQ(reader->precision() == Precision::kFloat32, kept.is_float32);
+    EXPECT_EQ(reader->time(1) == 0.25, kept.keeps_times);
+    EXPECT_EQ(reader->kind() == SequenceKind::kSteps, kept.keeps_kind);
+    ASSERT_EQ(reader->groups().size(), 2u);
+    EXPECT_EQ(reader->groups()[1].role == Group::Role::kBody, kept.keeps_roles);
+    EXPECT_EQ(reader->groups()[1].name == kGroups[1].name, kept.keeps_group_names);
+    EXPECT_EQ(reader->groups()[1].face_begin, 1);
+    EXPECT_EQ(reader->groups()[1].face_end, 4);
+  }
+}
+
+TEST(SequenceOutput, FilesHaveTheNamesThatAreSaid) {
+  const TemporaryFolder folder;
+  (void)write_and_open(folder / "many.obj", kTwoFrames);
+  (void)write_and_open(folder / "one.obj", {kTwoFrames[0]});
+  (void)write_and_open(folder / "cache.pc2", kTwoFrames);
+  for (const char* name : {"many_000000.obj", "many_000001.obj", "one.obj", "cache.pc2", "cache.obj"}) {
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 5);
+  EXPECT_EQ(output_format("x/"), OutputFormat::kFolder);
+  EXPECT_EQ(output_format("x.y/"), OutputFormat::kFolder);
+  EXPECT_EQ(output_format("x"), OutputFormat::kFolder);
+  EXPECT_EQ(output_format("x.OBJ"), OutputFormat::kObj);
+  for (const char* name : {"x.ply", "x.mdd", "x.vtp", "x.y"}) {
+    expect_error(ErrorKind::kBadInput, "the extension is none that is written", [&] { (void)output_format(name); });
+  }
+}
+
+TEST(SequenceOutput, NothingIsOverwritten) {
+  const struct {
+    const char *target, *present;
+  } cases[] = {{"a.npz", "a.npz"}, {"a.obj", "a_000001.obj"}, {"a.pc2", "a.pc2"}, {"a.pc2", "a.obj"},
+               {"a.pvd", "a.pvd"}, {"a.pvd", "a_000001.vtp"}, {"a", "a"}};
+  for (const auto& c : cases) {
+    const TemporaryFolder folder;
+    write_plainly(folder / c.present, "mine");
+    expect_error(ErrorKind::kFile, std::string(c.present) + ": is there already", [&] {
+      const auto output = create(folder / c.target, kTwoFrames);
+      output->append(0, mesh_of(kTwoFrames[0]));
+      output->append(1, mesh_of(kTwoFrames[1]));
+      output->finish();
+    });
+    EXPECT_EQ(read_plainly(folder / c.present), "mine");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << c.target;
+  }
+  const TemporaryFolder folder;
+  write_plainly(folder / "mine", "mine");
+  expect_error(ErrorKind::kFile, "is a folder that is not empty", [&] { (void)create(folder.path(), kTwoFrames); });
+  EXPECT_EQ(read_plainly(folder / "mine"), "mine");
+}
+
+TEST(SequenceOutput, OfWhatFailsNothingIsLeft) {
+  MeshData other_faces = mesh_of(kTwoFrames[1]), other_vertices = mesh_of(kTwoFrames[1]);
+  std::swap(other_faces.triangles[0][0], other_faces.triangles[0][1]);
+  other_vertices.points.push_back({2, 2, 2});
+  for (const char* name : {"a.npz", "a.pc2", "a"}) {
+    for (const MeshData& other : {other_faces, other_vertices}) {
+      const TemporaryFolder folder;
+      expect_error(ErrorKind::kBadInput, "change between frames", [&] {
+        const auto output = create(folder / name, kTwoFrames);
+        output->append(0, mesh_of(kTwoFrames[0]));
+        output->append(1, other);
+      });
+      EXPECT_TRUE(fs::is_empty(folder.path())) << name;
+    }
+  }
+  for (const char* name : {"a.npz", "a.pc2", "a", "a.obj", "a.pvd"}) {
+    const TemporaryFolder folder;
+    create(folder / name, kTwoFrames)->append(0, mesh_of(kTwoFrames[0]));  // never finished
+    EXPECT_TRUE(fs::is_empty(folder.path())) << name;
+  }
+}
+
+TEST(SequenceOutput, Pc2NeverRounds) {
+  const TemporaryFolder folder;
+  const auto output = create(folder / "a.pc2", kTwoFrames);
+  expect_error(ErrorKind::kBadInput, "a.pc2: vertex 2 is not on the float32 lattice", [&] {
+    output->append(0, mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0.1}}));
+  });
+}
+
+TEST(SequenceOutput, ObjHoldsAMeshAFrame) {
+  const TemporaryFolder folder;
+  const auto output = create(folder / "a.obj", kTwoFrames);
+  output->append(0, mesh_of(kTwoFrames[0]));
+  output->append(1, {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}}, {{3, 1, 0}}, {}, Precision::kFloat64});
+  output->finish();
+  const auto reader = open_sequence(output->sources());
+  EXPECT_EQ(reader->frame(0).triangles, kTriangles);
+  EXPECT_EQ(reader->frame(1).triangles, (Triangles{{3, 1, 0}}));
+}
+
+TEST(ObjBytes, NumbersAreTheShortestThatAreExact) {
+  const MeshData mesh = {
+      {{0.1, -0.0, 5e-324}, {1, 1e300, 0.30000000000000004}, {7, 8, 9}}, {{0, 1, 2}}, {}, Precision::kFloat64};
+  EXPECT_EQ(obj_bytes(mesh, "a"), "v 0.1 -0 5e-324\nv 1 1e+300 0.30000000000000004\nv 7 8 9\nf 1 2 3\n");
+}
+
+TEST(ObjBytes, FacesBetweenGroupsAreDefault) {
+  MeshData mesh = mesh_of(kTwoFrames[0]);
+  mesh.groups = {{"late", Group::Role::kCloth, 2, 3}, {"none", Group::Role::kCloth, 1, 1}};
+  const std::vector<Group> read = parse_obj(obj_bytes(mesh, "a"), "a").groups;
+  const std::vector<Group> expected = {{"default", Group::Role::kCloth, 0, 2},
+                                       {"late", Group::Role::kCloth, 2, 3},
+                                       {"default", Group::Role::kCloth, 3, 4}};
+  EXPECT_EQ(read, expected);
+}
+
+TEST(ObjBytes, WhatObjCannotSayIsRefused) {
+  MeshData mesh = mesh_of(kTwoFrames[0]);
+  for (const char* name : {"two\nlines", "carriage\r", " blank", "\xff"}) {
+    mesh.groups = {{name, Group::Role::kCloth, 0, 4}};
+    expect_error(ErrorKind::kBadInput, "does not fit into a line of OBJ", [&] { (void)obj_bytes(mesh, "a"); });
+  }
+  mesh.groups = {{"a", Group::Role::kCloth, 0, 3}, {"b", Group::Role::kCloth, 2, 4}};
+  expect_error(ErrorKind::kBadInput, "two groups share a face", [&] { (void)obj_bytes(mesh, "a"); });
+}
+
+}  // namespace
+}  // namespace selvage::io
