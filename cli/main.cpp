@@ -3,6 +3,7 @@
 
 #include "cli/bench_command.h"
 #include "cli/command.h"
+#include "cli/convert_command.h"
 #include "cli/exit_code.h"
 #include "cli/fuzz_command.h"
 #include "cli/interrupt.h"
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
 
   Job job;
   add_bench_command(program, job);
+  add_convert_command(program, job);
   add_fuzz_command(program, job);
   add_render_command(program, job);
   add_sim_command(program, job);

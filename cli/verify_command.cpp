@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
+#include "cli/verdict.h"
 #include "io/atomic_file.h"
 #include "io/sequence.h"
 #include "verify/check.h"
@@ -56,28 +56,6 @@ verify::SequenceReport check_sequence(const io::SequenceReader& sequence, const 
   return verify::check_sequence(sequence, options);
 }
 
-ExitCode exit_code(verify::Verdict verdict) {
-  switch (verdict) {
-    case verify::Verdict::kClean:
-      return ExitCode::kClean;
-    case verify::Verdict::kViolated:
-      return ExitCode::kViolation;
-    case verify::Verdict::kUnknown:
-      return interrupted() ? ExitCode::kInterrupted : ExitCode::kLimit;
-  }
-  return ExitCode::kInternal;
-}
-
-void print(const std::string& text, verify::Verdict verdict) {
-  if (!use_colour(STDOUT_FILENO)) {
-    fmt::print("{}", text);
-    return;
-  }
-  const char* colour = verdict == verify::Verdict::kClean ? "\033[32m" : "\033[31m";
-  const std::size_t first_line = text.find('\n');
-  fmt::print("{}{}\033[0m{}", colour, text.substr(0, first_line), text.substr(first_line));
-}
-
 ExitCode run(const Arguments& arguments) {
   check(arguments);
   std::optional<tbb::global_control> threads;
@@ -94,7 +72,7 @@ ExitCode run(const Arguments& arguments) {
   for (std::size_t i = 0; i < sequence->frame_count(); ++i) context.frame_names.push_back(sequence->frame_name(i));
   if (!arguments.json.empty()) io::write_atomically(arguments.json, verify::json_report(report, context));
   const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
-  print(verify::text_report(report, context, max_listed), report.verdict);
+  print_report(verify::text_report(report, context, max_listed), report.verdict);
   return exit_code(report.verdict);
 }
 

@@ -1,0 +1,180 @@
+#include "cli/convert_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/frame_range.h"
+#include "cli/interrupt.h"
+#include "cli/read_back.h"
+#include "cli/sequence_argument.h"
+#include "cli/terminal.h"
+#include "cli/verdict.h"
+#include "io/points.h"
+#include "io/sequence_output.h"
+#include "verify/check.h"
+#include "verify/report.h"
+
+namespace selvage::cli {
+namespace {
+
+struct ConvertArguments {
+  SequenceArgument sequence;
+  std::filesystem::path output;
+  std::string frames = ":";
+  bool recheck = false, motion = false;
+};
+
+struct Conversion {
+  std::vector<std::filesystem::path> sources;  ///< of the result
+  std::vector<std::uint32_t> checksums;        ///< of its frames
+  io::Rounding rounding;
+};
+
+bool has_bodies(const std::vector<io::Group>& groups) {
+  return std::any_of(groups.begin(), groups.end(),
+                     [](const io::Group& group) { return group.role == io::Group::Role::kBody; });
+}
+
+/// Writes frames of `input`; nothing is returned where a signal has stopped it, and nothing is left then.
+std::optional<Conversion> write(const io::SequenceReader& input, FrameRange range, const ConvertArguments& arguments) {
+  const io::OutputTraits& format = io::traits(io::output_format(arguments.output));
+  io::MeshData mesh = input.frame(range.begin);
+  const auto output = io::create_output(
+      arguments.output, {{mesh.triangles, mesh.groups, input.kind(), input.precision(), "selvage " SELVAGE_VERSION},
+                         mesh.points.size(),
+                         range.end - range.begin});
+  Conversion result;
+  ProgressBar bar("convert");
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    bar.update(i - range.begin, range.end - range.begin);
+    if (interrupted()) return std::nullopt;
+    if (i > range.begin) mesh = input.frame(i);
+    if (format.is_float32) io::round_to_float32(mesh.points, result.rounding, input.frame_name(i));
+    output->append(input.time(i), mesh);
+    result.checksums.push_back(checksum(mesh.points));
+  }
+  output->finish();
+  result.sources = output->sources();
+  return result;
+}
+
+/// What the input says and the format cannot.
+std::vector<std::string> lost(const io::SequenceReader& input, FrameRange range, const io::OutputTraits& format) {
+  std::vector<std::string> what;
+  bool has_times = false;
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    has_times = has_times || input.time(i) != static_cast<double>(i - range.begin);
+  }
+  if (has_times && !format.keeps_times) what.emplace_back("times");
+  if (input.kind() == io::SequenceKind::kSteps && !format.keeps_kind) what.emplace_back("that frames are steps");
+  if (has_bodies(input.groups()) && !format.keeps_roles) what.emplace_back("which faces are bodies");
+  if (!input.groups().empty() && !format.keeps_group_names) what.emplace_back("names of groups");
+  return what;
+}
+
+void print_conversion(const io::SequenceReader& input, FrameRange range, const io::OutputTraits& format,
+                      const Conversion& conversion) {
+  fmt::print("written:   {}{}, {} frames as {}\n", conversion.sources.front().string(),
+             conversion.sources.size() > 1 ? fmt::format(" ... {}", conversion.sources.back().string()) : "",
+             range.end - range.begin, format.name);
+  const char* from = input.precision() == io::Precision::kFloat32 ? "float32" : "float64";
+  if (!format.is_float32) {
+    fmt::print("precision: {}, every value kept\n", from);
+  } else {
+    const io::Rounding& rounding = conversion.rounding;
+    fmt::print("precision: {} to float32, rounded to nearest: {} of {} values changed, the largest by {:.17g}\n", from,
+               rounding.changed, rounding.values, rounding.largest_change);
+  }
+  const std::vector<std::string> missing = lost(input, range, format);
+  if (!missing.empty()) fmt::print("not kept:  {}\n", fmt::join(missing, ", "));
+}
+
+/// As many as fit on a terminal; selvage verify lists more.
+constexpr std::size_t kListed = 10;
+
+/// Checks the file, not what was in memory; with the roles and the kind of the input where the format has none.
+ExitCode recheck(const io::SequenceReader& input, Conversion conversion, const ConvertArguments& arguments) {
+  Claims claims;
+  claims.kind = input.kind();
+  claims.keeps_groups = !has_bodies(input.groups());
+  claims.groups = input.groups();
+  const auto written = read_back(io::open_sequence(conversion.sources), claims, std::move(conversion.checksums));
+  verify::SequenceOptions options;
+  options.motions = written->frame_count() > 1 && (arguments.motion || input.kind() == io::SequenceKind::kSteps);
+  ProgressBar bar("recheck");
+  options.progress = [&](std::size_t done, std::size_t total) {
+    bar.update(done, total);
+    return !interrupted();
+  };
+  const verify::SequenceReport report = verify::check_sequence(*written, options);
+  verify::ReportContext context{"selvage " SELVAGE_VERSION, {}, {}};
+  for (const auto& source : conversion.sources) context.sources.push_back(source.string());
+  for (std::size_t i = 0; i < written->frame_count(); ++i) context.frame_names.push_back(written->frame_name(i));
+  fmt::print("as written: ");
+  print_report(verify::text_report(report, context, kListed), report.verdict);
+  return exit_code(report.verdict);
+}
+
+ExitCode run(const ConvertArguments& arguments) {
+  const auto input = open_sequence(arguments.sequence);
+  if (input->frame_count() == 0) {
+    throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame: there is nothing to convert");
+  }
+  const FrameRange range = parse_frame_range(arguments.frames, input->frame_count());
+  const io::OutputTraits& format = io::traits(io::output_format(arguments.output));
+  if (arguments.recheck && !format.is_read) {
+    throw UsageError(
+        fmt::format("--recheck reads the file again, and {} is not read; its numbers are those of the "
+                    "input: verify that",
+                    format.name));
+  }
+  std::optional<Conversion> conversion = write(*input, range, arguments);
+  if (!conversion) {
+    fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+    return ExitCode::kInterrupted;
+  }
+  print_conversion(*input, range, format, *conversion);
+  return arguments.recheck ? recheck(*input, std::move(*conversion), arguments) : ExitCode::kClean;
+}
+
+/// An unknown extension is a mistake on the command line.
+std::string check_output(const std::string& output) {
+  try {
+    (void)io::output_format(output);
+  } catch (const io::Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, Job& job) {
+  CLI::App& command = add_command(program, "convert", "Write a sequence in another format, and check it as written",
+                                  "selvage convert run/ -o cloth.pc2 --recheck");
+  const auto arguments = std::make_shared<ConvertArguments>();
+  add_sequence_argument(command, arguments->sequence);
+  command
+      .add_option("-o,--output", arguments->output,
+                  "An .npz, .obj, .pc2 or .pvd file, or a folder; must not be there yet")
+      ->required()
+      ->check(CLI::Validator(check_output, "", ""));
+  command.add_option("--frames", arguments->frames, "Frames a to b, b left out; from 0")->type_name("A:B");
+  CLI::Option* recheck = command.add_flag("--recheck", arguments->recheck,
+                                          "Read the result again and check it exactly: rounding makes intersections");
+  command
+      .add_flag("--motion", arguments->motion,
+                "Check the motion between frames too (default only where the input says it holds steps)")
+      ->needs(recheck);
+  command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,58 @@
+#include "cli/read_back.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/checksum.h"
+
+namespace selvage::cli {
+namespace {
+
+class ReadBack final : public io::SequenceReader {
+ public:
+  ReadBack(std::unique_ptr<io::SequenceReader> written, Claims claims, std::vector<std::uint32_t> checksums)
+      : written_(std::move(written)), claims_(std::move(claims)), checksums_(std::move(checksums)) {
+    if (written_->frame_count() == checksums_.size()) return;
+    throw io::Error(io::ErrorKind::kFile, std::to_string(written_->frame_count()) + " frames are read back, " +
+                                              std::to_string(checksums_.size()) + " were written; check the disk");
+  }
+
+  std::size_t frame_count() const override { return written_->frame_count(); }
+  io::SequenceKind kind() const override { return claims_.kind; }
+  io::Precision precision() const override { return written_->precision(); }
+  const std::vector<io::Group>& groups() const override {
+    return claims_.keeps_groups ? written_->groups() : claims_.groups;
+  }
+  std::string frame_name(std::size_t frame) const override { return written_->frame_name(frame); }
+  double time(std::size_t frame) const override { return written_->time(frame); }
+  bool same_faces_as_previous(std::size_t frame) const override { return written_->same_faces_as_previous(frame); }
+
+  io::MeshData frame(std::size_t frame) const override {
+    io::MeshData mesh = written_->frame(frame);
+    if (checksum(mesh.points) != checksums_.at(frame)) {
+      throw io::Error(io::ErrorKind::kFile,
+                      frame_name(frame) + ": what is read back is not what was written; check the disk");
+    }
+    if (!claims_.keeps_groups) mesh.groups = claims_.groups;
+    return mesh;
+  }
+
+ private:
+  std::unique_ptr<io::SequenceReader> written_;
+  Claims claims_;
+  std::vector<std::uint32_t> checksums_;
+};
+
+}  // namespace
+
+std::uint32_t checksum(const io::Points& points) {
+  return io::crc32({reinterpret_cast<const char*>(points.data()), points.size() * sizeof points[0]});
+}
+
+std::unique_ptr<io::SequenceReader> read_back(std::unique_ptr<io::SequenceReader> written, Claims claims,
+                                              std::vector<std::uint32_t> checksums) {
+  return std::make_unique<ReadBack>(std::move(written), std::move(claims), std::move(checksums));
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,33 @@
+#include "cli/verdict.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/interrupt.h"
+#include "cli/terminal.h"
+
+namespace selvage::cli {
+
+ExitCode exit_code(verify::Verdict verdict) {
+  switch (verdict) {
+    case verify::Verdict::kClean:
+      return ExitCode::kClean;
+    case verify::Verdict::kViolated:
+      return ExitCode::kViolation;
+    case verify::Verdict::kUnknown:
+      return interrupted() ? ExitCode::kInterrupted : ExitCode::kLimit;
+  }
+  return ExitCode::kInternal;
+}
+
+void print_report(const std::string& text, verify::Verdict verdict) {
+  if (!use_colour(STDOUT_FILENO)) {
+    fmt::print("{}", text);
+    return;
+  }
+  const char* colour = verdict == verify::Verdict::kClean ? "\033[32m" : "\033[31m";
+  const std::size_t first_line = text.find('\n');
+  fmt::print("{}{}\033[0m{}", colour, text.substr(0, first_line), text.substr(first_line));
+}
+
+}  // namespace selvage::cli
