@@ -1,19 +1,27 @@
 // The program: one line per subcommand. What each does is in NAME_command.cpp.
+#include <utility>
+
 #include <CLI/CLI.hpp>
 
 #include "cli/bench_command.h"
 #include "cli/command.h"
 #include "cli/convert_command.h"
+#include "cli/doctor_command.h"
 #include "cli/exit_code.h"
+#include "cli/fp_state.h"
 #include "cli/fuzz_command.h"
 #include "cli/interrupt.h"
 #include "cli/render_command.h"
 #include "cli/sim_command.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
+#include "kernel/fp_env.h"
 
 int main(int argc, char** argv) {
   using namespace selvage::cli;
+  // Before anything is computed: a library linked with -ffast-math has changed the environment before main.
+  const unsigned fp_as_found = selvage::fp_env_defects();
+  const selvage::FpEnvGuard fp_guard;
   CLI::App program{"Cloth collisions that never let a surface pass through itself, and the instruments that prove it.",
                    "selvage"};
   show_example_first(program, "selvage --version");
@@ -23,6 +31,7 @@ int main(int argc, char** argv) {
   Job job;
   add_bench_command(program, job);
   add_convert_command(program, job);
+  add_doctor_command(program, job, fp_as_found);
   add_fuzz_command(program, job);
   add_render_command(program, job);
   add_sim_command(program, job);
@@ -36,6 +45,12 @@ int main(int argc, char** argv) {
   }
   if (program.get_subcommands().empty()) {
     job = []() -> ExitCode { throw UsageError("a subcommand is required; run with --help for more information"); };
+  }
+  if (!program.got_subcommand("doctor")) {  // which reports instead
+    job = [fp_as_found, chosen = std::move(job)] {
+      require_sound_fp(fp_as_found);
+      return chosen();
+    };
   }
   catch_interrupts();
   return static_cast<int>(run_guarded(job));

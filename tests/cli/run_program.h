@@ -53,7 +53,8 @@ inline void spit(const std::filesystem::path& file, const std::string& text) {
 }
 
 /// Starts the program with stdout and stderr in files of `folder`; the caller waits for it.
-inline pid_t start_program(const std::filesystem::path& folder, std::vector<std::string> arguments) {
+inline pid_t start_program(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                           const char* program = SELVAGE_PROGRAM) {
   const pid_t child = fork();
   if (child != 0) return child;
   const auto redirect = [](const std::filesystem::path& file, int descriptor) {
@@ -62,11 +63,11 @@ inline pid_t start_program(const std::filesystem::path& folder, std::vector<std:
   };
   redirect(folder / "stdout.txt", STDOUT_FILENO);
   redirect(folder / "stderr.txt", STDERR_FILENO);
-  arguments.insert(arguments.begin(), SELVAGE_PROGRAM);
+  arguments.insert(arguments.begin(), program);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  execv(SELVAGE_PROGRAM, argv.data());
+  execv(program, argv.data());
   _exit(127);
 }
 
@@ -87,8 +88,9 @@ inline ProgramResult wait_for_program(const std::filesystem::path& folder, pid_t
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder / "stdout.txt"), slurp(folder / "stderr.txt")};
 }
 
-inline ProgramResult run_program(const TemporaryFolder& folder, std::vector<std::string> arguments) {
-  return wait_for_program(folder.path(), start_program(folder.path(), std::move(arguments)));
+inline ProgramResult run_program(const TemporaryFolder& folder, std::vector<std::string> arguments,
+                                 const char* program = SELVAGE_PROGRAM) {
+  return wait_for_program(folder.path(), start_program(folder.path(), std::move(arguments), program));
 }
 inline ProgramResult run_program(std::vector<std::string> arguments) {
   return run_program(TemporaryFolder{}, std::move(arguments));

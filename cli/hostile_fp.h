@@ -1,0 +1,28 @@
+// Floating-point environments in which the libraries must answer as in a sound one.
+#pragma once
+
+#include <vector>
+
+namespace selvage::cli {
+
+struct HostileFp {
+  const char* name;
+  int rounding;  ///< as for fesetround()
+  bool flushes;  ///< FTZ and DAZ, where the processor is known (x86)
+};
+[[nodiscard]] const std::vector<HostileFp>& hostile_environments();
+
+/// Sets the calling thread's environment for a scope.
+class HostileScope {
+ public:
+  explicit HostileScope(const HostileFp& hostile) noexcept;
+  HostileScope(const HostileScope&) = delete;
+  HostileScope& operator=(const HostileScope&) = delete;
+  ~HostileScope();
+
+ private:
+  int rounding_;
+  unsigned control_;
+};
+
+}  // namespace selvage::cli
