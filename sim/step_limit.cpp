@@ -6,12 +6,6 @@
 #include "kernel/proximity.h"
 
 namespace selvage::sim {
-namespace {
-
-/// What rounding to the lattice may make of kBallShare; still below 1/2. Beyond it a vertex is frozen instead.
-constexpr double kStoredBallShare = 0.375;
-
-}  // namespace
 
 std::vector<double> clearance(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V, double reach,
                               std::span<const std::uint8_t> flagged) {
@@ -106,8 +100,6 @@ void StepLimiter::place(const std::vector<std::uint8_t>& raised, StepMotion& mot
       const double length = displacement.stableNorm();
       const double radius = kBallShare * free_distance[v];
       if (length > radius) motion.move(vertex, displacement * (radius / length));
-      const double stored_length = (motion.x().row(vertex).transpose() - start).stableNorm();
-      if (stored_length > kStoredBallShare * free_distance[v]) motion.freeze(vertex);
     } else if (state_[v].level == Restraint::kFrozen) {
       motion.freeze(vertex);
     } else {

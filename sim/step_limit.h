@@ -3,8 +3,7 @@
 // Each cloth vertex has a restraint, which only grows:
 //   kFree     as the response left it;
 //   kLimited  in a ball about V_t0 whose radius is kBallShare of a proved lower bound on the distance from every
-//   feature of
-//             the vertex to every other feature at t = 0: two limited vertices' features cannot meet;
+//             feature of the vertex to every other feature at t = 0: two limited vertices' features cannot meet;
 //   kFrozen   x = V_t0, bit for bit: a pair that does not move cannot touch, V_t0 being free of intersections;
 //   kCarried  moved with a scripted body by that body's rigid motion: nothing that moves so can meet the body.
 // A pair that still collides raises every cloth vertex of it that it can raise by one level: the lowest ones, and
@@ -24,9 +23,11 @@ namespace selvage::sim {
 
 enum class Restraint : std::uint8_t { kFree, kLimited, kFrozen, kCarried };
 
-/// Two features of which all vertices stay within a quarter of their distance keep half of it: far from the kernel's
-/// error bounds, and the condition is share < 1/2.
+/// Two features of which all vertices stay within half of their distance cannot meet; a quarter leaves them half of it,
+/// far from the kernel's error bounds. Rounding to the lattice can at most double a displacement that is smaller than
+/// its spacing; what then still collides is frozen in the next round.
 inline constexpr double kBallShare = 0.25;
+static_assert(kBallShare < 0.5);
 
 /// #V: a proved lower bound on the distance at V from every feature that holds v to every feature that it must not
 /// meet, at most `reach`; computed for flagged vertices, `reach` for the others.

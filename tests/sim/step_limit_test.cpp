@@ -61,6 +61,38 @@ TEST(Clearance, VerticesWithinABallOfHalfOfItNeverTouch) {
   });
 }
 
+TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
+  StepScene scene;
+  scene.add(triangle(1), Vec3::Zero());
+  const StepScene::Part above = scene.add(triangle(0.5), Vec3(0.1, 0.1, 0.05));
+  scene.push(above, Vec3(0.01, 0, -1));
+  const Mesh mesh = scene.mesh();
+  BoxHierarchy hierarchy(mesh);
+  const CollisionBodies bodies = scene.bodies();
+  ScriptedGroups groups(bodies);
+  StepMotion motion;
+  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+  groups.observe(motion);
+  const std::vector<std::uint8_t> all(6, 1);
+  CollisionTracker tracker(mesh, hierarchy, {}, all);
+  tracker.start(motion);
+  ASSERT_TRUE(tracker.has_motion_collision());
+  std::vector<std::uint8_t> collides(6, 0);
+  for (const Collision& collision : tracker.collisions()) {
+    for (const VertexId v : tracker.vertices(collision)) collides[static_cast<std::size_t>(v)] = 1;
+  }
+
+  StepLimiter limiter(mesh, hierarchy, groups, 1);
+  ASSERT_FALSE(limiter.restrain(tracker, motion));
+  EXPECT_EQ(limiter.restrained_count(), std::ranges::count(collides, 1));
+  const std::vector<double> distance = clearance(mesh, hierarchy, scene.V_t0, 1, all);
+  for (std::size_t v = 0; v < collides.size(); ++v) {
+    if (collides[v] == 0) continue;
+    const auto row = static_cast<Eigen::Index>(v);
+    EXPECT_LE((motion.x().row(row) - scene.V_t0.row(row)).norm(), 1.001 * kBallShare * distance[v]) << v;
+  }
+}
+
 TEST(FailSafe, LimitsOnlyWhatCollides) {
   // One vertex is thrown through the other sheet; without responses only the vertices it meets are held back.
   StepScene scene;
