@@ -58,6 +58,45 @@ TEST(Simulation, EveryStepOfADrapeIsExactlyFreeAndBodiesFollowTheirScripts) {
   EXPECT_EQ(fail_safe_vertices, 0);
 }
 
+TEST(Simulation, FreeFallIsExactInPositionAndVelocity) {
+  // Central differences are exact for a constant force; the mean velocity of the last step would lag by g dt / 2.
+  Simulation simulation(small_scene(3));
+  const Eigen::Index cloth = simulation.world().cloth_vertex_count;
+  const double height_m = simulation.x()(0, 2);
+  while (simulation.clock().state().frame < 3) {
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.repulsions, 0);
+    const double t_s = simulation.clock().time_s();
+    for (Eigen::Index v = 0; v < cloth; ++v) {
+      ASSERT_NEAR(simulation.x()(v, 2), height_m - 0.5 * 9.81 * t_s * t_s, 1e-9);
+      ASSERT_NEAR(simulation.state().v(v, 2), -9.81 * t_s, 1e-7);
+    }
+  }
+}
+
+TEST(Simulation, AfterContactGravityActsForTheSecondHalfOfTheStep) {
+  // Section 7.6: the velocity at the end is the mean velocity of the safe step and half a step of forces. Springs and
+  // the strain-rate limit keep the cloth's momentum, so its change is that of gravity alone.
+  Simulation simulation(small_scene(9));
+  const Eigen::Index cloth = simulation.world().cloth_vertex_count;
+  Eigen::VectorXd mass_kg(cloth);
+  for (Eigen::Index v = 0; v < cloth; ++v) {
+    mass_kg[v] = 1 / simulation.world().inverse_mass[static_cast<std::size_t>(v)];
+  }
+  int in_contact = 0;
+  while (simulation.clock().state().frame < 9) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    if (step.report.repulsions == 0) continue;
+    ++in_contact;
+    const Vec3 mean = ((simulation.x() - before).topRows(cloth) / step.dt_s).transpose() * mass_kg;
+    const Vec3 end = simulation.state().v.topRows(cloth).transpose() * mass_kg;
+    const Vec3 gravity(0, 0, -9.81 * step.dt_s / 2 * mass_kg.sum());
+    ASSERT_LE((end - mean - gravity).norm(), 1e-6 * gravity.norm()) << simulation.clock().time_s();
+  }
+  EXPECT_GT(in_contact, 5);
+}
+
 TEST(Simulation, SameBitsForAnyThreadCount) {
   Positions reference;
   for (const std::size_t threads : {1u, 2u, 4u}) {
