@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test asan tsan clang coverage fuzz bench format tidy clean
+.PHONY: help setup build demo test readers asan tsan clang coverage fuzz bench format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -23,6 +23,10 @@ demo: build  ## simulate a curtain over a moving ball, check every frame and ste
 
 test: build  ## run all tests
 	ctest --preset release
+
+readers: build  ## open what Selvage writes with NumPy and VTK
+	@cmake/setup packages-readers.txt
+	ctest --preset release -R 'ForeignReaders|NumPy'
 
 asan: setup  ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset asan-ubsan --log-level=WARNING

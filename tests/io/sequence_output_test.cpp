@@ -8,6 +8,8 @@
 
 #include <rapidcheck/gtest.h>
 
+#include "io/byte_order.h"
+#include "io/checksum.h"
 #include "io/mesh_reader.h"
 #include "io/sequence_outputs.h"
 #include "tests/io/random_doubles.h"
@@ -181,6 +183,29 @@ TEST(SequenceOutput, OfWhatFailsNothingIsLeft) {
     create(folder / name, kTwoFrames)->append(0, mesh_of(kTwoFrames[0]));  // never finished
     EXPECT_TRUE(fs::is_empty(folder.path())) << name;
   }
+}
+
+/// Without the directory at the end, as one reads from a pipe.
+TEST(SequenceOutput, NpzCanBeReadAsAStream) {
+  const TemporaryFolder folder;
+  (void)write_and_open(folder / "a.npz", kTwoFrames);
+  const std::string bytes = read_plainly(folder / "a.npz");
+  const auto little = [&]<typename T>(std::size_t at, T) { return load<T>(bytes.data() + at, std::endian::little); };
+  std::size_t at = 0;
+  std::vector<std::string> names;
+  while (bytes.compare(at, 4, "PK\x03\x04") == 0) {
+    const std::size_t name_size = little(at + 26, std::uint16_t{}), extra_size = little(at + 28, std::uint16_t{});
+    names.push_back(bytes.substr(at + 30, name_size));
+    const std::size_t extra = at + 30 + name_size, data = extra + extra_size;
+    EXPECT_EQ(little(extra, std::uint16_t{}), 1) << "the 64-bit sizes";
+    const std::uint64_t size = little(extra + 4, std::uint64_t{});
+    EXPECT_EQ(little(extra + 12, std::uint64_t{}), size);
+    ASSERT_LE(size, bytes.size() - data);
+    EXPECT_EQ(little(at + 14, std::uint32_t{}), crc32(bytes.substr(data, size))) << names.back();
+    at = data + size;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"F.npy", "group.npy", "V.npy"}));
+  EXPECT_EQ(bytes.compare(at, 4, "PK\x01\x02"), 0) << "the directory does not follow";
 }
 
 TEST(SequenceOutput, Pc2NeverRounds) {

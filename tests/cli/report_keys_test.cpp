@@ -1,0 +1,78 @@
+// docs/formats.md lists every key of the JSON reports, and no other.
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.h"
+
+namespace selvage {
+namespace {
+
+using testing::run_program;
+using testing::slurp;
+using testing::spit;
+using testing::TemporaryFolder;
+using Keys = std::set<std::string>;
+
+/// "a.b" for the key b of the object a, "a[].b" for the key b of the objects in the list a.
+void collect(const nlohmann::json& value, const std::string& path, Keys& keys) {
+  if (value.is_array()) {
+    for (const auto& item : value) {
+      if (item.is_object()) collect(item, path + "[]", keys);
+    }
+  }
+  if (!value.is_object()) return;
+  for (const auto& [key, member] : value.items()) {
+    const std::string name = path.empty() ? key : path + "." + key;
+    const bool has_keys_of_its_own =
+        member.is_object() || (member.is_array() && !member.empty() && member[0].is_object());
+    if (!has_keys_of_its_own) keys.insert(name);
+    collect(member, name, keys);
+  }
+}
+
+/// What is in backquotes in the first column of the table under `heading`.
+Keys documented(const std::string& heading) {
+  const std::string page = slurp(SELVAGE_SOURCE_DIR "/docs/formats.md");
+  const std::size_t begin = page.find("\n## " + heading + "\n");
+  if (begin == page.npos) return {};
+  std::istringstream section(page.substr(begin + 1, page.find("\n## ", begin + 1) - begin));
+  Keys keys;
+  for (std::string line; std::getline(section, line);) {
+    if (!line.starts_with("| `")) continue;
+    const std::string cell = line.substr(0, line.find('|', 1));
+    for (std::size_t open = cell.find('`'); open != cell.npos;) {
+      const std::size_t close = cell.find('`', open + 1);
+      keys.insert(cell.substr(open + 1, close - open - 1));
+      open = cell.find('`', close + 1);
+    }
+  }
+  return keys;
+}
+
+}  // namespace
+
+TEST(ReportKeys, OfVerifyAreDocumented) {
+  const TemporaryFolder folder;
+  const auto before = folder.path() / "a.obj", after = folder.path() / "b.obj", json = folder.path() / "report.json";
+  spit(before, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 1\nv 2 1 1\nv 1 2 1\nf 4 5 6\n");
+  spit(after, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 0\nv 2 1 0\nv 1 2 0\nf 4 5 6\n");
+  ASSERT_EQ(run_program(folder, {"verify", "--motion", before, after, "--json", json}).exit_code, 1);
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  EXPECT_TRUE(keys.contains("violations[].t")) << "a frame";
+  EXPECT_TRUE(keys.contains("violations[].t.lower")) << "a motion";
+  EXPECT_EQ(keys, documented("The report of `selvage verify --json`"));
+}
+
+TEST(ReportKeys, OfDoctorAreDocumented) {
+  const TemporaryFolder folder;
+  const auto json = folder.path() / "report.json";
+  ASSERT_EQ(run_program(folder, {"doctor", "--json", json}).exit_code, 0);
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  EXPECT_EQ(keys, documented("The report of `selvage doctor --json`"));
+}
+
+}  // namespace selvage
