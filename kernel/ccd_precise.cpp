@@ -1,5 +1,5 @@
-// An interval looked at with double-double arithmetic, in parts of 2^-100.
-#include "kernel/ccd_search.h"
+#include "kernel/ccd_precise.h"
+
 #include "kernel/closest_point.h"
 #include "kernel/separation.h"
 
@@ -29,6 +29,12 @@ bool is_near(const ClosestPoint<DoubleDouble>& closest) {
   return leading(dot(closest.point, closest.point)) < kNoPreciseGap * kNoPreciseGap;
 }
 
+bool certify(const PairMotion<DoubleDouble>& motion, const Polygon& begin, const Polygon& end,
+             const ClosestPoint<DoubleDouble>& middle) {
+  return separates(motion, begin, end, middle.direction) || separates(motion, begin, end, middle.plane_normal) ||
+         winds_apart(motion, begin, end) || separating_direction(motion, begin, end, middle.point);
+}
+
 }  // namespace
 
 std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion, const TickInterval& interval,
@@ -46,17 +52,27 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
   for (int count = 0; depth > 0; ++count) {
     if (left <= 0 || count == kMaxPreciseIntervals) return static_cast<Tick>(begin >> kPartBits);
     --left;
-    const Part end = ends[depth - 1], middle = begin + (end - begin) / 2;
+    const Part end = ends[depth - 1], width = end - begin;
     const Polygon at_end = polygon_within(motion, end);
-    const auto closest = closest_point(motion.kind, polygon_within(motion, middle));
-    if (separates(motion, at_begin, at_end, closest.direction) ||
-        separates(motion, at_begin, at_end, closest.plane_normal) || winds_apart(motion, at_begin, at_end) ||
-        separating_direction(motion, at_begin, at_end, closest.point)) {
+    const auto nearest = closest_point(motion.kind, at_begin);
+    const auto reach = separated_reach(motion, at_begin, at_end, nearest);
+    if (reach.share == 0 && is_near(nearest)) return static_cast<Tick>(begin >> kPartBits);
+    const auto reached = static_cast<Part>(reach.share * static_cast<double>(width));
+    if (reach.share > kFarShare && reach.share < 1 && reached > 0) {
+      const Polygon at_reached = polygon_within(motion, begin + reached);
+      if (separates(motion, at_begin, at_reached, reach.direction)) {
+        begin += reached;
+        at_begin = at_reached;
+        continue;
+      }
+    }
+    const Part middle = begin + width / 2;
+    if (separates(motion, at_begin, at_end, reach.direction) ||
+        certify(motion, at_begin, at_end, closest_point(motion.kind, polygon_within(motion, middle)))) {
       begin = end;
       at_begin = at_end;
       --depth;
-    } else if (middle == begin || is_near(closest_point(motion.kind, at_begin)) ||
-               (end - begin <= kNarrow && is_near(closest_point(motion.kind, at_end)))) {
+    } else if (middle == begin || (width <= kNarrow && is_near(closest_point(motion.kind, at_end)))) {
       return static_cast<Tick>(begin >> kPartBits);
     } else {
       ends[depth++] = middle;

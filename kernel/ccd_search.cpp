@@ -1,32 +1,30 @@
 #include "kernel/ccd_search.h"
 
 #include "kernel/assert.h"
+#include "kernel/ccd_answer.h"
+#include "kernel/ccd_precise.h"
 #include "kernel/closest_point.h"
 #include "kernel/coplanarity.h"
 #include "kernel/plane_crossing.h"
-#include "kernel/power_of_two.h"
 #include "kernel/root_intervals.h"
-#include "kernel/rounding.h"
 #include "kernel/separation.h"
 
 namespace selvage::detail {
 
 namespace {
 
-/// An alarm is raised only with a witness this near, relative to the largest difference (in [0.5, 1) after scaling).
-/// One tick is left uncertified only if the gap in it is of the order of the rounding of one support, 3 kSupportError,
-/// plus the motion within one tick, 2^-51: below 2^-48. The rest is room for directions that are not optimal.
-constexpr double kAlarmGap = 0x1p-40;
 /// A gap below this is of the order of the rounding of its own evaluation: halving the interval further is no use.
 constexpr double kNoGap = 0x1p-49;
-/// Intervals no wider than this many ticks are worth the cubic in double-double arithmetic.
-constexpr Tick kPreciseWidth = Tick{1} << 32;
-/// Pieces that may wait while another is split at its root or where a direction ceases to separate. A split that is
-/// found badly leaves nearly all behind, again and again; from here on pieces are halved, at most 52 times down to a
-/// tick, so that 128 places are enough.
+/// Within intervals no wider than this many ticks corners hardly move, and Gilbert's algorithm finds no better
+/// direction.
+constexpr Tick kStillWidth = Tick{1} << 32;
+/// Intervals that plain doubles may take to clear one interval of roots: from the whole step down to a tick takes 52,
+/// and as many again for the other halves. Where features close in tangentially, doubles then go on inch by inch.
+constexpr int kMaxDoubleIntervals = 128;
+/// Pieces that may wait while another is split at its root. A root that is found badly leaves a piece with a sign
+/// change behind, again and again; from here on pieces are halved, at most 52 times down to a tick, so that 128 places
+/// are enough.
 constexpr std::size_t kSplitDepth = 64;
-/// A direction that separates a smaller share of an interval than this does not make better progress than halving.
-constexpr double kFarShare = 0.125;
 /// A contact with weights above this lies inside both features, so that a sign change of the cubic makes it a real one.
 constexpr double kInnerWeight = 0x1p-20;
 /// So does one this deep inside the polygon, if the interval is short: the polygon's height is at least this, so that
@@ -61,8 +59,7 @@ class Search {
   using Polygon = DifferencePolygon<double>;
 
   [[nodiscard]] bool has_cubic() const { return motion_.kind != PairKind::kSelf; }
-  [[nodiscard]] Polygon polygon(Tick tick) const;
-  [[nodiscard]] double gap_upper(Tick tick, const Polygon& at, const ClosestPoint<double>& closest) const;
+  [[nodiscard]] Polygon polygon(Tick tick) const { return polygon_at_tick(motion_, tick); }
   [[nodiscard]] bool limit_reached() const { return result_.intervals >= options_.max_intervals; }
 
   Passage pass_plane(const TickInterval& interval);
@@ -70,11 +67,9 @@ class Search {
   bool certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end);
   void look_precisely();
   [[nodiscard]] CubicSigns cubic_signs(const TickInterval& interval) const;
-  std::optional<Tick> first_contact(const TickInterval& interval, const Polygon& at_begin, const CubicSigns& signs);
-  void answer_contact(Tick tick);
-  void answer(Tick tick, double gap, const std::array<double, 4>& weights, const Double3& direction);
-  void answer_end();
-  Double3 approach_normal(Tick tick) const;
+  bool clear_precisely(const TickInterval& interval, double suspect);
+  [[nodiscard]] bool is_contact(Tick tick, const Polygon& at, const ClosestPoint<double>& closest,
+                                const CubicSigns& signs) const;
 
   const PairPoints& x_t0_;
   const PairPoints& x_t1_;
@@ -86,16 +81,6 @@ class Search {
   Double3 separating_;  // the last direction that certified an interval: the next one often is like it
   CcdResult result_;
 };
-
-Search::Polygon Search::polygon(Tick tick) const {
-  if (tick == 0) return motion_.t0;
-  if (tick == kTicks) return motion_.t1;
-  return polygon_at(motion_, time_of(kTicks - tick), time_of(tick));
-}
-
-double Search::gap_upper(Tick tick, const Polygon& at, const ClosestPoint<double>& closest) const {
-  return distance_upper(motion_, at, tick != 0 && tick != kTicks, closest.weights);
-}
 
 /// Plain doubles on a short interval, at the end of which the cubic has passed through zero. Everything before the
 /// interval is certified, so that its begin is a safe time.
@@ -115,7 +100,8 @@ Passage Search::pass_plane(const TickInterval& interval) {
   const double gap = distance_upper(motion_, at_begin, true, crossing.weights);
   if (!(gap <= kAlarmGap)) return Passage::kUnclear;
   // The cubic is 3 normal . corner: its sign is the side of the polygon on which the origin is not.
-  answer(interval.begin, gap, crossing.weights, falls ? crossing.normal : -crossing.normal);
+  const Double3 direction = falls ? crossing.normal : -crossing.normal;
+  answer_contact(result_, motion_, interval.begin, gap, crossing.weights, direction);
   return Passage::kThrough;
 }
 
@@ -130,8 +116,7 @@ bool Search::certify(const TickInterval& interval, const Polygon& at_begin, cons
     }
   }
   if (winds_apart(motion_, at_begin, at_end)) return true;
-  // In a short interval the corners hardly move, and the directions above are the best there are.
-  if (interval.end - interval.begin <= kPreciseWidth) return false;
+  if (interval.end - interval.begin <= kStillWidth) return false;
   const auto direction = separating_direction(motion_, at_begin, at_end, closest.point);
   if (direction) separating_ = *direction;
   return direction.has_value();
@@ -160,19 +145,22 @@ CubicSigns Search::cubic_signs(const TickInterval& interval) const {
   return signs;
 }
 
-/// The first tick of the interval that cannot be proved free of touch by any means; nothing where it is free.
-std::optional<Tick> Search::first_contact(const TickInterval& interval, const Polygon& at_begin,
-                                          const CubicSigns& signs) {
-  const auto closest = closest_point(motion_.kind, at_begin);
-  if (gap_upper(interval.begin, at_begin, closest) == 0) return interval.begin;
-  const auto& w = closest.weights;
-  const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
-  if (signs.root && least_weight > kInnerWeight) return interval.begin;
+/// With double-double arithmetic; `suspect` is a time worth looking at first, as a fraction of the interval.
+bool Search::clear_precisely(const TickInterval& interval, double suspect) {
   look_precisely();
   std::int32_t left = options_.max_intervals - result_.intervals;
-  const auto contact = first_precise_contact(*precise_motion_, interval, signs.root.value_or(0), left);
+  const auto contact = first_precise_contact(*precise_motion_, interval, suspect, left);
   result_.intervals = options_.max_intervals - left;
-  return contact;
+  if (contact) answer_contact(result_, motion_, *contact);
+  return !contact;
+}
+
+/// Whether the features are in contact at the begin of an interval with these signs, as far as doubles can tell.
+bool Search::is_contact(Tick tick, const Polygon& at, const ClosestPoint<double>& closest,
+                        const CubicSigns& signs) const {
+  const auto& w = closest.weights;
+  const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
+  return (signs.root && least_weight > kInnerWeight) || gap_upper(motion_, tick, at, w) == 0;
 }
 
 /// Depth first, from left to right: everything before `begin` is certified at all times.
@@ -182,12 +170,14 @@ bool Search::clear(const TickInterval& interval) {
   ends[0] = interval.end;
   Tick begin = interval.begin;
   Polygon at_begin = polygon(begin);
+  int examined = 0;
   while (depth > 0) {
     if (limit_reached()) {
       result_.toi_lower = time_of(begin);
       return false;
     }
     ++result_.intervals;
+    if (++examined > kMaxDoubleIntervals) return clear_precisely({begin, interval.end}, 0);
     const TickInterval piece = {begin, ends[depth - 1]};
     const Tick width = piece.end - piece.begin;
     const Polygon at_end = polygon(piece.end);
@@ -199,79 +189,41 @@ bool Search::clear(const TickInterval& interval) {
       continue;
     }
     const auto closest = closest_point(motion_.kind, at_begin);
-    const double share = separated_share(motion_, at_begin, at_end, closest.direction);
-    const bool makes_way = share > kFarShare && width > 1 && depth < kSplitDepth;
-    if (!makes_way && !precise_motion_) {
+    const auto reach = separated_reach(motion_, at_begin, at_end, closest);
+    const auto reached = static_cast<Tick>(reach.share * static_cast<double>(width));
+    if (reach.share > kFarShare && reached > 0 && reached < width) {
+      const Polygon at_reached = polygon(begin + reached);
+      if (separates(motion_, at_begin, at_reached, reach.direction)) {
+        separating_ = reach.direction;
+        begin += reached;
+        at_begin = at_reached;
+        continue;
+      }
+    }
+    if (!precise_motion_) {
       look_precisely();
       continue;
     }
     SELVAGE_ASSERT(depth + 2 <= ends.size());
+    const bool is_apart = reach.share > 0 && gap_upper(motion_, begin, at_begin, closest.weights) > kNoGap;
     if (signs.root && width > kNarrowWidth && depth < kSplitDepth) {
       // The tick of the root and its neighbours: the pieces beside these are then free of roots.
       const Tick at_root = begin + static_cast<Tick>(*signs.root * static_cast<double>(width));
       if (at_root + 2 < piece.end) ends[depth++] = at_root + 2;
       if (at_root > begin + 1) ends[depth++] = at_root - 1;
-    } else if (makes_way && !signs.root) {
-      separating_ = closest.direction;
-      ends[depth++] = begin + std::clamp(static_cast<Tick>(share * static_cast<double>(width)), Tick{1}, width - 1);
-    } else if (signs.root ? width > kNarrowWidth
-                          : width > 1 && (signs.nonzero_begin || gap_upper(begin, at_begin, closest) > kNoGap)) {
+    } else if (signs.root ? width > kNarrowWidth : width > 1 && (signs.nonzero_begin || is_apart)) {
       ends[depth++] = begin + width / 2;
-    } else if (const auto tick = first_contact(piece, at_begin, signs)) {
-      answer_contact(*tick);
+    } else if (is_contact(begin, at_begin, closest, signs)) {
+      answer_contact(result_, motion_, begin);
       return false;
     } else {
+      if (!clear_precisely(piece, signs.root.value_or(0))) return false;
       begin = piece.end;
       at_begin = at_end;
       --depth;
     }
   }
   return true;
-}
-
-/// The direction a little before `tick`, where the gap is wide enough that its bracket shows it to be good.
-Double3 Search::approach_normal(Tick tick) const {
-  constexpr double kGoodBracket = 1 - 0x1p-20;  // sin(angle) <= sqrt(1 - kGoodBracket^2) = 2^-9.5
-  for (const int back : {24, 36, 48, 52}) {
-    const Tick earlier = tick > (Tick{1} << back) ? tick - (Tick{1} << back) : 0;
-    const Polygon at = polygon(earlier);
-    const auto closest = closest_point(motion_.kind, at);
-    const double lower = distance_lower(motion_, at, closest);
-    if (earlier == 0 || lower > kGoodBracket * gap_upper(earlier, at, closest)) return closest.direction;
-  }
-  return {};
-}
-
-void Search::answer_contact(Tick tick) {
-  const Polygon at = polygon(tick);
-  const auto closest = closest_point(motion_.kind, at);
-  answer(tick, gap_upper(tick, at, closest), closest.weights, approach_normal(tick));
-}
-
-void Search::answer(Tick tick, double gap, const std::array<double, 4>& weights, const Double3& direction) {
-  result_.verdict = gap <= kAlarmGap ? CcdVerdict::kCollides : CcdVerdict::kUnresolved;
-  result_.cause = CcdCause::kMotion;
-  result_.toi_lower = time_of(tick);
-  result_.gap_bound = times_power_upper(gap, motion_.exponent);
-  result_.weights = weights;
-  if (!is_zero(direction)) result_.normal = to_vec3(scaled(1 / norm(direction), direction));
-}
-
-void Search::answer_end() {
-  result_.toi_lower = 1;
-  result_.cause = CcdCause::kNone;
-  result_.verdict = CcdVerdict::kSeparated;
-  if (options_.tolerance == 0) return;  // no touch at t = 1 is a distance above zero
-  const auto closest = closest_point(motion_.kind, motion_.t1);
-  const double lower = distance_lower(motion_, motion_.t1, closest);
-  if (times_power_lower(lower, motion_.exponent) > options_.tolerance) return;
-  result_.verdict = CcdVerdict::kCollides;
-  result_.cause = CcdCause::kEnd;
-  result_.gap_bound = times_power_upper(gap_upper(kTicks, motion_.t1, closest), motion_.exponent);
-  result_.weights = closest.weights;
-  if (!is_zero(closest.direction)) {
-    result_.normal = to_vec3(scaled(1 / norm(closest.direction), closest.direction));
-  }
 }
 
 CcdResult Search::run() {
@@ -289,7 +241,7 @@ CcdResult Search::run() {
     const Passage passage = has_cubic() ? pass_plane(piece) : Passage::kUnclear;
     if (passage == Passage::kThrough || (passage == Passage::kUnclear && !clear(piece))) return result_;
   }
-  answer_end();
+  answer_end(result_, motion_, options_.tolerance);
   return result_;
 }
 

@@ -18,13 +18,16 @@ double slope_at(const std::array<double, 4>& c, double t) {
   return 3 * (s * (s * a + t * b) + t * (s * b + t * d));
 }
 
-/// PROVED when true: the exact cubic has one root in the interval of these coefficients and passes through zero there.
-/// Its signs at the ends differ, and so Descartes' rule allows a second and third root only where the signs of all four
-/// coefficients alternate.
-bool has_single_root(const std::array<double, 4>& c, double bound) {
-  const bool rises = c[0] < -bound && c[3] > bound && (c[1] < -bound || c[2] > bound);
-  const bool falls = c[0] > bound && c[3] < -bound && (c[1] > bound || c[2] < -bound);
-  return rises || falls;
+/// PROVED when not 0: the exact cubic has at most one root in the interval of these coefficients, is below zero before
+/// it and above after it (1), or the other way round (-1). By Descartes' rule: whatever the signs of the coefficients
+/// that the bound leaves open, the four change sign at most once.
+int passage(const std::array<double, 4>& c, double bound) {
+  const auto rises = [bound](double c0, double c1, double c2, double c3) {
+    const bool below = c0 < -bound && c1<-bound, above = c2> bound && c3 > bound;
+    return (below && (c2 < -bound || c3 > bound)) || (above && (c1 > bound || c0 < -bound));
+  };
+  if (rises(c[0], c[1], c[2], c[3])) return 1;
+  return rises(-c[0], -c[1], -c[2], -c[3]) ? -1 : 0;
 }
 
 class Isolation {
@@ -38,7 +41,7 @@ class Isolation {
 
  private:
   void examine(const TickInterval& piece);
-  bool narrow_to_single_root(const TickInterval& piece, const std::array<double, 4>& local);
+  bool narrow_to_single_root(const TickInterval& piece, const std::array<double, 4>& local, int side_after);
   void emit(const TickInterval& piece);
 
   const CoplanarityCubic<double>& cubic_;
@@ -57,15 +60,16 @@ void Isolation::examine(const TickInterval& piece) {
   const Tick width = piece.end - piece.begin;
   const bool flat = least > -kFlatFactor * bound && greatest < kFlatFactor * bound;
   if (flat || width == 1) return emit(piece);
-  if (has_single_root(local, bound) && narrow_to_single_root(piece, local)) return;
+  const int side_after = passage(local, bound);
+  if (side_after != 0 && narrow_to_single_root(piece, local, side_after)) return;
   const Tick middle = piece.begin + width / 2;
   examine({piece.begin, middle});
   examine({middle, piece.end});
 }
 
-/// Guesses the root and a margin around it. Where the cubic has the sign that it has at an end of the piece, all up to
-/// that end is free of roots; if it has not, nothing is claimed.
-bool Isolation::narrow_to_single_root(const TickInterval& piece, const std::array<double, 4>& local) {
+/// Guesses the root and a margin around it. Where the cubic has the sign that it has on one side of its only root, all
+/// on that side is free of roots; where it has not, nothing is claimed.
+bool Isolation::narrow_to_single_root(const TickInterval& piece, const std::array<double, 4>& local, int side_after) {
   const double bound = cubic_.error_bound;
   const double root = root_fraction(local, 0.125 * bound);
   const double margin = 1.5 * bound / std::fabs(slope_at(local, root));
@@ -75,9 +79,9 @@ bool Isolation::narrow_to_single_root(const TickInterval& piece, const std::arra
   TickInterval inner = piece;
   if (first > 0) inner.begin += static_cast<Tick>(first);
   if (last < width) inner.end = piece.begin + static_cast<Tick>(last);
-  const double side = local[0] > 0 ? 1 : -1;
-  if (!(side * value_at(cubic_, time_of(inner.begin)) > bound)) return false;
-  if (!(-side * value_at(cubic_, time_of(inner.end)) > bound)) return false;
+  const auto proved = [this, bound](Tick tick, int side) { return side * value_at(cubic_, time_of(tick)) > bound; };
+  if (inner.begin > piece.begin && !proved(inner.begin, -side_after)) return false;
+  if (inner.end < piece.end && !proved(inner.end, side_after)) return false;
   emit(inner);
   return true;
 }

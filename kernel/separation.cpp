@@ -63,16 +63,20 @@ bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& be
 // n . D_j is linear in time; it must stay above its error bound, twice that to leave room for the rounding of the
 // split.
 template <class Real>
-double separated_share(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
-                       const DifferencePolygon<Real>& end, const Triple<Real>& n) {
-  const double error = 2 * support_error(n, motion.extent);
-  double share = 1;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(motion.kind)); ++i) {
-    const double first = leading(dot(n, begin.corner[i])) - error, last = leading(dot(n, end.corner[i])) - error;
-    if (!(first > 0)) return 0;
-    if (last < 0) share = std::min(share, first / (first - last));
-  }
-  return share;
+Reach<Real> separated_reach(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                            const DifferencePolygon<Real>& end, const ClosestPoint<Real>& closest) {
+  const auto share_of = [&](const Triple<Real>& n) {
+    const double error = 2 * support_error(n, motion.extent);
+    double share = 1;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(corner_count(motion.kind)); ++i) {
+      const double first = leading(dot(n, begin.corner[i])) - error, last = leading(dot(n, end.corner[i])) - error;
+      if (!(first > 0)) return 0.0;
+      if (last < 0) share = std::min(share, first / (first - last));
+    }
+    return share;
+  };
+  const double along = share_of(closest.direction), across = share_of(closest.plane_normal);
+  return along < across ? Reach<Real>{across, closest.plane_normal} : Reach<Real>{along, closest.direction};
 }
 
 template <class Real>
@@ -127,10 +131,10 @@ template bool separates(const PairMotion<double>&, const DifferencePolygon<doubl
                         const Double3&);
 template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
                         const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
-template double separated_share(const PairMotion<double>&, const DifferencePolygon<double>&,
-                                const DifferencePolygon<double>&, const Double3&);
-template double separated_share(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
-                                const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+template Reach<double> separated_reach(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                       const DifferencePolygon<double>&, const ClosestPoint<double>&);
+template Reach<DoubleDouble> separated_reach(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
+                                             const DifferencePolygon<DoubleDouble>&, const ClosestPoint<DoubleDouble>&);
 template bool winds_apart(const PairMotion<double>&, const DifferencePolygon<double>&,
                           const DifferencePolygon<double>&);
 template bool winds_apart(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,

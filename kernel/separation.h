@@ -36,10 +36,18 @@ template <class Real>
   return scaled(kWindingError<Real>, minors) + Double3{kUnderflowError, kUnderflowError, kUnderflowError};
 }
 
-/// The share of the time from `begin` to `end` during which n separates: a guess, in [0, 1].
+/// How far a direction that separates at the begin of an interval goes on separating.
 template <class Real>
-[[nodiscard]] double separated_share(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
-                                     const DifferencePolygon<Real>& end, const Triple<Real>& n);
+struct Reach {
+  double share = 0;  ///< of the interval, a guess in [0, 1]; 0: it does not separate at the begin
+  Triple<Real> direction;
+};
+/// The better of the two directions of `closest`, the closest point at the begin.
+template <class Real>
+[[nodiscard]] Reach<Real> separated_reach(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
+                                          const DifferencePolygon<Real>& end, const ClosestPoint<Real>& closest);
+/// A direction that separates a smaller share of an interval than this makes no better progress than halving.
+inline constexpr double kFarShare = 0.125;
 
 /// PROVED when true: no touch while t goes from the instant of `begin` to the instant of `end`. Touching features have
 /// the origin in their polygon, so that the cross products corner x edge around it are all multiples of one vector by
@@ -75,10 +83,12 @@ extern template bool separates(const PairMotion<double>&, const DifferencePolygo
                                const DifferencePolygon<double>&, const Double3&);
 extern template bool separates(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
                                const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
-extern template double separated_share(const PairMotion<double>&, const DifferencePolygon<double>&,
-                                       const DifferencePolygon<double>&, const Double3&);
-extern template double separated_share(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,
-                                       const DifferencePolygon<DoubleDouble>&, const Triple<DoubleDouble>&);
+extern template Reach<double> separated_reach(const PairMotion<double>&, const DifferencePolygon<double>&,
+                                              const DifferencePolygon<double>&, const ClosestPoint<double>&);
+extern template Reach<DoubleDouble> separated_reach(const PairMotion<DoubleDouble>&,
+                                                    const DifferencePolygon<DoubleDouble>&,
+                                                    const DifferencePolygon<DoubleDouble>&,
+                                                    const ClosestPoint<DoubleDouble>&);
 extern template bool winds_apart(const PairMotion<double>&, const DifferencePolygon<double>&,
                                  const DifferencePolygon<double>&);
 extern template bool winds_apart(const PairMotion<DoubleDouble>&, const DifferencePolygon<DoubleDouble>&,

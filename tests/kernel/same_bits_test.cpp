@@ -23,7 +23,7 @@ using Points = std::array<Vec3, 4>;
 
 namespace {
 
-constexpr std::uint64_t kGoldenHash = 0xac0570fd0a8f6316U;
+constexpr std::uint64_t kGoldenHash = 0xeecc8f78158c5a65U;
 
 /// FNV-1a over the bits of the values.
 class Hash {
