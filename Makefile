@@ -24,7 +24,7 @@ demo: build  ## simulate a curtain over a moving ball, check every frame and ste
 test: build  ## run all tests
 	ctest --preset release
 
-readers: build  ## open what Selvage writes with NumPy and VTK
+readers: build  ## open what Selvage writes with NumPy, VTK and Blender
 	@cmake/setup packages-readers.txt
 	ctest --preset release -R 'ForeignReaders|NumPy'
 

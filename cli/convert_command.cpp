@@ -136,6 +136,9 @@ ExitCode run(const ConvertArguments& arguments) {
                     "input: verify that",
                     format.name));
   }
+  if (arguments.motion && range.end - range.begin == 1) {
+    throw UsageError("--motion needs at least two frames, and there is one: no motion would be checked");
+  }
   std::optional<Conversion> conversion = write(*input, range, arguments);
   if (!conversion) {
     fmt::print(stderr, "selvage: interrupted; nothing was written\n");

@@ -58,6 +58,10 @@ TEST(ConvertCommand, EveryFormatKeepsTheVerdictAndSaysWhatItDoesNotKeep) {
   }
   EXPECT_EQ(io::open_sequence({folder.path() / "copy"})->time(2), 0.08);
   EXPECT_EQ(run_program(folder, {"verify", folder.path() / "a.pc2"}).exit_code, 0);
+  const auto motion =
+      run_program(folder, {"convert", folder.path() / "a.pc2", "-o", folder.path() / "c.npz", "--recheck", "--motion"});
+  EXPECT_EQ(motion.exit_code, 0) << motion.err;
+  expect_text(motion.out, "2 of 2 checked, 0 violated");  // asked for, though a PC2 claims no steps
   const auto pvd = run_program(folder, {"convert", folder.path() / "run", "-o", folder.path() / "a.pvd"});
   EXPECT_EQ(pvd.exit_code, 0) << pvd.err;
   EXPECT_TRUE(fs::exists(folder.path() / "a_000002.vtp"));
@@ -154,6 +158,7 @@ TEST(ConvertCommand, MistakesHaveTheirExitCodes) {
       {2, {run, "-o", folder.path() / "a.ply"}, "extension"},
       {2, {run, "-o", folder.path() / "a.pvd", "--recheck"}, "VTP is not read"},
       {2, {run, "-o", folder.path() / "b.npz", "--motion"}, "recheck"},
+      {2, {run, "-o", folder.path() / "b.npz", "--recheck", "--motion", "--frames", ":1"}, "at least two frames"},
       {3, {two, folder.path() / "three.obj", "-o", folder.path() / "b.npz"}, "change between frames"},
       {4, {folder.path() / "none", "-o", folder.path() / "b.npz"}, "none"},
       {4, {run, "-o", npz}, "is there already"},

@@ -1,11 +1,12 @@
 """What `selvage convert` writes, opened by readers that are not ours; what others write, read by it.
 
-usage: foreign_readers.py numpy|vtk PROGRAM
+usage: foreign_readers.py numpy|vtk|blender PROGRAM
 Exit code 77 (skipped) where the reader is not installed.
 """
 import importlib.util
 import json
 import os
+import shutil
 import struct
 import subprocess
 import sys
@@ -14,6 +15,9 @@ import unittest
 import xml.etree.ElementTree
 
 reader, program = sys.argv[1:3]
+if reader == "blender" and shutil.which("blender") is None:
+    print("skipped: no blender (packages-readers.txt names the Debian packages)")
+    sys.exit(77)
 for module in {"numpy", "vtk" if reader == "vtk" else "numpy"}:
     if importlib.util.find_spec(module) is None:
         print(f"skipped: Python has no {module} (packages-readers.txt names the Debian packages)")
@@ -167,5 +171,20 @@ class Vtk(Case):
                 self.assertTrue(same_bits(np.ascontiguousarray(group), self.group))
 
 
+class Blender(Case):
+    def test_cache_is_played_and_exported(self):
+        """Our PC2 through Blender's player and back through its exporters: the layouts are Blender's, not only ours."""
+        rounded = np.ldexp(np.random.default_rng(1).uniform(-1, 1, self.doubles.shape), -3).astype(np.float32)
+        convert(self.save(rounded.astype(np.float64)), "-o", self.path("cloth.pc2"))
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "blender_caches.py")
+        arguments = [self.path("cloth.obj"), self.path("cloth.pc2"), str(self.FRAMES), self.path("played")]
+        command = ["blender", "-b", "--factory-startup", "-noaudio", "-P", script, "--", *arguments]
+        subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        for name in ("played.pc2", "played.mdd"):
+            convert(self.path(name), "--base", self.path("cloth.obj"), "-o", self.path(name + ".npz"))
+            with np.load(self.path(name + ".npz")) as played:
+                self.assertTrue(same_bits(played["V"], rounded), name)
+
+
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "NumPy" if reader == "numpy" else "Vtk"])
+    unittest.main(argv=[sys.argv[0], {"numpy": "NumPy", "vtk": "Vtk", "blender": "Blender"}[reader]])
