@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers asan tsan clang coverage fuzz bench format tidy clean
+.PHONY: help setup build demo test readers asan tsan clang coverage docs fuzz bench format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -52,6 +52,10 @@ coverage: setup  ## line and branch coverage of the kernel and the checker
 
 fuzz: build  ## a minute of fuzzing against the exact checker
 	$(SELVAGE) fuzz --time 60s --artifacts build/artifacts
+
+docs:  ## the reference of the kernel's public API, in build/docs/html
+	@cmake/setup packages-docs.txt
+	cmake -DSOURCE=. -DOUTPUT=build/docs -P cmake/docs.cmake
 
 format:  ## rewrite the sources in the house style
 	@cmake/setup packages-clang.txt

@@ -11,21 +11,29 @@
 
 namespace selvage {
 
+/// A vertex and a face that does not hold it.
 struct VfCandidate {
-  VertexId vertex;
-  FaceId face;
+  VertexId vertex;  ///< the first in the order of pairs
+  FaceId face;      ///< the second
+  /// By vertex, then face.
   friend auto operator<=>(const VfCandidate&, const VfCandidate&) = default;
 };
-struct EeCandidate {  ///< a < b, no shared vertex
-  EdgeId a, b;
+/// Two edges without a common vertex.
+struct EeCandidate {
+  EdgeId a;  ///< the lower-numbered
+  EdgeId b;  ///< the higher-numbered
+  /// By a, then b.
   friend auto operator<=>(const EeCandidate&, const EeCandidate&) = default;
 };
+/// What a broad phase answers.
 struct Candidates {
-  std::vector<VfCandidate> vf;
-  std::vector<EeCandidate> ee;
+  std::vector<VfCandidate> vf;  ///< sorted, without repeats
+  std::vector<EeCandidate> ee;  ///< sorted, without repeats
+  /// Pair by pair.
   friend bool operator==(const Candidates&, const Candidates&) = default;
 };
 
+/// What counts as a candidate.
 struct CandidateOptions {
   /// Each feature's box is grown by half of this, rounded outward: pairs nearer than `reach` at any common box are
   /// found.

@@ -8,11 +8,13 @@
 
 namespace selvage {
 
+/// What the caller of a query chooses.
 struct CcdOptions {
   double tolerance = 1e-6;            ///< closest allowed distance at t = 1, in the caller's length unit; >= 0
   std::int32_t max_intervals = 4096;  ///< bound on the time intervals one query examines (K8)
 };
 
+/// What a query answers.
 enum class CcdVerdict : std::uint8_t {
   kSeparated,   ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
   kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]: 2^-39 of their size, or tolerance
@@ -28,8 +30,8 @@ enum class CcdCause : std::uint8_t {
 
 /// A separated answer carries no weights and no normal.
 struct CcdResult {
-  CcdVerdict verdict = CcdVerdict::kUnresolved;
-  CcdCause cause = CcdCause::kMotion;
+  CcdVerdict verdict = CcdVerdict::kUnresolved;  ///< what is proved
+  CcdCause cause = CcdCause::kMotion;            ///< why it is not `separated`
   double toi_lower = 0;                ///< PROVED: no touch in [0, toi_lower); 1 when separated or cause is kEnd
   double gap_bound = 0;                ///< length; PROVED for kCollides
   std::array<double, 4> weights = {};  ///< as in Proximity, at toi_lower (kMotion) or 1 (kEnd)

@@ -9,22 +9,29 @@
 
 namespace selvage {
 
+/// A pair that is not proved separated.
 struct Collision {
-  PairKind kind;
-  std::int32_t first, second;  ///< vertex, face | edge, edge | vertex, its own face
-  CcdResult ccd;
+  PairKind kind;        ///< what `first` and `second` number
+  std::int32_t first;   ///< vertex | edge | vertex
+  std::int32_t second;  ///< face | edge | the vertex's own face
+  CcdResult ccd;        ///< the query's answer
 };
+/// All collisions of a step.
 struct CollisionReport {
   std::vector<Collision> collisions;  ///< not separated; sorted by (kind, first, second)
   double toi_lower = 1;               ///< PROVED: no pair with an active vertex touches in [0, toi_lower)
-  /// Queries made of each kind, and the time intervals they examined: a deterministic measure of work.
-  std::int64_t vf_candidates = 0, ee_candidates = 0, self_candidates = 0, intervals = 0;
+  std::int64_t vf_candidates = 0;     ///< vertex-face queries made
+  std::int64_t ee_candidates = 0;     ///< edge-edge queries made
+  std::int64_t self_candidates = 0;   ///< queries made of vertices against their faces' opposite edges
+  std::int64_t intervals = 0;         ///< time intervals they examined: a deterministic measure of work
 };
+/// A pair that is near at one instant.
 struct PairProximity {
-  PairKind kind;
-  std::int32_t first, second;
+  PairKind kind;                     ///< kVf or kEe
+  std::int32_t first;                ///< vertex | edge
+  std::int32_t second;               ///< face | edge
   std::array<VertexId, 4> vertices;  ///< in the order of vf_proximity / ee_proximity
-  Proximity proximity;
+  Proximity proximity;               ///< the query's answer
 };
 
 /// The vertices of a pair in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, p} for kSelf.

@@ -19,6 +19,7 @@ class FpEnvGuard {
   bool repaired_;
 };
 
+/// What can be wrong with a thread's floating-point environment.
 enum FpEnvDefect : unsigned {
   kFpRounding = 1,    ///< not rounding to nearest
   kFpFlush = 2,       ///< subnormal results are flushed to zero

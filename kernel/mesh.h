@@ -8,9 +8,10 @@
 
 namespace selvage {
 
+/// What make_mesh() builds; not to be changed afterwards.
 struct Mesh {
-  std::int32_t vertex_count = 0;
-  std::vector<std::array<VertexId, 3>> faces;
+  std::int32_t vertex_count = 0;               ///< #V
+  std::vector<std::array<VertexId, 3>> faces;  ///< #F, corners in the caller's order
   /// Unique, edge[0] < edge[1], sorted by (larger, smaller) vertex: the numbering of the public query sets.
   std::vector<std::array<VertexId, 2>> edges;
   /// face_edges[f][k] is the edge opposite to corner k of face f.
@@ -18,9 +19,10 @@ struct Mesh {
   /// The face that reports a feature, so that no pair is reported twice: the lowest-numbered one that holds it.
   /// -1 for a vertex that no face holds: it is no part of the surface and takes part in nothing.
   std::vector<FaceId> vertex_owner;
-  std::vector<FaceId> edge_owner;
+  std::vector<FaceId> edge_owner;  ///< likewise; every edge has one
 };
 
+/// What can be wrong with what the caller passed; describe() says it in words.
 enum class InputError : std::uint8_t {
   kNone,
   kSizeMismatch,
