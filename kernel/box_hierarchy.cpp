@@ -16,50 +16,60 @@ namespace selvage {
 
 namespace {
 
-/// A tree by position is made anew when the clusters are this much larger than when it was made. Measured on a sheet
-/// that is sheared and crumpled: docs/broad-phase.md.
-constexpr double kSpreadMax = 1.25;
+/// The tree is chosen again when its boxes have this times the surface they had: queries then take about that much
+/// longer (docs/broad-phase.md), while making and choosing costs a third of a query once.
+constexpr double kGrowthMax = 1.5;
 
-/// How far the clusters reach: the sum over them of the extents of their own vertices at one instant. Neither the
-/// motion nor `reach` counts, which come and go between refits. Each sum is made in a fixed order (K7). An overflow to
-/// infinity, near kMaxCoordinate, is harmless: no tree is made anew.
-double spread(const FaceClusters& clusters, const PositionsRef& V) {
-  std::vector<double> extents(clusters.cluster_count());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, extents.size(), 256), [&](const auto& range) {
+/// What a query will cost with these clusters, up to a factor: the sum of the surfaces of their boxes (the chance that
+/// boxes of one size and any place meet; MacDonald and Booth 1990). Of the vertices they own alone, as they move from
+/// V_t0 to V_t1: all vertices once. The sum has a fixed order (K7). Near kMaxCoordinate it overflows, near subnormal
+/// coordinates it vanishes; either way a comparison is false and nothing is chosen again.
+double surface(const FaceClusters& clusters, const PositionsRef& V_t0, const PositionsRef& V_t1) {
+  constexpr std::size_t kGrainClusters = 256;  // some 20 us
+  std::vector<double> surfaces(clusters.cluster_count());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surfaces.size(), kGrainClusters), [&](const auto& range) {
     const FpEnvGuard guard;
     for (std::size_t c = range.begin(); c != range.end(); ++c) {
+      if (clusters.vertices.of(c).empty()) continue;
       Box box;
-      for (const VertexId v : clusters.vertices.of(c)) box.merge(vertex_box(V, V, v, 0));
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (box.lower[axis] <= box.upper[axis]) extents[c] += box.upper[axis] - box.lower[axis];
-      }
+      for (const VertexId v : clusters.vertices.of(c)) box.merge(vertex_box(V_t0, V_t1, v, 0));
+      const double x = box.upper[0] - box.lower[0], y = box.upper[1] - box.lower[1], z = box.upper[2] - box.lower[2];
+      surfaces[c] = x * y + y * z + z * x;
     }
   });
-  return std::accumulate(extents.begin(), extents.end(), 0.0);
+  return std::accumulate(surfaces.begin(), surfaces.end(), 0.0);
 }
 
 }  // namespace
 
 struct BoxHierarchy::Impl {
   Impl(const Mesh& own_mesh, HierarchyKind own_kind) : mesh(own_mesh), kind(own_kind) {
-    if (kind == HierarchyKind::kTopology) set_tree(make_face_tree(mesh));
+    if (kind != HierarchyKind::kSpatial) topology = make_face_clusters(mesh, make_face_tree(mesh));
   }
-  void set_tree(const FaceTree& tree) {
-    clusters = make_face_clusters(mesh, tree);
-    boxes.emplace(mesh, clusters);
-  }
-  void follow(const PositionsRef& V_t0, const PositionsRef& V_t1) {
-    if (boxes && !(spread(clusters, V_t0) > kSpreadMax * spread_when_made)) return;
-    set_tree(make_spatial_face_tree(mesh, V_t0, V_t1));
-    spread_when_made = spread(clusters, V_t0);
+  /// Sees to it that there is a tree, and a good one, for the motion from V_t0 to V_t1.
+  void choose(const PositionsRef& V_t0, const PositionsRef& V_t1) {
+    if (chosen != nullptr) {
+      if (kind == HierarchyKind::kTopology) return;
+      // At V_t0: how far a motion goes says nothing about the tree.
+      if (!(surface(*chosen, V_t0, V_t0) > kGrowthMax * surface_when_chosen)) return;
+    }
+    if (kind != HierarchyKind::kTopology) {
+      spatial = make_face_clusters(mesh, make_spatial_face_tree(mesh, V_t0, V_t1));
+    }
+    const bool by_position =
+        kind == HierarchyKind::kSpatial ||
+        (kind == HierarchyKind::kAutomatic && surface(spatial, V_t0, V_t1) < surface(topology, V_t0, V_t1));
+    chosen = by_position ? &spatial : &topology;
+    surface_when_chosen = surface(*chosen, V_t0, V_t0);
+    boxes.emplace(mesh, *chosen);
   }
 
   const Mesh& mesh;
   HierarchyKind kind;
-  FaceClusters clusters;
-  std::optional<FittedBoxes> boxes;  ///< none before a tree by position is made
-  double spread_when_made = 0;
-  bool fitted = false;
+  FaceClusters topology, spatial;        ///< empty where not needed
+  const FaceClusters* chosen = nullptr;  ///< one of them
+  double surface_when_chosen = 0;
+  std::optional<FittedBoxes> boxes;  ///< of the chosen one
 };
 
 BoxHierarchy::BoxHierarchy(const Mesh& mesh, HierarchyKind kind) : impl_(std::make_unique<Impl>(mesh, kind)) {}
@@ -70,15 +80,14 @@ BoxHierarchy& BoxHierarchy::operator=(BoxHierarchy&&) noexcept = default;
 void BoxHierarchy::refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options) {
   const FpEnvGuard guard;
   SELVAGE_ASSERT(V_t0.rows() == impl_->mesh.vertex_count && V_t1.rows() == impl_->mesh.vertex_count);
-  if (impl_->kind == HierarchyKind::kSpatial) impl_->follow(V_t0, V_t1);
-  impl_->boxes->refit(impl_->mesh, impl_->clusters, V_t0, V_t1, options);
-  impl_->fitted = true;
+  impl_->choose(V_t0, V_t1);
+  impl_->boxes->refit(impl_->mesh, *impl_->chosen, V_t0, V_t1, options);
 }
 
 Candidates BoxHierarchy::candidates() const {
   const FpEnvGuard guard;
-  SELVAGE_ASSERT(impl_->fitted);
-  return find_pairs(impl_->mesh, impl_->clusters, *impl_->boxes);
+  SELVAGE_ASSERT(impl_->boxes);
+  return find_pairs(impl_->mesh, *impl_->chosen, *impl_->boxes);
 }
 
 }  // namespace selvage

@@ -9,21 +9,25 @@ namespace selvage {
 
 /// How the tree over the faces is made. The candidates are the same; docs/broad-phase.md says what each costs.
 enum class HierarchyKind : std::uint8_t {
-  kSpatial,   ///< by position: made at the first refit, and anew when its clusters have spread by a quarter
-  kTopology,  ///< the paper's: adjacent nodes are paired greedily in alternating sweeps, from connectivity alone, once
+  kAutomatic,  ///< whichever of the two below has the smaller boxes: chosen at the first refit, and again as they grow
+  kSpatial,    ///< by position: made at the first refit, and again as its boxes grow
+  kTopology,   ///< the paper's: adjacent nodes are paired greedily in alternating sweeps, from connectivity alone, once
 };
 
+/// Finds the pairs whose boxes overlap, for one mesh and one motion after another.
 class BoxHierarchy {
  public:
   /// O(#F log #F). The mesh must outlive the hierarchy.
-  explicit BoxHierarchy(const Mesh& mesh, HierarchyKind kind = HierarchyKind::kSpatial);
-  explicit BoxHierarchy(Mesh&&, HierarchyKind = HierarchyKind::kSpatial) = delete;
+  explicit BoxHierarchy(const Mesh& mesh, HierarchyKind kind = HierarchyKind::kAutomatic);
+  explicit BoxHierarchy(Mesh&&, HierarchyKind = HierarchyKind::kAutomatic) = delete;
   ~BoxHierarchy();
+  /// What was moved from may only be destroyed or assigned to.
   BoxHierarchy(BoxHierarchy&&) noexcept;
+  /// As the constructor.
   BoxHierarchy& operator=(BoxHierarchy&&) noexcept;
 
   /// Boxes of the motion from V_t0 to V_t1 (pass one twice for an instant), grown as CandidateOptions says. O(#V + #F),
-  /// in parallel; where a tree by position is made anew, O(#F log #F).
+  /// in parallel; O(#F log #F) where the tree is made or chosen again.
   void refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options);
   /// Equal to find_candidates_brute_force for the last refit (K6), for any thread count (K7).
   [[nodiscard]] Candidates candidates() const;

@@ -15,7 +15,7 @@ namespace selvage {
 
 namespace {
 
-constexpr std::array kKinds = {HierarchyKind::kSpatial, HierarchyKind::kTopology};
+constexpr std::array kKinds = {HierarchyKind::kAutomatic, HierarchyKind::kSpatial, HierarchyKind::kTopology};
 
 void expect_counts(const char* scene, const char* frame_t0, const char* frame_t1, std::size_t vf, std::size_t ee) {
   const auto frames = testing::public_frames(scene, frame_t0, frame_t1);
@@ -29,6 +29,7 @@ void expect_counts(const char* scene, const char* frame_t0, const char* frame_t1
     EXPECT_EQ(found.back().ee.size(), ee);
   }
   EXPECT_EQ(found[0], found[1]);
+  EXPECT_EQ(found[0], found[2]);
 }
 
 /// A sheet of n by n squares whose corners are at `V` = position(i, j).
@@ -61,14 +62,15 @@ void expect_brute_force(const Mesh& mesh, const Positions& V_t0, const Positions
 
 }  // namespace
 
-/// K6 and K7: both hierarchies answer like brute force after every refit, with any number of threads. Positions change
+/// K6 and K7: every hierarchy answers like brute force after every refit, with any number of threads. Positions change
 /// so much between refits that the tree by position is made anew in most of them.
 TEST(BoxHierarchy, PropEqualsBruteForce) {
   testing::check_property(2000, 6, [] {
     const auto shape = testing::random_shape();
     RC_LOG() << shape << '\n';
     const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
-    std::array hierarchies = {BoxHierarchy(mesh, kKinds[0]), BoxHierarchy(mesh, kKinds[1])};
+    std::array hierarchies = {BoxHierarchy(mesh, kKinds[0]), BoxHierarchy(mesh, kKinds[1]),
+                              BoxHierarchy(mesh, kKinds[2])};
     const int thread_count = *rc::gen::element(1, 2, 3, 8);
     const int refit_count = *rc::gen::inRange(1, 4);
     for (int refit = 0; refit < refit_count; ++refit) {

@@ -99,7 +99,9 @@ bool same(const std::vector<Pair>& a, const std::vector<Pair>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Pair& x, const Pair& y) { return same(x, y); });
 }
 
-HierarchyKind random_kind() { return *rc::gen::element(HierarchyKind::kSpatial, HierarchyKind::kTopology); }
+HierarchyKind random_kind() {
+  return *rc::gen::element(HierarchyKind::kAutomatic, HierarchyKind::kSpatial, HierarchyKind::kTopology);
+}
 
 }  // namespace
 
