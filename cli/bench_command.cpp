@@ -8,6 +8,7 @@
 
 #include "bench/ccd_bench.h"
 #include "bench/query_bench.h"
+#include "cli/bench_broad_command.h"
 #include "cli/command.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
@@ -174,6 +175,7 @@ void add_bench_command(CLI::App& program, Job& job) {
       ->capture_default_str();
   queries.callback([arguments, &job] { job = [arguments] { return bench_queries(*arguments); }; });
   add_ccd_command(bench, job);
+  add_broad_command(bench, job);
 }
 
 }  // namespace selvage::cli
