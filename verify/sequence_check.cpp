@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "verify/check.h"
+#include "verify/fp_guard.h"
 
 namespace selvage::verify {
 namespace {
@@ -148,6 +149,7 @@ class SequenceCheck {
 }  // namespace
 
 SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options) {
+  const FpGuard guard;  // the readers convert numbers: a float32 or text that is subnormal, or rounds
   return SequenceCheck(sequence, options).run();
 }
 

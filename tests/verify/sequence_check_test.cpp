@@ -8,7 +8,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
 #include "io/sequence.h"
+#include "io/sequence_readers.h"
+#include "tests/io/point_cache_builder.h"
 #include "tests/public_data.h"
 #include "tests/verify/sheet.h"
 #include "verify/check.h"
@@ -239,5 +245,24 @@ TEST(SequenceCheck, CountsWhatCgalCountsInPublicSequences) {
     }
   }
 }
+
+#if defined(__x86_64__)
+/// The reader widens float32 to double; under "denormals are zero" a subnormal one would be read as zero.
+TEST(SequenceCheck, FramesAreReadUnderTheGuard) {
+  std::string cache = testing::pc2(6, 0, 1);
+  constexpr float kGap = 0x1p-149f;
+  for (const float x : {0.0f, 0.0f, 0.0f, 4.0f, 0.0f, 0.0f, 0.0f, 4.0f, 0.0f}) testing::append_bytes(cache, x, false);
+  for (const float x : {1.0f, 1.0f, kGap, 2.0f, 1.0f, kGap, 1.0f, 2.0f, kGap}) testing::append_bytes(cache, x, false);
+  io::MeshData base;
+  base.points.resize(6);
+  base.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const auto sequence = io::open_point_cache(io::in_memory(cache), io::PointCacheFormat::kPc2, base, "in");
+  const unsigned found = _mm_getcsr();
+  _mm_setcsr(found | 0x8040U);  // FTZ and DAZ, as a library built with -ffast-math leaves them
+  const SequenceReport report = check_sequence(*sequence, {});
+  _mm_setcsr(found);
+  EXPECT_EQ(report.verdict, Verdict::kClean);
+}
+#endif
 
 }  // namespace selvage::verify
