@@ -1,7 +1,7 @@
 #include "bench/ccd_methods.h"
 
 #include "bench/textbook.h"
-#include "kernel/collisions.h"
+#include "kernel/ccd_batch.h"
 
 namespace selvage::bench {
 namespace {
@@ -85,6 +85,19 @@ std::vector<Alarm> ask_exact(const MeshMotion& motion, const Pairs& pairs, Exact
   });
 }
 
+std::vector<Alarm> kernel(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
+                          const CcdOptions& options) {
+  const std::size_t count = kind == PairKind::kVf ? candidates.vf.size() : candidates.ee.size();
+  const CcdBatch batch(motion.mesh, motion.V_t0, motion.V_t1, options, count);
+  const BatchReport report = kind == PairKind::kVf ? batch.ask(candidates.vf) : batch.ask(candidates.ee);
+  std::vector<Alarm> alarms;
+  alarms.reserve(report.answers.size());
+  for (const BatchAnswer& answer : report.answers) {
+    alarms.push_back(
+        {answer.candidate, answer.ccd.toi_lower, answer.ccd.gap_bound, answer.ccd.verdict == CcdVerdict::kUnresolved});
+  }
+  return alarms;
+}
 std::vector<Alarm> kernel_scalar(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
                                  const CcdOptions& options) {
   return kind == PairKind::kVf ? ask_scalar(motion, candidates.vf, options, vf_ccd)
@@ -99,7 +112,8 @@ std::vector<Alarm> exact(PairKind kind, const MeshMotion& motion, const Candidat
                                : ask_exact(motion, candidates.ee, verify::exact_ee_motion);
 }
 
-constexpr std::array<CcdMethod, 3> kMethods{{{"kernel_scalar", kernel_scalar, true, true},
+constexpr std::array<CcdMethod, 4> kMethods{{{"kernel", kernel, true, true},
+                                             {"kernel_scalar", kernel_scalar, true, true},
                                              {"textbook", textbook, true, false},
                                              {"exact", exact, false, false}}};
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "bench/mesh_motion.h"
@@ -26,7 +27,8 @@ struct CcdMethod {
   bool gives_gap_bound;
 };
 
-/// kernel_scalar: vf_ccd and ee_ccd one by one. textbook: the baseline, one by one. exact: the checker's bare decision.
+/// kernel: CcdBatch on the whole list. kernel_scalar: vf_ccd and ee_ccd one by one. textbook: the baseline, one by one.
+/// exact: the checker's bare decision.
 [[nodiscard]] std::span<const CcdMethod> ccd_methods();
 
 /// Both ends of a candidate's motion as the checker takes them.

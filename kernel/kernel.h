@@ -1,5 +1,6 @@
 // kernel.h: the whole public API of the collision kernel, in the order data flows.
-//   F, V_t0, V_t1 --(make_mesh, validate)--> Mesh --(BoxHierarchy)--> Candidates --(vf_ccd, ee_ccd)--> CollisionReport
+//   F, V_t0, V_t1 --(make_mesh, validate)--> Mesh --(BoxHierarchy)--> Candidates --(CcdBatch)--> CollisionReport
+//   One pair at a time: vf_ccd, ee_ccd, self_ccd. A whole step at once: find_collisions.
 //   Positions    #V by 3 doubles in the caller's length unit; |coordinate| <= kMaxCoordinate.
 //   Trajectory   x(t) = (1 - t) x_t0 + t x_t1, t in [0, 1]: straight lines, nothing else.
 //   tolerance    a length the CALLER chooses; error_bound: a length the KERNEL proves. Never mixed in one name.
@@ -11,6 +12,7 @@
 #include "kernel/box_hierarchy.h"
 #include "kernel/candidates.h"
 #include "kernel/ccd.h"
+#include "kernel/ccd_batch.h"
 #include "kernel/collisions.h"
 #include "kernel/fp_env.h"
 #include "kernel/mesh.h"

@@ -66,4 +66,17 @@ inline constexpr double kBlossomError = 6.25 * kUnit<Real>;
 template <class Real>
 inline constexpr double kWindingError = (2 * kPointRoundings + 3.25) * kUnit<Real>;
 
+/// The cull in lanes projects the points themselves, in a scale in which every |coordinate| < 1; N = |n_x| + |n_y| +
+/// |n_z|. A direction n separates the features over a part of the step if, at both its ends, n . p > n . q for all
+/// vertices p of the first and q of the second: then it does so for all points, at all times between.
+///   points of a part, s x_t0 + t x_t1 with s and t exact: the product 1, the sum 1, so 2 u N along n;
+///   a projection: the product 1, the sums 2, so 3 u N;
+///   both for two points, and their difference, which is below 2 N: 12 u N.
+/// The bound (kLaneError + tolerance) N + kLaneSlack is computed with 4 roundings; what they may take off is in
+/// kLaneError and, for the tolerance, added beforehand. Euclidean: N >= |n|. Scaling the mesh, and every product, may
+/// lose 2^-1074, times factors below 2^10: kLaneSlack. Infinity and NaN in n make N so, and then prove nothing.
+inline constexpr double kLaneError = 16 * kUnitRoundoff;
+inline constexpr double kLaneSlack = kUnderflowError;
+inline constexpr double kLaneToleranceRounding = 1 + 0x1p-48;
+
 }  // namespace selvage::detail
