@@ -8,6 +8,7 @@
 
 #include "kernel/assert.h"
 #include "kernel/box.h"
+#include "kernel/ccd_batch.h"
 #include "kernel/fp_env.h"
 
 namespace selvage {
@@ -17,6 +18,8 @@ namespace {
 /// Items of one task. The blocks are the same for any number of threads, and so is the order of what they find (K7).
 /// 512 queries of some 50 ns cost far more than starting a task.
 constexpr std::size_t kBlockSize = 512;
+/// Candidates of one task: most of them cost 20 ns, and answers do not depend on the division (CcdBatch).
+constexpr std::size_t kBatchSize = 4096;
 
 /// Calls body(item, found) for items 0 .. count-1 and joins what the blocks found in order.
 template <typename Found, typename Body>
@@ -46,12 +49,9 @@ class CollisionFinder {
   CollisionReport find(const Candidates& candidates) {
     report_.vf_candidates = static_cast<std::int64_t>(candidates.vf.size());
     report_.ee_candidates = static_cast<std::int64_t>(candidates.ee.size());
-    join(for_each_block<Block>(candidates.vf.size(), [&](std::size_t i, Block& block) {
-      query(PairKind::kVf, candidates.vf[i].vertex, candidates.vf[i].face, block);
-    }));
-    join(for_each_block<Block>(candidates.ee.size(), [&](std::size_t i, Block& block) {
-      query(PairKind::kEe, candidates.ee[i].a, candidates.ee[i].b, block);
-    }));
+    const CcdBatch batch(mesh_, V_t0_, V_t1_, options_, candidates.vf.size() + candidates.ee.size());
+    ask(batch, PairKind::kVf, candidates.vf);
+    ask(batch, PairKind::kEe, candidates.ee);
     const auto self_begin = static_cast<std::ptrdiff_t>(report_.collisions.size());
     join(for_each_block<Block>(mesh_.faces.size(), [&](std::size_t f, Block& block) { query_face(f, block); }));
     std::sort(report_.collisions.begin() + self_begin, report_.collisions.end(),
@@ -65,22 +65,26 @@ class CollisionFinder {
     std::int64_t intervals = 0, self_candidates = 0;
   };
 
-  void query(PairKind kind, std::int32_t first, std::int32_t second, Block& block) const {
-    const auto vertices = pair_vertices(mesh_, kind, first, second);
-    CcdResult ccd;
-    switch (kind) {
-      case PairKind::kVf:
-        ccd = vf_ccd(points<4>(V_t0_, vertices), points<4>(V_t1_, vertices), options_);
-        break;
-      case PairKind::kEe:
-        ccd = ee_ccd(points<4>(V_t0_, vertices), points<4>(V_t1_, vertices), options_);
-        break;
-      case PairKind::kSelf:
-        ccd = self_ccd(points<3>(V_t0_, vertices), points<3>(V_t1_, vertices), options_);
-        break;
-    }
+  template <typename Pair>
+  void ask(const CcdBatch& batch, PairKind kind, const std::vector<Pair>& candidates) {
+    std::vector<Block> blocks((candidates.size() + kBatchSize - 1) / kBatchSize);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+      const auto pairs = std::span(candidates).subspan(b * kBatchSize);
+      const BatchReport report = batch.ask(pairs.first(std::min(kBatchSize, pairs.size())));
+      for (const BatchAnswer& answer : report.answers) {
+        const auto [first, second] = pairs[answer.candidate];
+        blocks[b].collisions.push_back({kind, first, second, answer.ccd});
+      }
+      blocks[b].intervals = report.intervals;
+    });
+    join(blocks);
+  }
+
+  void query_self(VertexId vertex, FaceId face, Block& block) const {
+    const auto vertices = pair_vertices(mesh_, PairKind::kSelf, vertex, face);
+    const CcdResult ccd = self_ccd(points<3>(V_t0_, vertices), points<3>(V_t1_, vertices), options_);
     block.intervals += ccd.intervals;
-    if (ccd.verdict != CcdVerdict::kSeparated) block.collisions.push_back({kind, first, second, ccd});
+    if (ccd.verdict != CcdVerdict::kSeparated) block.collisions.push_back({PairKind::kSelf, vertex, face, ccd});
   }
 
   /// Each corner of the face against the opposite edge.
@@ -93,7 +97,7 @@ class CollisionFinder {
     for (std::size_t k = 0; k < 3; ++k) {
       if (!overlap(boxes[k], united(boxes[(k + 1) % 3], boxes[(k + 2) % 3]))) continue;
       ++block.self_candidates;
-      query(PairKind::kSelf, corners[k], static_cast<FaceId>(f), block);
+      query_self(corners[k], static_cast<FaceId>(f), block);
     }
   }
 
