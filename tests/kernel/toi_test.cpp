@@ -8,10 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "io/query_csv.h"
-#include "kernel/ccd.h"
+#include "tests/kernel/exact_answer.h"
 #include "tests/kernel/random_points.h"
 #include "tests/public_data.h"
-#include "verify/exact_motion.h"
 
 namespace selvage {
 
@@ -20,25 +19,17 @@ using Points = std::array<Vec3, 4>;
 
 namespace {
 
-constexpr CcdOptions kNoTolerance{0, 4096};
-
-std::array<verify::Point, 4> raw(const Points& x) {
-  std::array<verify::Point, 4> result;
-  for (std::size_t i = 0; i < 4; ++i) result[i] = {x[i][0], x[i][1], x[i][2]};
-  return result;
-}
-
 /// How early toi_lower is over many contacts, as shares of the step.
 class Earliness {
  public:
   void note(PairKind kind, const Points& x_t0, const Points& x_t1) {
     const bool is_vf = kind == PairKind::kVf;
-    const auto decide = is_vf ? verify::exact_vf_motion : verify::exact_ee_motion;
-    const verify::MotionAnswer truth = decide(raw(x_t0), raw(x_t1), verify::Detail::kFirstTime);
-    const CcdResult result = is_vf ? vf_ccd(x_t0, x_t1, kNoTolerance) : ee_ccd(x_t0, x_t1, kNoTolerance);
-    EXPECT_EQ(result.verdict == CcdVerdict::kSeparated, !truth.touches);
-    if (!truth.touches || result.verdict == CcdVerdict::kSeparated) return;
-    EXPECT_GE(verify::compare_first_touch(raw(x_t0), raw(x_t1), is_vf, result.toi_lower), 0) << "late";
+    const verify::MotionAnswer truth = testing::exact_answer(kind, x_t0, x_t1, verify::Detail::kFirstTime);
+    const CcdResult result = testing::kernel_answer(kind, x_t0, x_t1);
+    EXPECT_EQ(result.verdict, truth.touches ? CcdVerdict::kCollides : CcdVerdict::kSeparated);
+    if (!truth.touches) return;
+    EXPECT_GE(verify::compare_first_touch(testing::raw(x_t0), testing::raw(x_t1), is_vf, result.toi_lower), 0)
+        << "late";
     early_.push_back(truth.first.upper_approx - result.toi_lower);
   }
 
@@ -68,10 +59,11 @@ TEST(TimeOfImpact, OfConstructedSimpleRootsIsTight) {
   Random random(81);
   Earliness earliness;
   for (int i = 0; i < 3000; ++i) {
-    // Two features that meet inside both, about the origin at a random time, under a motion short or long.
+    // Two features that meet inside both at a random time, small or large beside their motion.
     const PairKind kind = i % 2 == 0 ? PairKind::kVf : PairKind::kEe;
+    const double size = std::ldexp(1.0, -random.integer(0, 6));
     Points x;
-    for (Vec3& p : x) p = detail::to_vec3(random.point());
+    for (Vec3& p : x) p = size * detail::to_vec3(random.point());
     const auto weight = [&random] { return 0.1 + 0.4 * std::fabs(random.uniform()); };
     const double wa = weight(), wb = weight();
     if (kind == PairKind::kVf) {
