@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/ccd.h"
+#include "kernel/fp_env.h"
 #include "kernel/proximity.h"
 #include "tests/kernel/random_points.h"
 
@@ -67,6 +68,7 @@ struct Query {
 
 /// Far and near, generic and on the lattice, at all scales: built from integers and powers of two alone.
 std::vector<Query> queries() {
+  const FpEnvGuard guard;  // the queries themselves must not depend on the caller's environment
   Random random(61);
   std::vector<Query> result(3000);
   for (Query& query : result) {
