@@ -58,7 +58,8 @@ int sign_at(const Polynomial& polynomial, const Time& t) {
   if (kernel.is_zero_at_1_object()(polynomial, t)) return 0;
   // A bound of the derivative on [-1,2], where the approximations are: the sum of i |c_i| 2^(i-1).
   CGAL::Gmpz slope = 0, power = 1;
-  for (int i = 1; i <= CGAL::degree(polynomial); ++i, power *= 2) slope += CGAL::abs(polynomial[i]) * power * i;
+  for (int i = 1; i <= CGAL::degree(polynomial); ++i, power *= 2)
+    slope += CGAL::abs(polynomial[static_cast<unsigned>(i)]) * power * i;
   for (int bits = 16;; bits *= 2) {
     const auto [low, high] = kernel.approximate_absolute_1_object()(t, bits);
     const Kernel::Bound value = polynomial.evaluate(low);
