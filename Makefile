@@ -2,10 +2,10 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers asan tsan clang coverage docs fuzz bench format tidy clean
+.PHONY: help setup build demo test readers asan tsan clang coverage docs same-bits fuzz bench format tidy clean
 
 help:  ## this list
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
 
 setup:  ## install the Debian packages that are missing
 	@cmake/setup packages.txt
@@ -56,6 +56,12 @@ fuzz: build  ## a minute of fuzzing against the exact checker
 docs:  ## the reference of the kernel's public API, in build/docs/html
 	@cmake/setup packages-docs.txt
 	cmake -DSOURCE=. -DOUTPUT=build/docs -P cmake/docs.cmake
+
+SAME_BITS_FLAGS := -O0 -O2 -O3 "-O2 -march=native"
+same-bits: setup  ## one hash of all answers for two compilers and their flags, every SIMD target and 1 to 8 threads
+	@cmake/setup packages-clang.txt
+	legs=$$(for c in g++ clang++-14; do for f in $(SAME_BITS_FLAGS); do printf '%s %s;' $$c "$$f"; done; done); \
+	  cmake -DSOURCE=. -DWORK=build/same_bits "-DLEGS=$$legs" -P tests/house/same_bits.cmake
 
 format:  ## rewrite the sources in the house style
 	@cmake/setup packages-clang.txt
