@@ -14,10 +14,12 @@
 
 namespace selvage {
 
+/// A pair that is not separated.
 struct BatchAnswer {
   std::size_t candidate;  ///< its place in the list
-  CcdResult ccd;
+  CcdResult ccd;          ///< as its single query answers
 };
+/// What a list comes to.
 struct BatchReport {
   std::vector<BatchAnswer> answers;  ///< not separated, ascending
   std::int64_t searched = 0;         ///< pairs that the cull left to single queries
@@ -35,6 +37,7 @@ class CcdBatch {
 
   /// REQUIRES candidates of the mesh. Fastest where neighbours in the list share their first feature.
   [[nodiscard]] BatchReport ask(std::span<const VfCandidate> candidates) const;
+  /// Likewise.
   [[nodiscard]] BatchReport ask(std::span<const EeCandidate> candidates) const;
 
  private:

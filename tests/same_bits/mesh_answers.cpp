@@ -43,6 +43,15 @@ void add(Hash& hash, const Candidates& candidates) {
   for (const auto& [a, b] : candidates.ee) hash.add(std::int64_t{a} << 32 | b);
 }
 
+void add(Hash& hash, const BatchReport& report) {
+  for (const auto& [candidate, ccd] : report.answers) {
+    hash.add(static_cast<std::int64_t>(candidate));
+    hash.add(ccd);
+  }
+  hash.add(report.searched);
+  hash.add(report.intervals);
+}
+
 void add(Hash& hash, const CollisionReport& report) {
   for (const Collision& collision : report.collisions) {
     hash.add(static_cast<std::int64_t>(collision.kind));
@@ -81,6 +90,11 @@ void add_mesh_answers(Hash& hash) {
         add(hash, hierarchy.candidates());
       }
       const CcdOptions options = {0.001 * size, 64};
+      hierarchy.refit(V_t0, V_t1, {options.tolerance, {}});
+      const Candidates candidates = hierarchy.candidates();
+      const CcdBatch batch(mesh, V_t0, V_t1, options, candidates.vf.size() + candidates.ee.size());
+      add(hash, batch.ask(candidates.vf));
+      add(hash, batch.ask(candidates.ee));
       add(hash, find_collisions(mesh, hierarchy, V_t0, V_t1, options, active));
       add(hash, find_proximities(mesh, hierarchy, V_t1, 0.1 * size));
     }
