@@ -1,8 +1,10 @@
 #include "cli/self_check.h"
 
 #include <array>
+#include <cmath>
 
 #include "kernel/ccd.h"
+#include "kernel/fp_env.h"
 #include "verify/exact_motion.h"
 #include "verify/exact_overlap.h"
 
@@ -43,19 +45,10 @@ constexpr Question kQuestions[] = {
     {"huge gap", true, kHuge, above(300), above(200), false, ""},
 };
 
-/// Powers of two by their bits: under flush to zero a product would already be wrong here.
+/// Exact: made under a guard, because under flush to zero the question itself would be another.
 double scaled(int integer, int exponent) {
-  if (integer == 0) return 0;
-  const bool is_negative = integer < 0;
-  auto mantissa = static_cast<std::uint64_t>(is_negative ? -integer : integer);
-  std::uint64_t bits = mantissa;  // of a subnormal with the unit 2^-1074
-  if (exponent != kSubnormal) {
-    int top = 0;
-    while (mantissa >> (top + 1) != 0) ++top;
-    bits = static_cast<std::uint64_t>(exponent + top + 1023) << 52 |
-           (mantissa << (52 - top) & ((std::uint64_t{1} << 52) - 1));
-  }
-  return __builtin_bit_cast(double, bits | (is_negative ? std::uint64_t{1} << 63 : 0));
+  const FpEnvGuard guard;
+  return std::ldexp(integer, exponent);
 }
 
 std::array<verify::Point, 4> exact_points(const Corners& corners, int exponent) {
