@@ -7,10 +7,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/sequence.h"
 #include "verify/exact_motion.h"
+#include "verify/group_rules.h"
 #include "verify/topology.h"
 
 namespace selvage::verify {
@@ -26,8 +28,12 @@ struct Violation {
   std::string kind;
   /// vertex, face | edge, edge | face, face | vertex, its face. Edges are numbered as in Topology.
   std::array<std::int32_t, 2> features{};
-  std::array<std::int32_t, 6> vertices{};  ///< their vertices, -1 where there are fewer than six
-  ExactTime t;                             ///< motions only
+  /// Their vertices, -1 where there are fewer than six. Self: the vertex, then the opposite edge.
+  std::array<std::int32_t, 6> vertices{};
+  ExactTime t;                    ///< motions only
+  std::vector<Point> x_t0, x_t1;  ///< of the vertices, as stored: these bits are the case; the same twice for a frame
+  std::vector<Point> at_touch;    ///< at the first touch, rounded: where to look
+  std::string case_file;          ///< where the case was written, if it was
 };
 
 struct PairCounts {
@@ -46,7 +52,8 @@ struct ViolationCounts {
 struct CheckResult {
   PairCounts pairs;
   ViolationCounts violations_total;
-  std::vector<Violation> violations;  ///< the first max_violations in (event, features) order
+  std::vector<Violation> violations;   ///< the first max_violations in (event, features) order
+  std::vector<std::int64_t> exempted;  ///< pairs left out, by exemption of the surface; trailing zeros may be missing
 };
 
 struct CheckOptions {
@@ -71,12 +78,26 @@ struct CheckOptions {
 
 enum class Verdict : std::uint8_t { kClean, kViolated, kUnknown };
 
+struct SequenceReport;
+
 struct SequenceOptions {
   CheckOptions check;
   bool frames = true, motions = true;
   /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown.
   std::function<bool(std::size_t, std::size_t)> progress;
+  GroupRules rules;
+  bool weld = false;  ///< vertices with the same bits in every frame are one; reads the whole sequence beforehand
+  /// The frames to check, with the motions that lead to them, [first, second); nothing: all. Part of a sequence.
+  std::optional<std::pair<std::size_t, std::size_t>> range;
+  /// What an earlier call gave to `checkpoint`, with the same sequence and options: its frames are not checked again.
+  /// Throws io::Error where the sequence is another one.
+  const SequenceReport* resume_from = nullptr;
+  /// Called after every frame with the report so far.
+  std::function<void(const SequenceReport&)> checkpoint;
 };
+
+/// Two reports are about one sequence if these are equal: the number of frames, faces, first and last frame.
+[[nodiscard]] std::string sequence_identity(const io::SequenceReader& sequence);
 
 struct SequenceReport {
   Verdict verdict = Verdict::kUnknown;
@@ -84,9 +105,17 @@ struct SequenceReport {
     std::int64_t checked = 0, violated = 0;
   } frames, motions;
   std::int64_t frames_expected = 0, motions_expected = 0;  ///< clean needs checked == expected (V3)
+  std::string sequence;                                    ///< sequence_identity()
+  std::int64_t frame_count = 0;                            ///< of the sequence
+  std::int64_t first_frame = 0, end_frame = 0;             ///< what this report is about: all, or a part
+  /// CRC-32 of the positions of frames first_frame, ..., as far as they were checked, and of the frame before: they tie
+  /// the verdict to the bits, and parts to each other.
+  std::vector<std::uint32_t> frame_crc32;
+  std::optional<std::uint32_t> crc32_before;
   PairCounts pairs;
   ViolationCounts violations_total;
   std::vector<Violation> violations;
+  std::int64_t max_violations = 0;     ///< CheckOptions::max_violations
   std::vector<std::string> unchecked;  ///< what was to be checked and was not, and why: never clean
   io::Precision precision = io::Precision::kFloat64;
   double largest_coordinate = 0;           ///< magnitude, over all frames
@@ -94,10 +123,28 @@ struct SequenceReport {
   std::int64_t unreferenced_vertices = 0;  ///< no part of any face: not checked, and said so; of the last frame
   std::int64_t body_faces = 0;             ///< of the last frame
   bool bodies_checked = false;             ///< CheckOptions::check_bodies
+  struct Exempted {
+    std::array<std::string, 2> groups;
+    std::int64_t pairs = 0;  ///< left out; a pair that several exemptions cover counts under the first
+  };
+  std::vector<Exempted> exempted;  ///< as GroupRules::exempt
+  struct Ignored {
+    std::string group;
+    std::int64_t faces = 0;  ///< of the last frame
+  };
+  std::vector<Ignored> ignored;  ///< as GroupRules::ignore
+  struct Welded {
+    std::int64_t vertices = 0;         ///< joined to another: so many fewer there are
+    std::int64_t collapsed_faces = 0;  ///< two corners became one: a violation in every frame
+  };
+  std::optional<Welded> welded;  ///< where asked for
   double seconds = 0;
 };
 
-/// Throws io::Error on unreadable input: never a verdict on part of it.
+/// From the counts alone (V3): violated, or clean where all that was expected was checked, or unknown.
+[[nodiscard]] Verdict verdict_of(const SequenceReport& report);
+
+/// Throws io::Error on unreadable input: never a verdict on part of it; GroupRuleError on rules that do not fit.
 [[nodiscard]] SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options);
 
 }  // namespace selvage::verify

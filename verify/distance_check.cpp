@@ -43,6 +43,7 @@ void check_distances(const Topology& topology, std::span<const Point> V, double 
                          [&](std::int32_t v, std::int32_t f, Tally& chunk) {
                            const auto& [a, b, c] = topology.triangles[at(f)];
                            if (v == a || v == b || v == c) return;
+                           if (chunk.is_exempt(topology, topology.vertex_labels, v, topology.face_labels, f)) return;
                            ++chunk.pairs.vf;
                            const std::array<Point, 4> x = {V[at(v)], V[at(a)], V[at(b)], V[at(c)]};
                            record(chunk, EventKind::kVf, v, f, triage_vf_farther(x, distance),
@@ -54,6 +55,7 @@ void check_distances(const Topology& topology, std::span<const Point> V, double 
                        const auto& [a, b] = topology.edges[at(e)];
                        const auto& [c, d] = topology.edges[at(f)];
                        if (a == c || a == d || b == c || b == d) return;
+                       if (chunk.is_exempt(topology, topology.edge_labels, e, topology.edge_labels, f)) return;
                        ++chunk.pairs.ee;
                        const std::array<Point, 4> x = {V[at(a)], V[at(b)], V[at(c)], V[at(d)]};
                        record(chunk, EventKind::kEe, e, f, triage_ee_farther(x, distance),

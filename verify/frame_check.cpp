@@ -43,6 +43,8 @@ class FrameCheck {
       const PartTrees faces(topology_.faces, lattice, [&](std::int32_t f) { return bounding_box(corners(f)); });
       faces.tally_within(options_.check_bodies, options_.max_violations, tally_,
                          [&](std::int32_t f, std::int32_t g, Tally& tally) {
+                           const std::vector<Label>& labels = topology_.face_labels;
+                           if (tally.is_exempt(topology_, labels, f, labels, g)) return;
                            ++tally.pairs.overlap;
                            if (!slabs.triage_apart(f, g)) check_pair(f, g, tally);
                          });
@@ -89,8 +91,11 @@ class FrameCheck {
   }
 
   CheckResult result() const {
-    CheckResult result{tally_.pairs, tally_.violations(), {}};
-    for (const Hit& hit : tally_.first_hits()) result.violations.push_back(describe(topology_, hit));
+    CheckResult result{tally_.pairs, tally_.violations(), {}, tally_.exempted()};
+    for (const Hit& hit : tally_.first_hits()) {
+      result.violations.push_back(describe(topology_, hit));
+      set_positions(result.violations.back(), V_, V_);
+    }
     return result;
   }
 

@@ -21,7 +21,7 @@ class MotionCheck {
     if (!V_t0_.empty()) check_pairs();
     check_faces(topology_.faces.cloth);
     if (options_.check_bodies) check_faces(topology_.faces.body);
-    CheckResult result{tally_.pairs, tally_.violations(), {}};
+    CheckResult result{tally_.pairs, tally_.violations(), {}, tally_.exempted()};
     for (const Hit& hit : tally_.first_hits()) result.violations.push_back(timed(hit));
     return result;
   }
@@ -62,9 +62,7 @@ class MotionCheck {
   }
   /// A corner of a face, then the edge opposite it.
   Vertices<3> self_vertices(std::int32_t v, std::int32_t f) const {
-    const auto& [a, b, c] = topology_.triangles[at(f)];
-    if (v == a) return {a, b, c};
-    return v == b ? Vertices<3>{b, c, a} : Vertices<3>{c, a, b};
+    return corner_first(topology_.triangles[at(f)], v);
   }
 
   MotionAnswer ask(EventKind event, std::int32_t i, std::int32_t j, Detail detail) const {
@@ -93,6 +91,8 @@ class MotionCheck {
                          if (f < e) std::swap(e, f);
                          const auto [a, b, c, d] = ee_vertices(e, f);
                          if (a == c || a == d || b == c || b == d) return;
+                         const std::vector<Label>& labels = topology_.edge_labels;
+                         if (tally.is_exempt(topology_, labels, e, labels, f)) return;
                          ++tally.pairs.ee;
                          decide(EventKind::kEe, e, f, tally);
                        });
@@ -103,6 +103,9 @@ class MotionCheck {
                            [&](std::int32_t v, std::int32_t f, Tally& tally) {
                              const auto& [a, b, c] = topology_.triangles[at(f)];
                              if (v == a || v == b || v == c) return;
+                             if (tally.is_exempt(topology_, topology_.vertex_labels, v, topology_.face_labels, f)) {
+                               return;
+                             }
                              ++tally.pairs.vf;
                              decide(EventKind::kVf, v, f, tally);
                            });
@@ -121,6 +124,7 @@ class MotionCheck {
     Violation violation = describe(topology_, hit);
     violation.motion = true;
     violation.t = ask(hit.event, hit.features[0], hit.features[1], Detail::kFirstTime).first;
+    set_positions(violation, V_t0_, V_t1_);
     return violation;
   }
 

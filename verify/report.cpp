@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
-
 namespace selvage::verify {
 namespace {
-
-using Json = nlohmann::ordered_json;  // keys stay in the order of writing: the verdict is on top
 
 std::string number(double x) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.17g", x);
-  return buffer;
-}
-
-std::string hex_float(double x) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%a", x);
   return buffer;
 }
 
@@ -29,23 +19,6 @@ std::vector<std::int32_t> vertices(const Violation& violation) {
     if (v >= 0) used.push_back(v);
   }
   return used;
-}
-
-Json to_json(const Violation& violation) {
-  Json json = {{"frame", violation.frame},
-               {"unit", violation.motion ? "motion" : "frame"},
-               {"event", name_of(violation.event)},
-               {"kind", violation.kind},
-               {"features", violation.features},
-               {"vertices", vertices(violation)},
-               {"t", nullptr}};
-  if (violation.motion) {
-    json["t"] = {{"lower", violation.t.lower},
-                 {"upper", violation.t.upper},
-                 {"lower_number", violation.t.lower_approx},
-                 {"upper_number", violation.t.upper_approx}};
-  }
-  return json;
 }
 
 std::string feature_names(const Violation& violation) {
@@ -70,7 +43,9 @@ std::string line(const Violation& violation, const ReportContext& context) {
             number(violation.t.upper_approx) + "]";
   }
   text += std::string(": ") + name_of(violation.event) + " " + violation.kind + ", " + feature_names(violation);
-  return text + " [" + frame_name(violation.frame) + "]\n";
+  text += " [" + frame_name(violation.frame) + "]\n";
+  if (!violation.case_file.empty()) text += "    selvage replay " + violation.case_file + "\n";
+  return text;
 }
 
 }  // namespace
@@ -103,7 +78,12 @@ const char* name_of(EventKind event) {
 
 std::string text_report(const SequenceReport& report, const ReportContext& context, std::size_t max_listed) {
   const auto count = [](std::int64_t n) { return std::to_string(n); };
-  std::string text = std::string(name_of(report.verdict)) + "\n";
+  std::string text = name_of(report.verdict);
+  if (report.first_frame > 0 || report.end_frame < report.frame_count) {
+    text += " (a part: frames " + count(report.first_frame) + " to " + count(report.end_frame - 1) + " of " +
+            count(report.frame_count) + ")";
+  }
+  text += "\n";
   text += "frames:     " + count(report.frames.checked) + " of " + count(report.frames_expected) + " checked, " +
           count(report.frames.violated) + " violated\n";
   text += "motions:    " + count(report.motions.checked) + " of " + count(report.motions_expected) + " checked, " +
@@ -123,53 +103,23 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
     text += "note:       " + count(report.body_faces) + " faces belong to bodies; bodies are not checked against " +
             "each other or themselves (--bodies does)\n";
   }
+  for (const auto& [groups, pairs] : report.exempted) {
+    text += "exempted:   " + count(pairs) + " pairs of \"" + groups[0] + "\" and \"" + groups[1] + "\"\n";
+  }
+  for (const auto& [group, faces] : report.ignored) {
+    text += "ignored:    " + count(faces) + " faces of \"" + group + "\"\n";
+  }
+  if (report.welded) {
+    text += "welded:     " + count(report.welded->vertices) +
+            " vertices joined to another at the same place in every " + "frame; " +
+            count(report.welded->collapsed_faces) + " faces lost a corner and are degenerate\n";
+  }
   for (const std::string& what : report.unchecked) text += "unchecked:  " + what + "\n";
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
   const std::int64_t left_out = report.violations_total.total() - static_cast<std::int64_t>(listed);
   if (left_out > 0) text += "  and " + count(left_out) + " more (--max-violations lists more)\n";
   return text;
-}
-
-std::string json_report(const SequenceReport& report, const ReportContext& context) {
-  Json json;
-  json["schema"] = kReportSchema;
-  json["program"] = context.program;
-  json["sources"] = context.sources;
-  json["verdict"] = name_of(report.verdict);
-  json["frames"] = {
-      {"checked", report.frames.checked}, {"violated", report.frames.violated}, {"expected", report.frames_expected}};
-  json["motions"] = {{"checked", report.motions.checked},
-                     {"violated", report.motions.violated},
-                     {"expected", report.motions_expected}};
-  json["pairs"] = {{"vf", report.pairs.vf},
-                   {"ee", report.pairs.ee},
-                   {"overlap", report.pairs.overlap},
-                   {"self", report.pairs.self},
-                   {"exact", report.pairs.exact}};
-  json["violations_total"] = {{"vf", report.violations_total.vf},
-                              {"ee", report.violations_total.ee},
-                              {"overlap", report.violations_total.overlap},
-                              {"self", report.violations_total.self}};
-  json["violations"] = Json::array();
-  for (const Violation& violation : report.violations) {
-    Json entry = to_json(violation);
-    const auto frame = static_cast<std::size_t>(violation.frame);
-    if (frame < context.frame_names.size()) entry["frame_name"] = context.frame_names[frame];
-    json["violations"].push_back(std::move(entry));
-  }
-  json["unchecked"] = report.unchecked;
-  json["surface"] = {{"faces", report.faces},
-                     {"vertices", report.vertices},
-                     {"unreferenced_vertices", report.unreferenced_vertices},
-                     {"body_faces", report.body_faces},
-                     {"body_pairs", report.bodies_checked ? "checked" : "skipped"},
-                     {"precision", report.precision == io::Precision::kFloat32 ? "float32" : "float64"},
-                     {"largest_coordinate", report.largest_coordinate},
-                     {"largest_coordinate_hex", hex_float(report.largest_coordinate)}};
-  json["seconds"] = report.seconds;
-  // A file name may hold bytes that are no UTF-8: they are replaced, the report is valid all the same.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace selvage::verify

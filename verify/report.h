@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "verify/check.h"
@@ -18,6 +19,8 @@ struct ReportContext {
   std::string program;                   ///< name and version
   std::vector<std::string> sources;      ///< as given
   std::vector<std::string> frame_names;  ///< of all frames
+  /// What was asked for, by name: reports with other options are not about the same thing.
+  std::vector<std::pair<std::string, std::string>> options;
 };
 
 /// Several lines, the verdict first, the violations last: at most `max_listed`, and how many more there are.
@@ -25,5 +28,12 @@ struct ReportContext {
                                       std::size_t max_listed);
 /// One JSON object; docs/formats.md describes its keys.
 [[nodiscard]] std::string json_report(const SequenceReport& report, const ReportContext& context);
+
+struct ParsedReport {
+  SequenceReport report;
+  ReportContext context;  ///< frame_names: only those that violations name
+};
+/// The inverse of json_report(). Throws io::Error naming `name` where the text is no such report.
+[[nodiscard]] ParsedReport parse_report(const std::string& json, const std::string& name);
 
 }  // namespace selvage::verify

@@ -1,29 +1,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "verify/check.h"
 #include "verify/fp_guard.h"
+#include "verify/frame_source.h"
+#include "verify/violation.h"
 
 namespace selvage::verify {
 namespace {
-
-std::vector<std::uint8_t> body_flags(const io::MeshData& mesh) {
-  std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
-  for (const io::Group& group : mesh.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-  }
-  return is_body;
-}
-
-/// One frame and what its faces are; the topology is made anew only where faces or groups change.
-struct Frame {
-  std::string name;
-  io::Points points;
-};
 
 class SequenceCheck {
  public:
@@ -33,76 +22,154 @@ class SequenceCheck {
   SequenceReport run() {
     const std::size_t count = sequence_.frame_count();
     if (count == 0) throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame: there is nothing to check");
-    report_.frames_expected = options_.frames ? static_cast<std::int64_t>(count) : 0;
-    report_.motions_expected = options_.motions ? static_cast<std::int64_t>(count) - 1 : 0;
-    report_.precision = sequence_.precision();
-    report_.bodies_checked = options_.check.check_bodies;
-    for (std::size_t i = 0; i < count && step(i); ++i) {
+    const auto [first, end] = options_.range.value_or(std::pair{std::size_t{0}, count});
+    if (!(first < end && end <= count))
+      throw std::invalid_argument("check_sequence: no range of the sequence's frames");
+    source_.emplace(sequence_, options_.rules, options_.weld);
+    begin(first, end);
+    std::size_t next = first;
+    if (options_.resume_from != nullptr) next += resume(*options_.resume_from);
+    if (next > first) {
+      read_again(next - 1);
+    } else if (first > 0) {
+      read_before(first);
     }
-    report_.verdict = verdict();
-    report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    while (next < end && step(next)) ++next;
+    report_.verdict = verdict_of(report_);
+    report_.seconds = seconds();
     return std::move(report_);
   }
 
  private:
+  void begin(std::size_t first, std::size_t end) {
+    report_.sequence = sequence_identity(sequence_);
+    report_.frame_count = static_cast<std::int64_t>(sequence_.frame_count());
+    report_.first_frame = static_cast<std::int64_t>(first);
+    report_.end_frame = static_cast<std::int64_t>(end);
+    report_.frames_expected = options_.frames ? report_.end_frame - report_.first_frame : 0;
+    report_.motions_expected =
+        options_.motions ? report_.end_frame - std::max<std::int64_t>(report_.first_frame, 1) : 0;
+    report_.precision = sequence_.precision();
+    report_.bodies_checked = options_.check.check_bodies;
+    report_.max_violations = static_cast<std::int64_t>(options_.check.max_violations);
+    for (const auto& groups : options_.rules.exempt) report_.exempted.push_back({groups, 0});
+    for (const std::string& group : options_.rules.ignore) report_.ignored.push_back({group, 0});
+    if (options_.weld) report_.welded = {source_->welded_vertices(), 0};
+  }
+
+  /// How many frames are done.
+  std::size_t resume(const SequenceReport& earlier) {
+    if (earlier.sequence != report_.sequence || earlier.first_frame != report_.first_frame ||
+        earlier.end_frame != report_.end_frame) {
+      throw io::Error(io::ErrorKind::kBadInput, "the run to be resumed was on another sequence; start anew");
+    }
+    report_ = earlier;
+    seconds_before_ = earlier.seconds;
+    units_done_ = static_cast<std::size_t>(report_.frames.checked + report_.motions.checked);
+    return report_.frame_crc32.size();
+  }
+
+  /// The frame before the range: the first motion starts there.
+  void read_before(std::size_t first) {
+    previous_ = read(first - 1);
+    report_.crc32_before = previous_.crc32;
+  }
+
+  /// The last frame that an earlier run has checked.
+  void read_again(std::size_t frame) {
+    previous_ = read(frame);
+    if (previous_.crc32 == report_.frame_crc32.back()) return;
+    throw io::Error(io::ErrorKind::kBadInput, previous_.name + ": changed since the run to be resumed; start anew");
+  }
+
   /// Frame i, and the motion that leads to it. False: stop.
   bool step(std::size_t i) {
     if (!report_progress()) return false;
     Frame frame = read(i);
-    const bool same_surface = i > 0 && !surface_changed_;
-    if (options_.motions && i > 0 && !check_motion_to(i, frame, same_surface)) return false;
+    if (options_.motions && i > 0 && !check_motion_to(i, frame)) return false;
     if (options_.frames) check_instant(i, frame);
+    report_.frame_crc32.push_back(frame.crc32);
     previous_ = std::move(frame);
+    if (options_.checkpoint) {
+      report_.seconds = seconds();
+      options_.checkpoint(report_);
+    }
     return true;
   }
 
   Frame read(std::size_t i) {
-    io::MeshData mesh = sequence_.frame(i);
-    const std::string name = sequence_.frame_name(i);
-    if (mesh.triangles.empty()) {
-      throw io::Error(io::ErrorKind::kBadInput, name + ": no faces: there is nothing to check");
+    Frame frame = source_->read(i);
+    const Topology& topology = source_->topology();
+    report_.vertices = topology.vertex_count;
+    report_.faces = source_->face_count();
+    report_.unreferenced_vertices = topology.unreferenced_vertices;
+    report_.body_faces = static_cast<std::int64_t>(topology.faces.body.size() + source_->collapsed_bodies().size());
+    for (std::size_t k = 0; k < report_.ignored.size(); ++k) {
+      report_.ignored[k].faces = source_->rules().ignored_faces[k];
     }
-    std::vector<std::uint8_t> is_body = body_flags(mesh);
-    const auto vertex_count = static_cast<std::int64_t>(mesh.points.size());
-    surface_changed_ =
-        mesh.triangles != topology_.triangles || is_body != is_body_ || vertex_count != topology_.vertex_count;
-    if (surface_changed_) {
-      topology_ = make_topology({mesh.triangles, is_body}, mesh.points.size());
-      is_body_ = std::move(is_body);
+    if (report_.welded) {
+      report_.welded->collapsed_faces =
+          static_cast<std::int64_t>(source_->collapsed_cloth().size() + source_->collapsed_bodies().size());
     }
-    report_.vertices = vertex_count;
-    report_.faces = static_cast<std::int64_t>(mesh.triangles.size());
-    report_.unreferenced_vertices = topology_.unreferenced_vertices;
-    report_.body_faces = static_cast<std::int64_t>(topology_.faces.body.size());
-    for (const Point& p : mesh.points) {
+    for (const Point& p : frame.points) {
       for (const double x : p) report_.largest_coordinate = std::max(report_.largest_coordinate, std::abs(x));
     }
-    return {name, std::move(mesh.points)};
+    return frame;
   }
 
-  /// All faces belong to bodies, and pairs of these are not checked: the check would look at nothing.
-  bool nothing_to_examine() const { return topology_.faces.cloth.empty() && !options_.check.check_bodies; }
+  /// Why a check would look at nothing, or null.
+  const char* nothing_to_examine() const {
+    const Topology& topology = source_->topology();
+    const bool bodies = options_.check.check_bodies;
+    if (topology.faces.cloth.empty() && topology.faces.body.empty()) return "all faces are ignored";
+    if (topology.faces.cloth.empty() && !bodies) {
+      return "all faces belong to bodies, which are checked only when asked for";
+    }
+    const bool has_rules = !options_.rules.exempt.empty() || !options_.rules.ignore.empty();
+    if (has_rules && !owes_pairs(topology, bodies)) return "every pair of faces is exempt or ignored";
+    return nullptr;
+  }
 
   void check_instant(std::size_t i, const Frame& frame) {
-    if (nothing_to_examine()) {
-      report_.unchecked.push_back(frame.name + ": all faces belong to bodies, which are checked only when asked for");
+    if (const char* why = nothing_to_examine()) {
+      report_.unchecked.push_back(frame.name + ": " + why);
       return;
     }
-    count(check_frame(topology_, frame.points, options_.check), report_.frames, i);
+    CheckResult result = check_frame(source_->topology(), frame.points, options_.check);
+    add_collapsed(source_->collapsed_cloth(), frame, result);
+    if (options_.check.check_bodies) add_collapsed(source_->collapsed_bodies(), frame, result);
+    count(std::move(result), report_.frames, i);
   }
 
-  bool check_motion_to(std::size_t i, const Frame& frame, bool same_surface) {
-    if (!same_surface) {
-      report_.unchecked.push_back("motion from " + previous_.name + " to " + frame.name +
-                                  ": faces, groups or number of vertices change, so vertices cannot be paired");
+  /// Faces that welding took a corner from have no area in any frame.
+  void add_collapsed(const std::vector<std::int32_t>& faces, const Frame& frame, CheckResult& result) const {
+    for (const std::int32_t f : faces) {
+      const auto& [a, b, c] = source_->topology().triangles[static_cast<std::size_t>(f)];
+      const std::int32_t doubled = a == b || a == c ? a : b;
+      ++result.pairs.self;
+      ++result.violations_total.self;
+      result.violations.push_back(describe(source_->topology(), {EventKind::kSelf, {doubled, f}, "degenerate"}));
+      set_positions(result.violations.back(), frame.points, frame.points);
+    }
+    std::sort(result.violations.begin(), result.violations.end(), [](const Violation& x, const Violation& y) {
+      return std::tie(x.event, x.features) < std::tie(y.event, y.features);
+    });
+    if (result.violations.size() > options_.check.max_violations) {
+      result.violations.resize(options_.check.max_violations);
+    }
+  }
+
+  bool check_motion_to(std::size_t i, const Frame& frame) {
+    const std::string motion = "motion from " + previous_.name + " to " + frame.name + ": ";
+    if (source_->surface_changed()) {
+      report_.unchecked.push_back(motion + "faces, groups or number of vertices change, so vertices cannot be paired");
       return true;
     }
-    if (nothing_to_examine()) {
-      report_.unchecked.push_back("motion from " + previous_.name + " to " + frame.name +
-                                  ": all faces belong to bodies, which are checked only when asked for");
+    if (const char* why = nothing_to_examine()) {
+      report_.unchecked.push_back(motion + why);
       return true;
     }
-    count(check_motion(topology_, previous_.points, frame.points, options_.check), report_.motions, i - 1);
+    count(check_motion(source_->topology(), previous_.points, frame.points, options_.check), report_.motions, i - 1);
     return report_progress();
   }
 
@@ -112,6 +179,9 @@ class SequenceCheck {
     if (result.violations_total.total() > 0) ++counted.violated;
     report_.pairs += result.pairs;
     report_.violations_total += result.violations_total;
+    for (std::size_t rule = 0; rule < result.exempted.size(); ++rule) {
+      report_.exempted[rule].pairs += result.exempted[rule];
+    }
     for (Violation& violation : result.violations) {
       if (report_.violations.size() == options_.check.max_violations) break;
       violation.frame = static_cast<std::int64_t>(frame);
@@ -127,26 +197,28 @@ class SequenceCheck {
     return false;
   }
 
-  Verdict verdict() const {
-    if (report_.violations_total.total() > 0) return Verdict::kViolated;
-    const std::int64_t expected = report_.frames_expected + report_.motions_expected;
-    const bool all_checked = report_.frames.checked == report_.frames_expected &&
-                             report_.motions.checked == report_.motions_expected && report_.unchecked.empty();
-    return expected > 0 && all_checked ? Verdict::kClean : Verdict::kUnknown;
+  double seconds() const {
+    return seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
   const io::SequenceReader& sequence_;
   const SequenceOptions& options_;
   std::chrono::steady_clock::time_point start_;
+  double seconds_before_ = 0;  // of the run that is resumed
   SequenceReport report_;
-  Topology topology_;  // of the frame read last
-  std::vector<std::uint8_t> is_body_;
-  bool surface_changed_ = false;
+  std::optional<FrameSource> source_;
   Frame previous_;
   std::size_t units_done_ = 0;
 };
 
 }  // namespace
+
+Verdict verdict_of(const SequenceReport& report) {
+  if (report.violations_total.total() > 0) return Verdict::kViolated;
+  const bool all_checked = report.frames.checked == report.frames_expected &&
+                           report.motions.checked == report.motions_expected && report.unchecked.empty();
+  return report.frames_expected + report.motions_expected > 0 && all_checked ? Verdict::kClean : Verdict::kUnknown;
+}
 
 SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options) {
   const FpGuard guard;  // the readers convert numbers: a float32 or text that is subnormal, or rounds

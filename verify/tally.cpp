@@ -33,6 +33,12 @@ void Tally::add(const Tally& other) {
   pairs += other.pairs;
   violations_ += other.violations_;
   for (const Hit& hit : other.hits_) keep(hit);
+  for (std::size_t rule = 0; rule < other.exempted_.size(); ++rule) count_exempted(rule, other.exempted_[rule]);
+}
+
+void Tally::count_exempted(std::size_t rule, std::int64_t count) {
+  if (exempted_.size() <= rule) exempted_.resize(rule + 1);
+  exempted_[rule] += count;
 }
 
 std::vector<Hit> Tally::first_hits() const {

@@ -35,16 +35,29 @@ class Tally {
 
   void add(const Hit& hit);
   void add(const Tally& other);
+  /// Counts a pair of elements with these labels if an exemption covers it: then it is not to be checked.
+  bool is_exempt(const Topology& topology, const std::vector<Label>& labels_i, std::int32_t i,
+                 const std::vector<Label>& labels_j, std::int32_t j) {
+    if (topology.exemptions.empty()) return false;
+    const std::int32_t rule =
+        topology.exemptions.exemption(labels_i[static_cast<std::size_t>(i)], labels_j[static_cast<std::size_t>(j)]);
+    if (rule >= 0) count_exempted(static_cast<std::size_t>(rule));
+    return rule >= 0;
+  }
+  /// By exemption; those at the end may be missing, and are then zero.
+  [[nodiscard]] const std::vector<std::int64_t>& exempted() const { return exempted_; }
   [[nodiscard]] const ViolationCounts& violations() const { return violations_; }
   /// Sorted; at most `limit`.
   [[nodiscard]] std::vector<Hit> first_hits() const;
 
  private:
   void keep(const Hit& hit);
+  void count_exempted(std::size_t rule, std::int64_t count = 1);
 
   std::size_t limit_;
   ViolationCounts violations_;
   std::vector<Hit> hits_;
+  std::vector<std::int64_t> exempted_;
 };
 
 /// Adds to `tally` what work(i, its own tally) counts for all i < count.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace selvage::verify {
@@ -18,24 +19,56 @@ Parts parts(const std::vector<Owner>& owners) {
   return result;
 }
 
+/// Of a face; kNone where it is ignored.
+Owner owner_of(const Surface& surface, std::size_t f) {
+  if (!surface.is_ignored.empty() && surface.is_ignored[f] != 0) return Owner::kNone;
+  return !surface.is_body.empty() && surface.is_body[f] != 0 ? Owner::kBody : Owner::kCloth;
+}
+
 void check_faces(const Surface& surface, std::size_t vertex_count) {
   if (!surface.is_body.empty() && surface.is_body.size() != surface.triangles.size()) {
     throw std::invalid_argument("Surface: is_body must be empty or have one entry a face");
   }
-  for (const auto& [a, b, c] : surface.triangles) {
+  if (!surface.is_ignored.empty() && surface.is_ignored.size() != surface.triangles.size()) {
+    throw std::invalid_argument("Surface: is_ignored must be empty or have one entry a face");
+  }
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+    const auto& [a, b, c] = surface.triangles[f];
     for (const std::int32_t v : {a, b, c}) {
       if (v < 0 || static_cast<std::size_t>(v) >= vertex_count) {
         throw std::invalid_argument("Surface: a face names a vertex that does not exist");
       }
     }
-    if (a == b || b == c || c == a) throw std::invalid_argument("Surface: a face repeats a corner");
+    const bool repeats = a == b || b == c || c == a;
+    if (repeats && owner_of(surface, f) != Owner::kNone)
+      throw std::invalid_argument("Surface: a face repeats a corner");
   }
 }
 
 struct OwnedEdge {
   std::int32_t larger, smaller;
   Owner owner;
+  std::int32_t face;
 };
+
+/// Labels for edges and vertices from those of the faces that hold them. REQUIRES sides sorted as the edges.
+void label_elements(Topology& topology, const std::vector<OwnedEdge>& sides) {
+  ExemptionTable& exemptions = topology.exemptions;
+  topology.face_labels = exemptions.face_labels();
+  topology.vertex_labels.assign(static_cast<std::size_t>(topology.vertex_count), kNoLabel);
+  topology.edge_labels.assign(topology.edges.size(), kNoLabel);
+  std::size_t edge = 0;
+  for (const OwnedEdge& side : sides) {
+    if (topology.edges[edge] != std::array{side.smaller, side.larger}) ++edge;
+    if (side.owner == Owner::kNone) continue;
+    const Label label = topology.face_labels[static_cast<std::size_t>(side.face)];
+    for (Label* held : {&topology.edge_labels[edge], &topology.vertex_labels[static_cast<std::size_t>(side.smaller)],
+                        &topology.vertex_labels[static_cast<std::size_t>(side.larger)]}) {
+      *held = exemptions.unite(*held, label);
+    }
+  }
+  exemptions.close();
+}
 
 }  // namespace
 
@@ -46,17 +79,19 @@ Topology make_topology(const Surface& surface, std::size_t vertex_count) {
   topology.triangles.assign(surface.triangles.begin(), surface.triangles.end());
 
   std::vector<Owner> face_owners, vertex_owners(vertex_count, Owner::kNone), edge_owners;
+  std::vector<std::uint8_t> is_held(vertex_count, 0);
   std::vector<OwnedEdge> sides;
   sides.reserve(3 * surface.triangles.size());
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
-    const Owner owner = !surface.is_body.empty() && surface.is_body[f] != 0 ? Owner::kBody : Owner::kCloth;
+    const Owner owner = owner_of(surface, f);
     face_owners.push_back(owner);
     const auto& corners = surface.triangles[f];
     for (std::size_t i = 0; i < 3; ++i) {
       Owner& vertex_owner = vertex_owners[static_cast<std::size_t>(corners[i])];
       vertex_owner = std::max(vertex_owner, owner);
+      is_held[static_cast<std::size_t>(corners[i])] = 1;
       const auto [smaller, larger] = std::minmax(corners[i], corners[(i + 1) % 3]);
-      sides.push_back({larger, smaller, owner});
+      sides.push_back({larger, smaller, owner, static_cast<std::int32_t>(f)});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const OwnedEdge& x, const OwnedEdge& y) {
@@ -73,8 +108,35 @@ Topology make_topology(const Surface& surface, std::size_t vertex_count) {
   topology.faces = parts(face_owners);
   topology.edge_parts = parts(edge_owners);
   topology.vertices = parts(vertex_owners);
-  topology.unreferenced_vertices = std::count(vertex_owners.begin(), vertex_owners.end(), Owner::kNone);
+  topology.unreferenced_vertices = std::count(is_held.begin(), is_held.end(), 0);
+  topology.exemptions = ExemptionTable(surface.exemptions, surface.triangles.size());
+  if (!topology.exemptions.empty()) label_elements(topology, sides);
   return topology;
+}
+
+bool owes_pairs(const Topology& topology, bool check_bodies) {
+  struct Kind {
+    bool is_body;
+    Label label;
+    bool operator<(const Kind& other) const {
+      return is_body != other.is_body ? is_body < other.is_body : label < other.label;
+    }
+  };
+  std::map<Kind, std::int64_t> counts;
+  for (const bool is_body : {false, true}) {
+    for (const std::int32_t f : is_body ? topology.faces.body : topology.faces.cloth) {
+      ++counts[{is_body, topology.exemptions.empty() ? kNoLabel : topology.face_labels[static_cast<std::size_t>(f)]}];
+    }
+  }
+  for (const auto& [x, x_count] : counts) {
+    for (const auto& [y, y_count] : counts) {
+      const bool has_pair = x_count > 1 || x < y || y < x;
+      const bool is_left_out = x.is_body && y.is_body && !check_bodies;
+      const bool is_exempt = !topology.exemptions.empty() && topology.exemptions.exemption(x.label, y.label) >= 0;
+      if (has_pair && !is_left_out && !is_exempt) return true;
+    }
+  }
+  return false;
 }
 
 void require_positions(const Topology& topology, std::span<const Point> V) {

@@ -7,16 +7,21 @@
 #include <vector>
 
 #include "verify/exact_motion.h"
+#include "verify/exemptions.h"
 
 namespace selvage::verify {
 
-/// The surface: triangles and, per face, whether it belongs to a scripted body (empty: none does).
+/// The surface: triangles and, per face, whether it belongs to a scripted body (empty: none does) and whether it is no
+/// part of the check (empty: all are).
 struct Surface {
   std::span<const std::array<std::int32_t, 3>> triangles;
-  std::span<const std::uint8_t> is_body;
+  std::span<const std::uint8_t> is_body = {};
+  std::span<const std::uint8_t> is_ignored = {};
+  std::span<const Exemption> exemptions = {};
 };
 
-/// Indices of elements, ascending, by whom they belong to. An edge or vertex of any cloth face belongs to cloth.
+/// Indices of elements, ascending, by whom they belong to. An edge or vertex of any cloth face belongs to cloth; what
+/// only ignored faces hold is in neither part.
 struct Parts {
   std::vector<std::int32_t> cloth, body;
 };
@@ -27,11 +32,16 @@ struct Topology {
   Parts faces, edge_parts, vertices;
   std::int64_t vertex_count = 0;
   std::int64_t unreferenced_vertices = 0;  ///< held by no face: in neither part
+  ExemptionTable exemptions;
+  std::vector<Label> face_labels, edge_labels, vertex_labels;  ///< empty where there are no exemptions
 };
 
-/// Throws std::invalid_argument where an index is out of range, a face repeats a corner, or is_body has another length
-/// than the faces. O(#F log #F).
+/// Throws std::invalid_argument where an index is out of range, a face that is not ignored repeats a corner, is_body or
+/// is_ignored have another length than the faces, or ExemptionTable does. O(#F log #F).
 [[nodiscard]] Topology make_topology(const Surface& surface, std::size_t vertex_count);
+
+/// Whether any two faces are owed a check: not ignored, not both of bodies unless asked for, and not exempt.
+[[nodiscard]] bool owes_pairs(const Topology& topology, bool check_bodies);
 
 /// Throws std::invalid_argument unless there are `topology.vertex_count` points and all are finite: no verdict is
 /// given on others.

@@ -1,0 +1,75 @@
+#include "cli/merge_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/verdict.h"
+#include "io/atomic_file.h"
+#include "verify/merge.h"
+
+namespace selvage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> sources;
+  std::string output;
+};
+
+/// The reports of a folder: all its .json files but the output, which an earlier merge may have left there.
+std::vector<fs::path> reports_in(const fs::path& folder, const fs::path& output) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::error_code absent;
+    if (entry.path().extension() == ".json" && !fs::equivalent(entry.path(), output, absent)) {
+      files.push_back(entry.path());
+    }
+  }
+  if (files.empty()) throw io::Error(io::ErrorKind::kBadInput, folder.string() + ": holds no report (*.json)");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+ExitCode run(const Arguments& arguments) {
+  std::vector<fs::path> files;
+  for (const std::string& source : arguments.sources) {
+    if (fs::is_directory(source)) {
+      const std::vector<fs::path> found = reports_in(source, arguments.output);
+      files.insert(files.end(), found.begin(), found.end());
+    } else {
+      files.emplace_back(source);
+    }
+  }
+  std::vector<verify::Part> parts;
+  for (const fs::path& file : files) {
+    parts.push_back({file.string(), verify::parse_report(io::read_file(file), file.string())});
+  }
+  verify::ParsedReport merged;
+  try {
+    merged = verify::merge(std::move(parts));
+  } catch (const verify::MergeError& error) {
+    throw io::Error(io::ErrorKind::kBadInput, error.what());
+  }
+  io::write_atomically(arguments.output, verify::json_report(merged.report, merged.context));
+  constexpr std::size_t kListed = 10;  // as selvage verify does on a terminal
+  print_report(verify::text_report(merged.report, merged.context, kListed), merged.report.verdict);
+  return exit_code(merged.report.verdict);
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& program, Job& job) {
+  CLI::App& command = add_command(program, "merge", "Join the reports of shards: all of them, or it is an error",
+                                  "selvage merge shards/ -o report.json");
+  const auto arguments = std::make_shared<Arguments>();
+  command.add_option("REPORT", arguments->sources, "Reports of selvage verify --shard, or folders of them")->required();
+  command.add_option("-o,--output", arguments->output, "The report on the whole sequence")->type_name("FILE")->required();
+  command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,109 @@
+#include "verify/frame_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/checksum.h"
+#include "verify/weld.h"
+
+namespace selvage::verify {
+namespace {
+
+std::vector<std::uint8_t> body_flags(const io::MeshData& mesh) {
+  std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
+  for (const io::Group& group : mesh.groups) {
+    if (group.role != io::Group::Role::kBody) continue;
+    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
+  }
+  return is_body;
+}
+
+template <class T>
+std::uint32_t crc32_of(const std::vector<T>& values) {
+  return io::crc32({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+std::string hex(std::uint32_t value) {
+  std::string text(8, '0');
+  for (std::size_t i = 8; i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 0xf];
+  return text;
+}
+
+}  // namespace
+
+std::string sequence_identity(const io::SequenceReader& sequence) {
+  const std::size_t count = sequence.frame_count();
+  if (count == 0) return "0";
+  const io::MeshData first = sequence.frame(0), last = sequence.frame(count - 1);
+  return std::to_string(count) + "-" + hex(crc32_of(first.triangles)) + "-" + hex(crc32_of(first.points)) + "-" +
+         hex(crc32_of(last.points));
+}
+
+FrameSource::FrameSource(const io::SequenceReader& sequence, const GroupRules& rules, bool weld)
+    : sequence_(sequence), user_rules_(rules) {
+  if (weld) weld_all();
+}
+
+void FrameSource::weld_all() {
+  Weld weld;
+  io::Triangles faces;
+  for (std::size_t i = 0; i < sequence_.frame_count(); ++i) {
+    io::MeshData mesh = sequence_.frame(i);
+    if (i == 0) {
+      faces = mesh.triangles;
+      representatives_.resize(mesh.points.size());
+    }
+    if (mesh.triangles != faces || mesh.points.size() != representatives_.size()) {
+      throw io::Error(io::ErrorKind::kBadInput, sequence_.frame_name(i) +
+                                                    ": faces or number of vertices differ from the first frame's, so "
+                                                    "vertices cannot be welded over all frames");
+    }
+    weld.narrow(mesh.points);
+  }
+  representatives_ = weld.representatives();
+  for (std::size_t v = 0; v < representatives_.size(); ++v) {
+    if (static_cast<std::size_t>(representatives_[v]) != v) ++welded_vertices_;
+  }
+}
+
+Frame FrameSource::read(std::size_t i) {
+  io::MeshData mesh = sequence_.frame(i);
+  const std::string name = sequence_.frame_name(i);
+  if (mesh.triangles.empty()) {
+    throw io::Error(io::ErrorKind::kBadInput, name + ": no faces: there is nothing to check");
+  }
+  std::vector<std::uint8_t> is_body = body_flags(mesh);
+  ResolvedRules resolved = resolve(user_rules_, mesh.groups, mesh.triangles.size());
+  surface_changed_ = mesh.triangles != triangles_ || is_body != is_body_ || resolved != resolved_ ||
+                     static_cast<std::int64_t>(mesh.points.size()) != topology_.vertex_count;
+  if (surface_changed_) make_surface(mesh, std::move(is_body), std::move(resolved));
+  const std::uint32_t crc32 = crc32_of(mesh.points);
+  return {name, std::move(mesh.points), crc32};
+}
+
+void FrameSource::make_surface(const io::MeshData& mesh, std::vector<std::uint8_t> is_body, ResolvedRules resolved) {
+  triangles_ = mesh.triangles;
+  is_body_ = std::move(is_body);
+  resolved_ = std::move(resolved);
+  collapsed_cloth_.clear();
+  collapsed_bodies_.clear();
+  if (representatives_.empty()) {
+    topology_ = make_topology({triangles_, is_body_, resolved_.is_ignored, resolved_.exemptions}, mesh.points.size());
+    return;
+  }
+  const WeldedFaces welded = weld_faces(triangles_, representatives_);
+  std::vector<std::uint8_t> left_out = resolved_.is_ignored;
+  left_out.resize(triangles_.size());
+  for (const std::int32_t f : welded.collapsed) {
+    const auto face = static_cast<std::size_t>(f);
+    if (left_out[face] != 0) continue;
+    left_out[face] = 1;
+    (is_body_[face] != 0 ? collapsed_bodies_ : collapsed_cloth_).push_back(f);
+  }
+  topology_ = make_topology({welded.triangles, is_body_, left_out, resolved_.exemptions}, mesh.points.size());
+  for (std::size_t v = 0; v < representatives_.size(); ++v) {
+    if (static_cast<std::size_t>(representatives_[v]) != v) --topology_.unreferenced_vertices;
+  }
+}
+
+}  // namespace selvage::verify

@@ -1,0 +1,58 @@
+// The frames of a sequence as the checks see them: with the user's rules applied, welded, and a topology that is made
+// anew only where faces or groups change.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/sequence.h"
+#include "verify/check.h"
+#include "verify/group_rules.h"
+#include "verify/topology.h"
+
+namespace selvage::verify {
+
+struct Frame {
+  std::string name;
+  io::Points points;
+  std::uint32_t crc32 = 0;  ///< of the positions as doubles
+};
+
+class FrameSource {
+ public:
+  /// With `weld` reads all frames: throws io::Error where their faces or number of vertices differ.
+  FrameSource(const io::SequenceReader& sequence, const GroupRules& rules, bool weld);
+
+  /// Throws io::Error, and GroupRuleError where the rules do not fit the frame's groups.
+  [[nodiscard]] Frame read(std::size_t frame);
+
+  // Of the frame read last:
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  /// Its faces, groups or number of vertices differ from those of the frame read before.
+  [[nodiscard]] bool surface_changed() const { return surface_changed_; }
+  [[nodiscard]] const ResolvedRules& rules() const { return resolved_; }
+  /// Faces that lost a corner to welding, ascending; no part of the topology. Those of bodies apart.
+  [[nodiscard]] const std::vector<std::int32_t>& collapsed_cloth() const { return collapsed_cloth_; }
+  [[nodiscard]] const std::vector<std::int32_t>& collapsed_bodies() const { return collapsed_bodies_; }
+  [[nodiscard]] std::int64_t face_count() const { return static_cast<std::int64_t>(triangles_.size()); }
+  /// Of all frames: vertices that were joined to another.
+  [[nodiscard]] std::int64_t welded_vertices() const { return welded_vertices_; }
+
+ private:
+  void weld_all();
+  void make_surface(const io::MeshData& mesh, std::vector<std::uint8_t> is_body, ResolvedRules resolved);
+
+  const io::SequenceReader& sequence_;
+  const GroupRules& user_rules_;
+  std::vector<std::int32_t> representatives_;  // empty: not welded
+  std::int64_t welded_vertices_ = 0;
+  io::Triangles triangles_;  // as read
+  std::vector<std::uint8_t> is_body_;
+  ResolvedRules resolved_;
+  Topology topology_;
+  std::vector<std::int32_t> collapsed_cloth_, collapsed_bodies_;
+  bool surface_changed_ = false;
+};
+
+}  // namespace selvage::verify

@@ -1,0 +1,105 @@
+#include "verify/merge.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace selvage::verify {
+namespace {
+
+std::string frames(std::int64_t first, std::int64_t end) {
+  return "frames " + std::to_string(first) + " to " + std::to_string(end - 1);
+}
+
+bool is_complete(const SequenceReport& report) {
+  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
+}
+
+void require_same_check(const Part& a, const Part& b) {
+  const auto differ = [&](const char* what) { throw MergeError(a.name + " and " + b.name + ": " + what + " differ"); };
+  if (a.parsed.context.program != b.parsed.context.program) differ("the programs that made them");
+  if (a.parsed.context.options != b.parsed.context.options) differ("the options");
+  const SequenceReport &x = a.parsed.report, &y = b.parsed.report;
+  if (x.sequence != y.sequence || x.frame_count != y.frame_count) differ("the sequences");
+  const bool same_shape = x.max_violations == y.max_violations && x.exempted.size() == y.exempted.size() &&
+                          x.ignored.size() == y.ignored.size() && x.welded.has_value() == y.welded.has_value() &&
+                          x.bodies_checked == y.bodies_checked && x.precision == y.precision;
+  if (!same_shape) differ("what they report");
+}
+
+/// `b` begins where `a` ends.
+void require_neighbours(const Part& a, const Part& b) {
+  const SequenceReport &x = a.parsed.report, &y = b.parsed.report;
+  if (y.first_frame < x.end_frame) {
+    throw MergeError(a.name + " and " + b.name + ": both hold " +
+                     frames(y.first_frame, std::min(x.end_frame, y.end_frame)));
+  }
+  if (y.first_frame > x.end_frame) throw MergeError("no part holds " + frames(x.end_frame, y.first_frame));
+  if (!is_complete(x) || y.frame_crc32.empty()) return;  // then the verdict is unknown anyway
+  if (!y.crc32_before || *y.crc32_before != x.frame_crc32.back()) {
+    throw MergeError(a.name + " and " + b.name + ": frame " + std::to_string(x.end_frame - 1) +
+                     " changed between the two runs");
+  }
+}
+
+void add(SequenceReport& sum, const SequenceReport& part) {
+  sum.frames.checked += part.frames.checked;
+  sum.frames.violated += part.frames.violated;
+  sum.motions.checked += part.motions.checked;
+  sum.motions.violated += part.motions.violated;
+  sum.frames_expected += part.frames_expected;
+  sum.motions_expected += part.motions_expected;
+  sum.end_frame = part.end_frame;
+  sum.frame_crc32.insert(sum.frame_crc32.end(), part.frame_crc32.begin(), part.frame_crc32.end());
+  sum.pairs += part.pairs;
+  sum.violations_total += part.violations_total;
+  for (const Violation& violation : part.violations) {
+    if (static_cast<std::int64_t>(sum.violations.size()) < sum.max_violations) sum.violations.push_back(violation);
+  }
+  sum.unchecked.insert(sum.unchecked.end(), part.unchecked.begin(), part.unchecked.end());
+  for (std::size_t i = 0; i < sum.exempted.size(); ++i) sum.exempted[i].pairs += part.exempted[i].pairs;
+  sum.ignored = part.ignored;
+  sum.welded = part.welded;
+  sum.largest_coordinate = std::max(sum.largest_coordinate, part.largest_coordinate);
+  sum.vertices = part.vertices;
+  sum.faces = part.faces;
+  sum.unreferenced_vertices = part.unreferenced_vertices;
+  sum.body_faces = part.body_faces;
+  sum.seconds += part.seconds;
+}
+
+}  // namespace
+
+ParsedReport merge(std::vector<Part> parts) {
+  if (parts.empty()) throw MergeError("there is no report to merge");
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    return std::pair(a.parsed.report.first_frame, a.name) < std::pair(b.parsed.report.first_frame, b.name);
+  });
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    require_same_check(parts[0], parts[i]);
+    require_neighbours(parts[i - 1], parts[i]);
+  }
+  ParsedReport merged = std::move(parts.front().parsed);
+  SequenceReport& report = merged.report;
+  if (report.first_frame != 0) throw MergeError("no part holds " + frames(0, report.first_frame));
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    add(report, parts[i].parsed.report);
+    auto& names = merged.context.frame_names;
+    const auto& more = parts[i].parsed.context.frame_names;
+    names.resize(std::max(names.size(), more.size()));
+    for (std::size_t k = 0; k < more.size(); ++k) {
+      if (!more[k].empty()) names[k] = more[k];
+    }
+  }
+  if (report.end_frame != report.frame_count) {
+    throw MergeError("no part holds " + frames(report.end_frame, report.frame_count));
+  }
+  const bool has_motions = report.motions_expected > 0;
+  if (report.frames_expected != report.frame_count ||
+      (has_motions && report.motions_expected != report.frame_count - 1)) {
+    throw MergeError("the parts do not expect every frame and motion of the sequence");
+  }
+  report.verdict = verdict_of(report);
+  return merged;
+}
+
+}  // namespace selvage::verify

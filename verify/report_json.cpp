@@ -1,0 +1,127 @@
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "verify/report.h"
+
+namespace selvage::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order of writing: the verdict is on top
+
+std::string hex_float(double x) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%a", x);
+  return buffer;
+}
+
+std::string hex_word(std::uint32_t x) {
+  char buffer[16];
+  std::snprintf(buffer, sizeof buffer, "%08x", static_cast<unsigned>(x));
+  return buffer;
+}
+
+Json bits(const std::vector<Point>& points) {
+  Json json = Json::array();
+  for (const auto& [x, y, z] : points) json.push_back({hex_float(x), hex_float(y), hex_float(z)});
+  return json;
+}
+
+Json to_json(const Violation& violation) {
+  Json vertices = Json::array();
+  for (const std::int32_t v : violation.vertices) {
+    if (v >= 0) vertices.push_back(v);
+  }
+  Json json = {{"frame", violation.frame},
+               {"unit", violation.motion ? "motion" : "frame"},
+               {"event", name_of(violation.event)},
+               {"kind", violation.kind},
+               {"features", violation.features},
+               {"vertices", vertices},
+               {"t", nullptr},
+               {"positions", violation.at_touch},
+               {"bits_t0", bits(violation.x_t0)}};
+  if (violation.motion) {
+    json["t"] = {{"lower", violation.t.lower},
+                 {"upper", violation.t.upper},
+                 {"lower_number", violation.t.lower_approx},
+                 {"upper_number", violation.t.upper_approx}};
+    json["bits_t1"] = bits(violation.x_t1);
+  }
+  if (!violation.case_file.empty()) {
+    json["case"] = violation.case_file;
+    json["replay"] = "selvage replay " + violation.case_file;
+  }
+  return json;
+}
+
+Json allowances(const SequenceReport& report) {
+  Json exempted = Json::array(), ignored = Json::array(), weld = nullptr;
+  for (const auto& [groups, pairs] : report.exempted) exempted.push_back({{"groups", groups}, {"pairs", pairs}});
+  for (const auto& [group, faces] : report.ignored) ignored.push_back({{"group", group}, {"faces", faces}});
+  if (report.welded) {
+    weld = {{"vertices", report.welded->vertices}, {"collapsed_faces", report.welded->collapsed_faces}};
+  }
+  return {{"exempted", exempted}, {"ignored", ignored}, {"weld", weld}};
+}
+
+Json sequence(const SequenceReport& report) {
+  Json crc32 = Json::array();
+  for (const std::uint32_t word : report.frame_crc32) crc32.push_back(hex_word(word));
+  return {{"identity", report.sequence},
+          {"frames", report.frame_count},
+          {"first_frame", report.first_frame},
+          {"end_frame", report.end_frame},
+          {"crc32", crc32},
+          {"crc32_before", report.crc32_before ? Json(hex_word(*report.crc32_before)) : Json(nullptr)}};
+}
+
+}  // namespace
+
+std::string json_report(const SequenceReport& report, const ReportContext& context) {
+  Json json;
+  json["schema"] = kReportSchema;
+  json["program"] = context.program;
+  json["sources"] = context.sources;
+  json["options"] = Json::object();
+  for (const auto& [name, value] : context.options) json["options"][name] = value;
+  json["verdict"] = name_of(report.verdict);
+  json["frames"] = {
+      {"checked", report.frames.checked}, {"violated", report.frames.violated}, {"expected", report.frames_expected}};
+  json["motions"] = {{"checked", report.motions.checked},
+                     {"violated", report.motions.violated},
+                     {"expected", report.motions_expected}};
+  json["pairs"] = {{"vf", report.pairs.vf},
+                   {"ee", report.pairs.ee},
+                   {"overlap", report.pairs.overlap},
+                   {"self", report.pairs.self},
+                   {"exact", report.pairs.exact}};
+  json["allowed"] = allowances(report);
+  json["violations_total"] = {{"vf", report.violations_total.vf},
+                              {"ee", report.violations_total.ee},
+                              {"overlap", report.violations_total.overlap},
+                              {"self", report.violations_total.self}};
+  json["max_violations"] = report.max_violations;
+  json["violations"] = Json::array();
+  for (const Violation& violation : report.violations) {
+    Json entry = to_json(violation);
+    const auto frame = static_cast<std::size_t>(violation.frame);
+    if (frame < context.frame_names.size()) entry["frame_name"] = context.frame_names[frame];
+    json["violations"].push_back(std::move(entry));
+  }
+  json["unchecked"] = report.unchecked;
+  json["surface"] = {{"faces", report.faces},
+                     {"vertices", report.vertices},
+                     {"unreferenced_vertices", report.unreferenced_vertices},
+                     {"body_faces", report.body_faces},
+                     {"body_pairs", report.bodies_checked ? "checked" : "skipped"},
+                     {"precision", report.precision == io::Precision::kFloat32 ? "float32" : "float64"},
+                     {"largest_coordinate", report.largest_coordinate},
+                     {"largest_coordinate_hex", hex_float(report.largest_coordinate)}};
+  json["sequence"] = sequence(report);
+  json["seconds"] = report.seconds;
+  // A file name may hold bytes that are no UTF-8: they are replaced, the report is valid all the same.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace selvage::verify

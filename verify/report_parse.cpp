@@ -1,0 +1,172 @@
+// Reads a report back: a run that was killed continues from one, and parts of a sequence are joined.
+#include <array>
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+#include "io/error.h"
+#include "verify/report.h"
+
+namespace selvage::verify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Not a report: what is wrong with it.
+struct Fault {
+  std::string what;
+};
+
+std::uint32_t word(const std::string& text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (error != std::errc() || end != text.data() + text.size() || text.size() != 8) {
+    throw Fault{"'" + text + "' is no checksum"};
+  }
+  return value;
+}
+
+double hex_float(const std::string& text) {
+  std::string_view digits = text;
+  const bool negative = digits.starts_with('-');
+  if (negative) digits.remove_prefix(1);
+  double value = 0;
+  const bool has_prefix = digits.starts_with("0x");
+  if (has_prefix) digits.remove_prefix(2);
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
+  if (!has_prefix || error != std::errc() || end != digits.data() + digits.size()) {
+    throw Fault{"'" + text + "' is no hexadecimal float"};
+  }
+  return negative ? -value : value;
+}
+
+template <class T, std::size_t N>
+T named(const Json& json, const std::array<std::pair<const char*, T>, N>& names) {
+  const auto text = json.get<std::string>();
+  for (const auto& [name, value] : names) {
+    if (text == name) return value;
+  }
+  throw Fault{"unknown word '" + text + "'"};
+}
+
+std::vector<Point> points(const Json& json) {
+  std::vector<Point> result;
+  for (const Json& point : json) {
+    result.push_back({hex_float(point.at(0)), hex_float(point.at(1)), hex_float(point.at(2))});
+  }
+  return result;
+}
+
+Violation violation(const Json& json) {
+  Violation result;
+  result.frame = json.at("frame");
+  result.motion = named<bool, 2>(json.at("unit"), {{{"motion", true}, {"frame", false}}});
+  result.event = named<EventKind, 4>(
+      json.at("event"),
+      {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}, {"overlap", EventKind::kOverlap}, {"self", EventKind::kSelf}}});
+  result.kind = json.at("kind");
+  result.features = json.at("features");
+  result.vertices.fill(-1);
+  const Json& vertices = json.at("vertices");
+  if (vertices.size() > result.vertices.size()) throw Fault{"a violation has too many vertices"};
+  for (std::size_t i = 0; i < vertices.size(); ++i) result.vertices[i] = vertices[i];
+  result.at_touch = json.at("positions").get<std::vector<Point>>();
+  result.x_t0 = points(json.at("bits_t0"));
+  result.x_t1 = result.motion ? points(json.at("bits_t1")) : result.x_t0;
+  if (result.motion) {
+    const Json& t = json.at("t");
+    result.t = {t.at("lower"), t.at("upper"), t.at("lower_number"), t.at("upper_number")};
+  }
+  if (json.contains("case")) result.case_file = json.at("case");
+  return result;
+}
+
+SequenceReport::Counted counted(const Json& json, std::int64_t& expected) {
+  expected = json.at("expected");
+  return {json.at("checked"), json.at("violated")};
+}
+
+void parse_allowances(const Json& json, SequenceReport& report) {
+  for (const Json& entry : json.at("exempted")) report.exempted.push_back({entry.at("groups"), entry.at("pairs")});
+  for (const Json& entry : json.at("ignored")) report.ignored.push_back({entry.at("group"), entry.at("faces")});
+  const Json& weld = json.at("weld");
+  if (!weld.is_null()) report.welded = {weld.at("vertices"), weld.at("collapsed_faces")};
+}
+
+void parse_sequence(const Json& json, SequenceReport& report) {
+  report.sequence = json.at("identity");
+  report.frame_count = json.at("frames");
+  report.first_frame = json.at("first_frame");
+  report.end_frame = json.at("end_frame");
+  for (const Json& entry : json.at("crc32")) report.frame_crc32.push_back(word(entry));
+  const Json& before = json.at("crc32_before");
+  if (!before.is_null()) report.crc32_before = word(before);
+  const auto count = static_cast<std::int64_t>(report.frame_crc32.size());
+  if (report.first_frame < 0 || report.first_frame >= report.end_frame || report.end_frame > report.frame_count ||
+      count > report.end_frame - report.first_frame) {
+    throw Fault{"the range of frames makes no sense"};
+  }
+}
+
+void parse_surface(const Json& json, SequenceReport& report) {
+  report.faces = json.at("faces");
+  report.vertices = json.at("vertices");
+  report.unreferenced_vertices = json.at("unreferenced_vertices");
+  report.body_faces = json.at("body_faces");
+  report.bodies_checked = named<bool, 2>(json.at("body_pairs"), {{{"checked", true}, {"skipped", false}}});
+  report.precision = named<io::Precision, 2>(
+      json.at("precision"), {{{"float32", io::Precision::kFloat32}, {"float64", io::Precision::kFloat64}}});
+  report.largest_coordinate = hex_float(json.at("largest_coordinate_hex"));
+}
+
+ParsedReport parse(const Json& json) {
+  if (!json.is_object() || json.value("schema", "") != kReportSchema) {
+    throw Fault{std::string("its schema is not ") + kReportSchema};
+  }
+  ParsedReport parsed;
+  SequenceReport& report = parsed.report;
+  parsed.context.program = json.at("program");
+  parsed.context.sources = json.at("sources").get<std::vector<std::string>>();
+  for (const auto& [name, value] : json.at("options").items()) parsed.context.options.emplace_back(name, value);
+  report.verdict = named<Verdict, 3>(
+      json.at("verdict"),
+      {{{"clean", Verdict::kClean}, {"violated", Verdict::kViolated}, {"unknown", Verdict::kUnknown}}});
+  report.frames = counted(json.at("frames"), report.frames_expected);
+  report.motions = counted(json.at("motions"), report.motions_expected);
+  const Json &pairs = json.at("pairs"), &total = json.at("violations_total");
+  report.pairs = {pairs.at("vf"), pairs.at("ee"), pairs.at("overlap"), pairs.at("self"), pairs.at("exact")};
+  report.violations_total = {total.at("vf"), total.at("ee"), total.at("overlap"), total.at("self")};
+  parse_allowances(json.at("allowed"), report);
+  report.max_violations = json.at("max_violations");
+  for (const Json& entry : json.at("violations")) {
+    report.violations.push_back(violation(entry));
+    const std::int64_t frame = report.violations.back().frame;
+    if (frame < 0 || !entry.contains("frame_name")) continue;
+    auto& names = parsed.context.frame_names;
+    if (names.size() <= static_cast<std::size_t>(frame)) names.resize(static_cast<std::size_t>(frame) + 1);
+    names[static_cast<std::size_t>(frame)] = entry.at("frame_name");
+  }
+  report.unchecked = json.at("unchecked").get<std::vector<std::string>>();
+  parse_surface(json.at("surface"), report);
+  parse_sequence(json.at("sequence"), report);
+  report.seconds = json.at("seconds");
+  return parsed;
+}
+
+}  // namespace
+
+ParsedReport parse_report(const std::string& text, const std::string& name) {
+  const auto fail = [&name](const std::string& what) -> ParsedReport {
+    throw io::Error(io::ErrorKind::kBadInput, name + ": not a report of selvage verify: " + what);
+  };
+  try {
+    return parse(Json::parse(text));
+  } catch (const Fault& fault) {
+    return fail(fault.what);
+  } catch (const Json::exception& error) {
+    return fail(error.what());
+  }
+}
+
+}  // namespace selvage::verify
