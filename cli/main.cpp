@@ -11,7 +11,9 @@
 #include "cli/fp_state.h"
 #include "cli/fuzz_command.h"
 #include "cli/interrupt.h"
+#include "cli/merge_command.h"
 #include "cli/render_command.h"
+#include "cli/replay_command.h"
 #include "cli/sim_command.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
@@ -33,7 +35,9 @@ int main(int argc, char** argv) {
   add_convert_command(program, job);
   add_doctor_command(program, job, fp_as_found);
   add_fuzz_command(program, job);
+  add_merge_command(program, job);
   add_render_command(program, job);
+  add_replay_command(program, job);
   add_sim_command(program, job);
   add_verify_command(program, job);
 

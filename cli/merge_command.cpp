@@ -68,7 +68,9 @@ void add_merge_command(CLI::App& program, Job& job) {
                                   "selvage merge shards/ -o report.json");
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("REPORT", arguments->sources, "Reports of selvage verify --shard, or folders of them")->required();
-  command.add_option("-o,--output", arguments->output, "The report on the whole sequence")->type_name("FILE")->required();
+  command.add_option("-o,--output", arguments->output, "The report on the whole sequence")
+      ->type_name("FILE")
+      ->required();
   command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }
 

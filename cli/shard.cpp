@@ -22,7 +22,8 @@ std::optional<std::size_t> parse_number(const std::string& text) {
 std::size_t slurm_number(const char* name) {
   const char* text = std::getenv(name);
   const auto value = text != nullptr ? parse_number(text) : std::nullopt;
-  if (!value) throw UsageError(fmt::format("--shard auto: {} is not set to a number; is this a Slurm array job?", name));
+  if (!value)
+    throw UsageError(fmt::format("--shard auto: {} is not set to a number; is this a Slurm array job?", name));
   return *value;
 }
 
@@ -30,8 +31,9 @@ Shard slurm_shard() {
   const std::size_t id = slurm_number("SLURM_ARRAY_TASK_ID"), count = slurm_number("SLURM_ARRAY_TASK_COUNT");
   const std::size_t first = slurm_number("SLURM_ARRAY_TASK_MIN"), last = slurm_number("SLURM_ARRAY_TASK_MAX");
   if (first > last || last - first + 1 != count || id < first || id > last) {
-    throw UsageError("--shard auto: the array has gaps, so its size does not say how many shards there are; write "
-                     "--shard i/N");
+    throw UsageError(
+        "--shard auto: the array has gaps, so its size does not say how many shards there are; write "
+        "--shard i/N");
   }
   return {id - first + 1, count};
 }

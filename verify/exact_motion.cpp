@@ -12,21 +12,6 @@
 namespace selvage::verify {
 namespace {
 
-constexpr unsigned long kLog2MaxWidth = 60;  // ExactTime's width is at most 2^-60
-
-ExactTime exact_time(Instant instant) {
-  while (!instant.is_dyadic() && instant.log2_denominator() < kLog2MaxWidth) instant.refine();
-  const unsigned long scale = instant.log2_denominator();
-  const mpz_class& low = instant.numerator();
-  const mpz_class high = instant.is_dyadic() ? low : low + 1;
-  const auto text = [scale](const mpz_class& numerator) {
-    mpq_class value(numerator, mpz_class(1) << scale);
-    value.canonicalize();
-    return value.get_str();
-  };
-  return {text(low), text(high), round_down(low, scale), round_up(high, scale)};
-}
-
 MotionAnswer exact_answer(std::optional<FirstTouch> touch, Detail detail) {
   MotionAnswer answer;
   answer.exact_used = true;

@@ -54,6 +54,24 @@ OverlapKind decide(std::size_t shared, TrianglePair& pair, const Corners& t, con
 
 }  // namespace
 
+const char* name_of(OverlapKind kind) {
+  switch (kind) {
+    case OverlapKind::kNone:
+      return "none";
+    case OverlapKind::kTouch:
+      return "touch";
+    case OverlapKind::kPierce:
+      return "cross";
+    case OverlapKind::kCoplanar:
+      return "overlap";
+    case OverlapKind::kFold:
+      return "fold";
+    case OverlapKind::kSame:
+      return "duplicate";
+  }
+  return "unknown";
+}
+
 OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
                             const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b) {
   const FpGuard guard;

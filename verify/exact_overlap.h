@@ -17,6 +17,9 @@ enum class OverlapKind : std::uint8_t {
   kSame,      ///< the same three vertices
 };
 
+/// none, touch, cross, overlap (coplanar), fold, duplicate: as in Violation::kind.
+[[nodiscard]] const char* name_of(OverlapKind kind);
+
 struct OverlapAnswer {
   OverlapKind kind = OverlapKind::kNone;
   bool exact_used = false;

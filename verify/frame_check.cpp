@@ -13,24 +13,6 @@ namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
-const char* kind_name(OverlapKind kind) {
-  switch (kind) {
-    case OverlapKind::kNone:
-      return "none";
-    case OverlapKind::kTouch:
-      return "touch";
-    case OverlapKind::kPierce:
-      return "cross";
-    case OverlapKind::kCoplanar:
-      return "overlap";
-    case OverlapKind::kFold:
-      return "fold";
-    case OverlapKind::kSame:
-      return "duplicate";
-  }
-  return "unknown";
-}
-
 class FrameCheck {
  public:
   FrameCheck(const Topology& topology, std::span<const Point> V, const CheckOptions& options)
@@ -66,7 +48,7 @@ class FrameCheck {
     const OverlapAnswer answer =
         exact_overlap(topology_.triangles[at(f)], corners(f), topology_.triangles[at(g)], corners(g));
     if (answer.exact_used) ++tally.pairs.exact;
-    if (answer.kind != OverlapKind::kNone) tally.add({EventKind::kOverlap, {f, g}, kind_name(answer.kind)});
+    if (answer.kind != OverlapKind::kNone) tally.add({EventKind::kOverlap, {f, g}, name_of(answer.kind)});
   }
 
   /// The corner that lies between the other two: of three collinear points one does.

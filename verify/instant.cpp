@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "verify/dyadic.h"
+
 namespace selvage::verify {
 namespace {
 
@@ -88,6 +90,20 @@ std::vector<Instant> roots_inside(const Form& form) {
     pending.push_back(std::move(piece));
   }
   return roots;
+}
+
+ExactTime exact_time(Instant instant) {
+  constexpr unsigned long kLog2MaxWidth = 60;  // ExactTime's width is at most 2^-60
+  while (!instant.is_dyadic() && instant.log2_denominator() < kLog2MaxWidth) instant.refine();
+  const unsigned long scale = instant.log2_denominator();
+  const mpz_class& low = instant.numerator();
+  const mpz_class high = instant.is_dyadic() ? low : low + 1;
+  const auto text = [scale](const mpz_class& numerator) {
+    mpq_class value(numerator, mpz_class(1) << scale);
+    value.canonicalize();
+    return value.get_str();
+  };
+  return {text(low), text(high), round_down(low, scale), round_up(high, scale)};
 }
 
 int compare(Instant& a, Instant& b) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "verify/exact_motion.h"
 #include "verify/form.h"
 
 namespace selvage::verify {
@@ -43,6 +44,9 @@ class Instant {
 
 /// The roots of the form in (0,1), in ascending order, each once, in disjoint intervals. REQUIRES not zero.
 [[nodiscard]] std::vector<Instant> roots_inside(const Form& form);
+
+/// As the rest of the program sees it: refined to a width of at most 2^-60.
+[[nodiscard]] ExactTime exact_time(Instant instant);
 
 /// -1, 0, 1: a earlier than b, the same time, later; exact. Refines both as far as it needs.
 [[nodiscard]] int compare(Instant& a, Instant& b);

@@ -20,7 +20,7 @@ struct ReportContext {
   std::vector<std::string> sources;      ///< as given
   std::vector<std::string> frame_names;  ///< of all frames
   /// What was asked for, by name: reports with other options are not about the same thing.
-  std::vector<std::pair<std::string, std::string>> options;
+  std::vector<std::pair<std::string, std::string>> options = {};
 };
 
 /// Several lines, the verdict first, the violations last: at most `max_listed`, and how many more there are.

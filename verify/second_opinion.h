@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "verify/exact_motion.h"
 
@@ -20,5 +21,21 @@ struct SecondOpinion {
 [[nodiscard]] SecondOpinion second_opinion_vf(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1);
 [[nodiscard]] SecondOpinion second_opinion_ee(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1);
 [[nodiscard]] SecondOpinion second_opinion_self(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1);
+
+/// Whether two faces have a point in common beyond the vertices that they share by index: CGAL constructs what they
+/// have in common, in rationals, where exact_overlap decides by signs. Arguments as there.
+[[nodiscard]] bool second_opinion_overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
+                                          const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b);
+/// Whether the corners are collinear or coincide.
+[[nodiscard]] bool second_opinion_degenerate(const std::array<Point, 3>& a);
+
+/// All of them. A table, so that a test can put in one that lies.
+struct SecondDeciders {
+  decltype(&second_opinion_vf) vf = second_opinion_vf;
+  decltype(&second_opinion_ee) ee = second_opinion_ee;
+  decltype(&second_opinion_self) self = second_opinion_self;
+  decltype(&second_opinion_overlap) overlap = second_opinion_overlap;
+  decltype(&second_opinion_degenerate) degenerate = second_opinion_degenerate;
+};
 
 }  // namespace selvage::verify

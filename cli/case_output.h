@@ -1,0 +1,18 @@
+// Violations as case files that `selvage replay` explains.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "verify/check.h"
+
+namespace selvage::cli {
+
+/// The text of its case: a motion, a frame as a motion at rest, or two triangles. `min_distance` is that of the check.
+[[nodiscard]] std::string case_text(const verify::Violation& violation, double min_distance);
+/// Writes one file a violation into `folder`, which is made if it is absent, and notes its name in the violation.
+/// Throws io::Error.
+void write_cases(const std::filesystem::path& folder, double min_distance, std::vector<verify::Violation>& violations);
+
+}  // namespace selvage::cli

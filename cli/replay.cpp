@@ -1,0 +1,52 @@
+#include "cli/replay.h"
+
+namespace selvage::cli {
+namespace {
+
+std::array<verify::Point, 3> first_three(const std::array<verify::Point, 4>& x) { return {x[0], x[1], x[2]}; }
+
+}  // namespace
+
+MotionReplay replay_motion(const fuzz::Case& kept) {
+  MotionReplay replay{kept, fuzz::selvage_kernel(kept.query), {}, {}, {}, {}, {}};
+  const fuzz::MotionQuery& query = kept.query;
+  const auto x_t0 = fuzz::raw(query.x_t0), x_t1 = fuzz::raw(query.x_t1);
+  replay.exact = fuzz::exact_motion(query, verify::Detail::kFirstTime);
+  replay.judgement = fuzz::judge(query, replay.kernel);
+  switch (query.kind) {
+    case PairKind::kVf:
+      replay.second = verify::second_opinion_vf(x_t0, x_t1);
+      replay.textbook = bench::textbook_vf(query.x_t0, query.x_t1);
+      replay.polynomials = {verify::explain_vf_motion(x_t0, x_t1)};
+      break;
+    case PairKind::kEe:
+      replay.second = verify::second_opinion_ee(x_t0, x_t1);
+      replay.textbook = bench::textbook_ee(query.x_t0, query.x_t1);
+      replay.polynomials = {verify::explain_ee_motion(x_t0, x_t1)};
+      break;
+    case PairKind::kSelf:
+      replay.second = verify::second_opinion_self(first_three(x_t0), first_three(x_t1));
+      replay.polynomials = verify::explain_self_motion(first_three(x_t0), first_three(x_t1));
+      break;
+  }
+  return replay;
+}
+
+ReplayOutcome MotionReplay::outcome() const {
+  if (exact.touches != second.touches) return ReplayOutcome::kDivided;
+  if (exact.touches != kept.touches) return ReplayOutcome::kContradicted;
+  return judgement.disagreement == fuzz::Disagreement::kNone ? ReplayOutcome::kAgree : ReplayOutcome::kBroken;
+}
+
+OverlapReplay replay_overlap(const fuzz::OverlapCase& kept) {
+  const verify::OverlapKind exact = verify::exact_overlap(kept.faces[0], kept.x[0], kept.faces[1], kept.x[1]).kind;
+  return {kept, exact, verify::second_opinion_overlap(kept.faces[0], kept.x[0], kept.faces[1], kept.x[1])};
+}
+
+ReplayOutcome OverlapReplay::outcome() const {
+  const bool touches = exact != verify::OverlapKind::kNone;
+  if (touches != second) return ReplayOutcome::kDivided;
+  return touches == kept.touches ? ReplayOutcome::kAgree : ReplayOutcome::kContradicted;
+}
+
+}  // namespace selvage::cli

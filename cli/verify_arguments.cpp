@@ -1,0 +1,134 @@
+#include "cli/verify_arguments.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/exit_code.h"
+#include "cli/shard.h"
+
+namespace selvage::cli {
+namespace {
+
+/// "NAME=BEGIN:END"; a name may hold '='.
+io::Group parse_group(const std::string& text) {
+  const std::size_t equals = text.rfind('='), colon = text.rfind(':');
+  io::Group group;
+  bool is_good = equals != text.npos && equals > 0 && colon != text.npos && colon > equals;
+  if (is_good) {
+    const auto number = [&](std::size_t begin, std::size_t end, std::int32_t& value) {
+      const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+      return error == std::errc() && stop == text.data() + end;
+    };
+    is_good = number(equals + 1, colon, group.face_begin) && number(colon + 1, text.size(), group.face_end);
+  }
+  if (!is_good) throw UsageError("--group wants NAME=BEGIN:END, a half-open range of faces; not '" + text + "'");
+  group.name = text.substr(0, equals);
+  return group;
+}
+
+std::array<std::string, 2> parse_exemption(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos || comma == 0 || comma + 1 == text.size() || text.find(',', comma + 1) != text.npos) {
+    throw UsageError("--exempt wants two groups, A,B (A,A for pairs within A); not '" + text + "'");
+  }
+  return {text.substr(0, comma), text.substr(comma + 1)};
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+CLI::Option* add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values, const char* help) {
+  return command.add_option(name, values, help)->allow_extra_args(false);
+}
+
+void add_what_may_touch(CLI::App& command, VerifyArguments& arguments) {
+  add_repeatable(command, "--group", arguments.groups,
+                 "A group of faces by their numbers, half-open, besides those of the sequence; may be repeated")
+      ->type_name("NAME=BEGIN:END");
+  add_repeatable(command, "--exempt", arguments.exempt,
+                 "Faces of A and B may touch (sewn together); A,A: within A. Counted in the report; may be repeated")
+      ->type_name("A,B");
+  add_repeatable(command, "--ignore", arguments.ignore, "A is no part of the check; may be repeated")->type_name("A");
+  command.add_flag("--weld", arguments.weld,
+                   "Join vertices that lie at one place, bit for bit, in every frame (split at seams by the writer)");
+}
+
+void add_long_runs(CLI::App& command, VerifyArguments& arguments) {
+  command
+      .add_option("--shard", arguments.shard,
+                  "Check part i of N of the frames, or auto: as the Slurm array job says; join with selvage merge")
+      ->type_name("i/N");
+  command.add_flag("--resume", arguments.resume,
+                   "Continue the run that was stopped before it finished the report of --json; start anew if there is "
+                   "none");
+}
+
+}  // namespace
+
+void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
+  add_sequence_argument(command, arguments.sequence);
+  CLI::Option* frames_only = command.add_flag("--frames-only", arguments.frames_only, "Check frames, never motions");
+  command
+      .add_flag("--motion", arguments.motion,
+                "Check the straight motion between frames too (default only where the sequence says it holds steps)")
+      ->excludes(frames_only);
+  command
+      .add_option("--min-distance", arguments.min_distance,
+                  "Frames: features without a common vertex must be at least this far apart")
+      ->type_name("LENGTH");
+  add_what_may_touch(command, arguments);
+  command.add_flag("--bodies", arguments.bodies, "Check bodies against each other and themselves too");
+  command.add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
+  command.add_option("--cases", arguments.cases, "Write each listed violation as a case that selvage replay explains")
+      ->type_name("DIR");
+  command
+      .add_option("--max-violations", arguments.max_violations,
+                  fmt::format("List at most this many; all are counted (default: {} in the JSON, {} on the terminal)",
+                              kViolationsInJson, kViolationsInText))
+      ->check(CLI::NonNegativeNumber);  // as a signed number: an unsigned one would wrap "-3" around
+  add_long_runs(command, arguments);
+  command.add_option("--threads", arguments.threads, "Number of threads; 0: one a core")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const io::SequenceReader& sequence) {
+  if (arguments.min_distance && !(*arguments.min_distance >= 0 && std::isfinite(*arguments.min_distance))) {
+    throw UsageError("--min-distance must be finite and not negative");
+  }
+  if (arguments.motion && sequence.frame_count() == 1) {
+    throw UsageError("--motion needs at least two frames, and there is one: no motion would be checked");
+  }
+  if (arguments.resume && arguments.json.empty()) throw UsageError("--resume needs --json: progress is kept beside it");
+  verify::SequenceOptions options;
+  options.check.max_violations = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInJson));
+  options.check.min_distance = arguments.min_distance;
+  options.check.check_bodies = arguments.bodies;
+  options.motions = arguments.motion || (!arguments.frames_only && sequence.kind() == io::SequenceKind::kSteps);
+  for (const std::string& group : arguments.groups) options.rules.groups.push_back(parse_group(group));
+  for (const std::string& pair : arguments.exempt) options.rules.exempt.push_back(parse_exemption(pair));
+  options.rules.ignore = arguments.ignore;
+  options.weld = arguments.weld;
+  if (!arguments.shard.empty()) options.range = frames_of(parse_shard(arguments.shard), sequence.frame_count());
+  return options;
+}
+
+std::vector<std::pair<std::string, std::string>> recorded_options(const VerifyArguments& arguments,
+                                                                  const verify::SequenceOptions& options) {
+  return {{"motions", yes_or_no(options.motions)},
+          {"min_distance", arguments.min_distance ? fmt::format("{:a}", *arguments.min_distance) : "none"},
+          {"bodies", yes_or_no(arguments.bodies)},
+          {"groups", joined(arguments.groups)},
+          {"exempt", joined(arguments.exempt)},
+          {"ignore", joined(arguments.ignore)},
+          {"weld", yes_or_no(arguments.weld)}};
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,42 @@
+// The command line of `selvage verify`, and what it asks of the checker.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/sequence_argument.h"
+#include "verify/check.h"
+
+namespace selvage::cli {
+
+struct VerifyArguments {
+  SequenceArgument sequence;
+  bool frames_only = false, motion = false, bodies = false, weld = false, resume = false;
+  std::optional<double> min_distance;
+  std::vector<std::string> groups, exempt, ignore;
+  std::string json, shard;
+  std::filesystem::path cases;
+  std::optional<std::int64_t> max_violations;
+  std::int64_t threads = 0;
+};
+
+void add_verify_arguments(CLI::App& command, VerifyArguments& arguments);
+
+/// Where the user names no number: what a reader of the JSON can page through, and what fits on a terminal.
+inline constexpr std::int64_t kViolationsInJson = 100;
+inline constexpr std::int64_t kViolationsInText = 10;
+
+/// Throws UsageError where they make no sense for the sequence.
+[[nodiscard]] verify::SequenceOptions sequence_options(const VerifyArguments& arguments,
+                                                       const io::SequenceReader& sequence);
+/// What decides on the verdict, by name and in a fixed order: reports on parts are joined only where it is the same.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> recorded_options(const VerifyArguments& arguments,
+                                                                                const verify::SequenceOptions& options);
+
+}  // namespace selvage::cli

@@ -1,0 +1,54 @@
+#include "cli/verify_progress.h"
+
+#include <utility>
+
+#include "cli/exit_code.h"
+#include "io/atomic_file.h"
+
+namespace selvage::cli {
+namespace {
+
+bool is_complete(const verify::SequenceReport& report) {
+  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
+}
+
+}  // namespace
+
+VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
+    : report_file_(std::move(report)), context_(context), written_(std::chrono::steady_clock::now()) {
+  file_ = report_file_;
+  file_ += ".progress";
+}
+
+std::optional<verify::SequenceReport> VerifyProgress::load() const {
+  for (const std::filesystem::path& file : {file_, report_file_}) {
+    if (!std::filesystem::is_regular_file(file)) continue;
+    verify::ParsedReport parsed = verify::parse_report(io::read_file(file), file.string());
+    if (parsed.context.program != context_.program || parsed.context.options != context_.options) {
+      throw UsageError(file.string() + ": made by another version or with other options; remove it to start anew");
+    }
+    // A report that was cut short counts work on half a frame: only progress can be continued.
+    if (file == file_ || is_complete(parsed.report)) return std::move(parsed.report);
+  }
+  return std::nullopt;
+}
+
+void VerifyProgress::note(const verify::SequenceReport& report) {
+  constexpr std::chrono::seconds kInterval{1};
+  unwritten_ = report;
+  if (std::chrono::steady_clock::now() - written_ >= kInterval) flush();
+}
+
+void VerifyProgress::flush() {
+  if (!unwritten_) return;
+  io::write_atomically(file_, verify::json_report(*unwritten_, context_));
+  unwritten_.reset();
+  written_ = std::chrono::steady_clock::now();
+}
+
+void VerifyProgress::remove() const {
+  std::error_code absent;
+  std::filesystem::remove(file_, absent);
+}
+
+}  // namespace selvage::cli

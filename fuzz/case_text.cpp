@@ -1,0 +1,86 @@
+#include "fuzz/case_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "io/error.h"
+
+namespace selvage::fuzz {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r";
+
+std::size_t word_start(std::string_view line) { return std::min(line.find_first_not_of(kBlank), line.size()); }
+
+}  // namespace
+
+std::string hex(double x) {
+  std::array<char, 40> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::hex).ptr;
+  return (std::signbit(x) ? "-0x" : "0x") + std::string(text.data(), end);
+}
+
+void CaseLines::advance() {
+  line_ = {};
+  while (word_start(line_) == line_.size()) {
+    if (rest_.empty()) fail("the case ends too early");
+    take_line();
+  }
+}
+
+bool CaseLines::only_blank_left() {
+  while (!rest_.empty()) {
+    take_line();
+    if (word_start(line_) != line_.size()) return false;
+  }
+  return true;
+}
+
+std::string_view CaseLines::word() {
+  line_.remove_prefix(word_start(line_));
+  if (line_.empty()) fail("a word is missing");
+  const std::size_t length = std::min(line_.find_first_of(kBlank), line_.size());
+  const std::string_view found = line_.substr(0, length);
+  line_.remove_prefix(length);
+  return found;
+}
+
+void CaseLines::expect_word(std::string_view wanted) {
+  if (word() != wanted) fail("expected '" + std::string(wanted) + "'");
+}
+
+void CaseLines::expect_end_of_line() {
+  if (word_start(line_) != line_.size()) fail("unexpected '" + std::string(word()) + "'");
+}
+
+double CaseLines::number(std::string_view word) const {
+  std::string_view digits = word;
+  const bool negative = digits.starts_with('-');
+  if (negative) digits.remove_prefix(1);
+  const bool is_hex = digits.starts_with("0x");
+  if (is_hex) digits.remove_prefix(2);
+  double x = 0;
+  const auto format = is_hex ? std::chars_format::hex : std::chars_format::general;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x, format);
+  if (error != std::errc() || end != digits.data() + digits.size() || digits.starts_with('-') || !std::isfinite(x)) {
+    fail("'" + std::string(word) + "' is not a finite number");
+  }
+  return negative ? -x : x;
+}
+
+void CaseLines::fail(const std::string& what) const {
+  throw io::Error(io::ErrorKind::kBadInput, name_ + ":" + std::to_string(number_) + ": " + what);
+}
+
+void CaseLines::take_line() {
+  const std::size_t length = std::min(rest_.find('\n'), rest_.size());
+  line_ = rest_.substr(0, length);
+  line_ = line_.substr(0, line_.find('#'));
+  rest_.remove_prefix(std::min(length + 1, rest_.size()));
+  ++number_;
+}
+
+}  // namespace selvage::fuzz

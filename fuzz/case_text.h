@@ -1,0 +1,36 @@
+// The text of case files: lines of words, hex floats, comments from '#' to the end of a line.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace selvage::fuzz {
+
+/// The shortest hex float that reads back as x.
+[[nodiscard]] std::string hex(double x);
+
+/// Reads one line after another, and within a line one word after another. `text` and `name` must outlive it. Whatever
+/// does not fit throws io::Error with the name and the line.
+class CaseLines {
+ public:
+  CaseLines(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+
+  /// The next line that is not empty; fails at the end of the text.
+  void advance();
+  [[nodiscard]] bool only_blank_left();
+  [[nodiscard]] std::string_view word();
+  void expect_word(std::string_view wanted);
+  void expect_end_of_line();
+  /// A finite number, hexadecimal or decimal, from a word.
+  [[nodiscard]] double number(std::string_view word) const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  void take_line();
+
+  std::string_view rest_, line_;
+  const std::string& name_;
+  int number_ = 0;
+};
+
+}  // namespace selvage::fuzz
