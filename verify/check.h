@@ -85,15 +85,15 @@ struct SequenceOptions {
   bool frames = true, motions = true;
   /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown.
   std::function<bool(std::size_t, std::size_t)> progress;
-  GroupRules rules;
+  GroupRules rules = {};
   bool weld = false;  ///< vertices with the same bits in every frame are one; reads the whole sequence beforehand
   /// The frames to check, with the motions that lead to them, [first, second); nothing: all. Part of a sequence.
-  std::optional<std::pair<std::size_t, std::size_t>> range;
+  std::optional<std::pair<std::size_t, std::size_t>> range = {};
   /// What an earlier call gave to `checkpoint`, with the same sequence and options: its frames are not checked again.
   /// Throws io::Error where the sequence is another one.
   const SequenceReport* resume_from = nullptr;
   /// Called after every frame with the report so far.
-  std::function<void(const SequenceReport&)> checkpoint;
+  std::function<void(const SequenceReport&)> checkpoint = {};
 };
 
 /// Two reports are about one sequence if these are equal: the number of frames, faces, first and last frame.

@@ -112,6 +112,46 @@ TEST(VerifyCommand, ChangingFacesAreUnknown) {
   EXPECT_NE(result.out.find("b.obj"), std::string::npos) << result.out;
 }
 
+TEST(VerifyCommand, WhatMayTouchIsCountedAndMustExist) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", json = folder.path() / "report.json";
+  // Objects that overlap, and a third far away.
+  spit(mesh,
+       "o shirt\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no collar\nv 1 1 0\nv 2 1 0\nv 1 2 0\nf 4 5 6\n"
+       "o button\nv 9 9 9\nv 9 9 8\nv 9 8 9\nf 7 8 9\n");
+  EXPECT_EQ(run_program(folder, {"verify", mesh}).exit_code, 1);
+  const auto exempt = run_program(folder, {"verify", mesh, "--exempt", "shirt,collar", "--json", json});
+  EXPECT_EQ(exempt.exit_code, 0) << exempt.out << exempt.err;
+  EXPECT_NE(exempt.out.find("exempted:   1 pairs of \"shirt\" and \"collar\""), std::string::npos) << exempt.out;
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(json))["allowed"]["exempted"],
+            (nlohmann::json{{{"groups", {"shirt", "collar"}}, {"pairs", 1}}}));
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--ignore", "collar"}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--group", "x=1:2", "--exempt", "x,shirt"}).exit_code, 0);
+  const auto all = run_program(folder, {"verify", mesh, "--group", "all=0:3", "--exempt", "all,all"});
+  EXPECT_EQ(all.exit_code, 5) << all.out;
+  EXPECT_NE(all.out.find("every pair of faces is exempt"), std::string::npos) << all.out;
+  const auto unknown = run_program(folder, {"verify", mesh, "--exempt", "shirt,coller"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(
+      unknown.err.find("no group \"coller\"; the groups are \"button\" (1 faces), \"collar\" (1 faces), \"shirt\""),
+      std::string::npos)
+      << unknown.err;
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"--exempt", "shirt"},
+                                              {"--exempt", "shirt,"},
+                                              {"--exempt", "a,b,c"},
+                                              {"--ignore", "x"},
+                                              {"--group", "x"},
+                                              {"--group", "x=1"},
+                                              {"--group", "x=2:1", "--ignore", "x"},
+                                              {"--group", "x=0:9", "--ignore", "x"},
+                                              {"--exempt", "button,button"},
+                                              {"--resume"}}) {
+    std::vector<std::string> arguments = {"verify", mesh};
+    arguments.insert(arguments.end(), bad.begin(), bad.end());
+    EXPECT_EQ(run_program(folder, arguments).exit_code, 2) << bad[0] << " " << bad.back();
+  }
+}
+
 TEST(VerifyCommand, BadInputIsNeverAVerdict) {
   const struct {
     const char* why;

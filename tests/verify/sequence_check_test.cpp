@@ -16,6 +16,7 @@
 #include "io/sequence_readers.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/public_data.h"
+#include "tests/verify/frames.h"
 #include "tests/verify/sheet.h"
 #include "verify/check.h"
 #include "verify/report.h"
@@ -23,25 +24,8 @@
 namespace selvage::verify {
 namespace {
 
+using selvage::testing::Frames;
 using selvage::testing::sheet;
-
-/// A sequence in memory.
-class Frames final : public io::SequenceReader {
- public:
-  explicit Frames(std::vector<io::MeshData> frames) : frames_(std::move(frames)) {}
-  std::size_t frame_count() const override { return frames_.size(); }
-  io::SequenceKind kind() const override { return io::SequenceKind::kSteps; }
-  io::Precision precision() const override { return io::Precision::kFloat64; }
-  const std::vector<io::Group>& groups() const override { return groups_; }
-  std::string frame_name(std::size_t frame) const override { return "memory[" + std::to_string(frame) + "]"; }
-  double time(std::size_t frame) const override { return static_cast<double>(frame); }
-  bool same_faces_as_previous(std::size_t) const override { return true; }
-  io::MeshData frame(std::size_t frame) const override { return frames_.at(frame); }
-
- private:
-  std::vector<io::MeshData> frames_;
-  std::vector<io::Group> groups_;
-};
 
 io::MeshData lifted(io::MeshData mesh, double height) {
   for (Point& p : mesh.points) p[2] += height;

@@ -1,0 +1,167 @@
+// Sequences that are checked in pieces: shards and their merge, runs that are killed and resumed.
+#include <csignal>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.h"
+
+namespace selvage {
+namespace {
+
+using testing::run_program;
+using testing::slurp;
+using testing::spit;
+using testing::TemporaryFolder;
+
+/// A wavy height field of 2 n^2 faces at a height.
+std::string sheet(int n, double height) {
+  std::string obj;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) obj += fmt::format("v {} {} {}\n", i, j, height + (7 * i * i + 3 * i * j) % 16 / 32.0);
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 1; i <= n; ++i) {
+      const int a = j * (n + 1) + i, c = a + n + 1;
+      obj += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + 1, c + 1, a, c + 1, c);
+    }
+  }
+  return obj;
+}
+
+std::vector<std::string> sequence(const std::filesystem::path& folder, int frames, int n) {
+  std::vector<std::string> files;
+  for (int i = 0; i < frames; ++i) {
+    files.push_back(folder / fmt::format("{:03}.obj", i));
+    spit(files.back(), sheet(n, 0.125 * i));
+  }
+  return files;
+}
+
+std::vector<std::string> verify(const std::vector<std::string>& files, std::vector<std::string> options) {
+  std::vector<std::string> arguments = {"verify", "--motion"};
+  arguments.insert(arguments.end(), files.begin(), files.end());
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return arguments;
+}
+
+/// Without what no two runs share.
+nlohmann::json report(const std::filesystem::path& file) {
+  auto json = nlohmann::json::parse(slurp(file));
+  json.erase("seconds");
+  return json;
+}
+
+}  // namespace
+
+TEST(LongRuns, ShardsMergeIntoTheWhole) {
+  const TemporaryFolder folder;
+  const auto files = sequence(folder.path(), 7, 3);
+  const auto shards = folder.path() / "shards", whole = folder.path() / "whole.json", merged = shards / "merged.json";
+  std::filesystem::create_directory(shards);
+  ASSERT_EQ(run_program(folder, verify(files, {"--json", whole})).exit_code, 0);
+  for (int i = 1; i <= 3; ++i) {
+    const auto run = run_program(
+        folder, verify(files, {"--shard", fmt::format("{}/3", i), "--json", shards / fmt::format("{}.json", i)}));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("clean (a part: frames ")) << run.out;
+  }
+  for (int again = 0; again < 2; ++again) {  // the second time the folder holds the result of the first
+    const auto run = run_program(folder, {"merge", shards, "-o", merged});
+    EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+    EXPECT_TRUE(run.out.starts_with("clean\n")) << run.out;
+    EXPECT_EQ(report(merged), report(whole));
+  }
+  std::filesystem::remove(merged);
+  std::filesystem::rename(shards / "2.json", folder.path() / "2.json");
+  const auto missing = run_program(folder, {"merge", shards, "-o", merged});
+  EXPECT_EQ(missing.exit_code, 3) << missing.out;
+  EXPECT_EQ(missing.out, "");
+  EXPECT_NE(missing.err.find("no part holds frames 3 to 4"), std::string::npos) << missing.err;
+  EXPECT_FALSE(std::filesystem::exists(merged));
+  EXPECT_EQ(run_program(folder, {"merge", shards / "1.json", shards / "1.json", "-o", merged}).exit_code, 3);
+  spit(shards / "2.json", "{}");
+  EXPECT_EQ(run_program(folder, {"merge", shards, "-o", merged}).exit_code, 3) << "not a report";
+  ASSERT_EQ(
+      run_program(folder, verify(files, {"--shard", "2/3", "--min-distance", "0.01", "--json", shards / "2.json"}))
+          .exit_code,
+      0);
+  EXPECT_EQ(run_program(folder, {"merge", shards, "-o", merged}).exit_code, 3) << "other options";
+}
+
+TEST(LongRuns, AShardIsNamedByHandOrBySlurm) {
+  const TemporaryFolder folder;
+  const auto files = sequence(folder.path(), 4, 2);
+  const auto json = folder.path() / "r.json";
+  for (const char* bad : {"0/2", "3/2", "1", "1/0", "x/2", "1/2/3", "1/5", "auto"}) {
+    EXPECT_EQ(run_program(folder, verify(files, {"--shard", bad})).exit_code, 2) << bad;
+  }
+  const auto slurm = [](const char* id, const char* first, const char* last, const char* count) {
+    setenv("SLURM_ARRAY_TASK_ID", id, 1);
+    setenv("SLURM_ARRAY_TASK_MIN", first, 1);
+    setenv("SLURM_ARRAY_TASK_MAX", last, 1);
+    setenv("SLURM_ARRAY_TASK_COUNT", count, 1);
+  };
+  slurm("6", "5", "6", "2");
+  EXPECT_EQ(run_program(folder, verify(files, {"--shard", "auto", "--json", json})).exit_code, 0);
+  EXPECT_EQ(report(json)["sequence"]["first_frame"], 2);
+  EXPECT_EQ(report(json)["sequence"]["end_frame"], 4);
+  EXPECT_EQ(report(json)["motions"]["checked"], 2) << "the motion from the frame before belongs to the shard";
+  slurm("7", "5", "7", "2");  // tasks 5 and 7: which shards would they be?
+  EXPECT_EQ(run_program(folder, verify(files, {"--shard", "auto"})).exit_code, 2);
+  for (const char* name : {"_ID", "_MIN", "_MAX", "_COUNT"}) unsetenv((std::string("SLURM_ARRAY_TASK") + name).c_str());
+}
+
+TEST(LongRuns, AKilledRunIsResumed) {
+  const TemporaryFolder folder;
+  const auto files = sequence(folder.path(), 60, 40);
+  const auto json = folder.path() / "r.json", whole = folder.path() / "whole.json",
+             progress = folder.path() / "r.json.progress";
+  ASSERT_EQ(run_program(folder, verify(files, {"--json", whole})).exit_code, 0);
+  const auto arguments = verify(files, {"--json", json, "--resume", "--threads", "1"});
+  const pid_t child = testing::start_program(folder.path(), arguments);
+  int status = 0;
+  while (!std::filesystem::exists(progress) && waitpid(child, &status, WNOHANG) == 0) usleep(2000);
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "it was over before it could be killed";
+  EXPECT_FALSE(std::filesystem::exists(json));
+  const auto done = report(progress)["frames"]["checked"].get<int>();
+  EXPECT_GT(done, 0);
+  EXPECT_LT(done, 60);
+
+  spit(folder.path() / "other.txt", slurp(progress));
+  EXPECT_EQ(run_program(folder, verify(files, {"--json", json, "--resume", "--weld"})).exit_code, 2) << "other options";
+  const auto resumed = run_program(folder, arguments);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(report(json), report(whole));
+  EXPECT_FALSE(std::filesystem::exists(progress));
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 0) << "a finished run is not done again, and says the same";
+  EXPECT_EQ(report(json), report(whole));
+
+  spit(progress, slurp(folder.path() / "other.txt"));
+  spit(files[static_cast<std::size_t>(done) - 1], sheet(40, 77));  // the last frame that was checked
+  const auto changed = run_program(folder, arguments);
+  EXPECT_EQ(changed.exit_code, 3) << changed.out;
+  EXPECT_NE(changed.err.find("changed since"), std::string::npos) << changed.err;
+}
+
+TEST(LongRuns, AnInterruptedRunIsResumed) {
+  const TemporaryFolder folder;
+  const auto files = sequence(folder.path(), 60, 40);
+  const auto json = folder.path() / "r.json", whole = folder.path() / "whole.json";
+  ASSERT_EQ(run_program(folder, verify(files, {"--json", whole})).exit_code, 0);
+  const auto arguments = verify(files, {"--json", json, "--resume", "--threads", "1"});
+  const pid_t child = testing::start_program(folder.path(), arguments);
+  testing::wait_until_signal_is_caught(child, SIGTERM);
+  usleep(300000);
+  kill(child, SIGTERM);
+  EXPECT_EQ(testing::wait_for_program(folder.path(), child).exit_code, 75);
+  EXPECT_EQ(report(json)["verdict"], "unknown");
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 0);
+  EXPECT_EQ(report(json), report(whole));
+}
+
+}  // namespace selvage

@@ -1,0 +1,140 @@
+// Exempt, ignored and welded parts of a sequence: what is left is checked, what is left out is counted.
+#include <gtest/gtest.h>
+
+#include "tests/verify/frames.h"
+#include "tests/verify/sheet.h"
+#include "verify/check.h"
+
+namespace selvage::verify {
+namespace {
+
+using selvage::testing::add_vertex;
+using selvage::testing::Frames;
+using selvage::testing::sheet;
+
+constexpr std::int32_t kSheetFaces = 50;
+
+/// A sheet of 50 faces, and a triangle (face 50) that pierces it.
+io::MeshData pierced_sheet() {
+  io::MeshData mesh = sheet(5);
+  const auto p = add_vertex(mesh, {1.25, 1.25, 3}), q = add_vertex(mesh, {1.5, 1.25, 3}),
+             r = add_vertex(mesh, {1.25, 1.5, -3});
+  mesh.triangles.push_back({p, q, r});
+  mesh.groups = {{"shirt", io::Group::Role::kCloth, 0, kSheetFaces},
+                 {"pin", io::Group::Role::kCloth, kSheetFaces, kSheetFaces + 1}};
+  return mesh;
+}
+
+SequenceReport check(std::vector<io::MeshData> frames, const GroupRules& rules, bool weld = false) {
+  SequenceOptions options;
+  options.rules = rules;
+  options.weld = weld;
+  return check_sequence(Frames(std::move(frames)), options);
+}
+
+/// Two sheets side by side; the vertices along their common line are there twice.
+io::MeshData split_sheet() {
+  io::MeshData mesh = sheet(4);
+  const io::MeshData other = sheet(4);
+  const auto offset = static_cast<std::int32_t>(mesh.points.size());
+  for (Point p : other.points) {
+    p[0] = 8 - p[0];  // mirrored, so that the heights along x = 4 agree
+    mesh.points.push_back(p);
+  }
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + offset, c + offset, b + offset});
+  return mesh;
+}
+
+}  // namespace
+
+TEST(Allowances, AnExemptPairIsCountedAndNothingElseIsLeftOut) {
+  const io::MeshData mesh = pierced_sheet();
+  EXPECT_EQ(check({mesh, mesh}, {}).verdict, Verdict::kViolated);
+  const SequenceReport exempt = check({mesh, mesh}, {{}, {{"shirt", "pin"}}, {}});
+  EXPECT_EQ(exempt.verdict, Verdict::kClean);
+  ASSERT_EQ(exempt.exempted.size(), 1U);
+  EXPECT_GT(exempt.exempted[0].pairs, 0);
+  EXPECT_EQ(exempt.exempted[0].groups, (std::array<std::string, 2>{"shirt", "pin"}));
+  const SequenceReport all = check({mesh, mesh}, {});
+  EXPECT_EQ(exempt.pairs.overlap + exempt.pairs.vf + exempt.pairs.ee + exempt.exempted[0].pairs,
+            all.pairs.overlap + all.pairs.vf + all.pairs.ee);
+  EXPECT_EQ(exempt.pairs.self, all.pairs.self) << "a face and itself are no pair";
+  // Within the shirt is another matter.
+  const SequenceReport within = check({mesh, mesh}, {{}, {{"shirt", "shirt"}}, {}});
+  EXPECT_EQ(within.verdict, Verdict::kViolated);
+  EXPECT_EQ(within.violations_total.overlap, all.violations_total.overlap);
+}
+
+TEST(Allowances, AGroupMadeByTheUserIsLikeOneOfTheSequence) {
+  io::MeshData mesh = pierced_sheet();
+  mesh.groups.clear();
+  const GroupRules rules = {
+      {{"a", io::Group::Role::kCloth, 0, 50}, {"b", io::Group::Role::kCloth, 50, 51}}, {{"b", "a"}}, {}};
+  EXPECT_EQ(check({mesh}, rules).verdict, Verdict::kClean);
+  EXPECT_THROW(check({mesh}, {{}, {{"a", "b"}}, {}}), GroupRuleError);
+}
+
+TEST(Allowances, AnIgnoredGroupIsNoPartOfTheCheck) {
+  const io::MeshData mesh = pierced_sheet();
+  const SequenceReport report = check({mesh, mesh}, {{}, {}, {"pin"}});
+  EXPECT_EQ(report.verdict, Verdict::kClean);
+  ASSERT_EQ(report.ignored.size(), 1U);
+  EXPECT_EQ(report.ignored[0].faces, 1);
+  const SequenceReport alone = check({sheet(5), sheet(5)}, {});
+  EXPECT_EQ(report.pairs.overlap, alone.pairs.overlap);
+  EXPECT_EQ(report.pairs.ee, alone.pairs.ee);
+  EXPECT_EQ(report.pairs.self, alone.pairs.self);
+}
+
+TEST(Allowances, WithEverythingAllowedNothingIsClean) {
+  const io::MeshData mesh = pierced_sheet();
+  for (const GroupRules& rules :
+       {GroupRules{{}, {}, {"shirt", "pin"}}, GroupRules{{}, {{"shirt", "shirt"}, {"shirt", "pin"}}, {}},
+        GroupRules{{}, {{"shirt", "shirt"}}, {"pin"}}, GroupRules{{}, {}, {"shirt"}}}) {
+    const SequenceReport report = check({mesh, mesh}, rules);
+    EXPECT_EQ(report.verdict, Verdict::kUnknown);
+    EXPECT_EQ(report.frames.checked, 0);
+    EXPECT_EQ(report.unchecked.size(), 3U) << "two frames and a motion";
+  }
+}
+
+TEST(Allowances, WeldingClosesASeamThatNeverOpens) {
+  const io::MeshData mesh = split_sheet();
+  EXPECT_EQ(check({mesh, mesh}, {}).verdict, Verdict::kViolated) << "duplicate vertices touch";
+  const SequenceReport welded = check({mesh, mesh}, {}, true);
+  EXPECT_EQ(welded.verdict, Verdict::kClean);
+  ASSERT_TRUE(welded.welded);
+  EXPECT_EQ(welded.welded->vertices, 5);
+  EXPECT_EQ(welded.welded->collapsed_faces, 0);
+  EXPECT_EQ(welded.unreferenced_vertices, 0);
+  // One vertex that parts in one frame stays two: where the others are joined it touches.
+  io::MeshData parted = mesh;
+  parted.points[4][0] += 0x1p-20;
+  const SequenceReport open = check({mesh, parted}, {}, true);
+  EXPECT_EQ(open.welded->vertices, 4);
+  EXPECT_EQ(open.verdict, Verdict::kViolated);
+}
+
+TEST(Allowances, AFaceThatWeldingCollapsesIsAViolationInEveryFrame) {
+  io::MeshData mesh = sheet(4);
+  const auto copy = add_vertex(mesh, mesh.points[0]);
+  mesh.triangles.push_back({0, copy, 24});
+  const SequenceReport report = check({mesh, mesh, mesh}, {}, true);
+  EXPECT_EQ(report.verdict, Verdict::kViolated);
+  EXPECT_EQ(report.welded->collapsed_faces, 1);
+  EXPECT_EQ(report.violations_total.total(), 3);
+  ASSERT_EQ(report.violations.size(), 3U);
+  EXPECT_EQ(report.violations[0].kind, "degenerate");
+  EXPECT_EQ(report.violations[0].features, (std::array<std::int32_t, 2>{0, 32}));
+  EXPECT_EQ(report.violations[0].x_t0.size(), 3U);
+  EXPECT_EQ(check({mesh}, {{{"sliver", io::Group::Role::kCloth, 32, 33}}, {}, {"sliver"}}, true).verdict,
+            Verdict::kClean);
+}
+
+TEST(Allowances, WeldingNeedsOneSurface) {
+  io::MeshData other = sheet(4);
+  std::swap(other.triangles[3], other.triangles[4]);
+  EXPECT_THROW(check({sheet(4), other}, {}, true), io::Error);
+}
+
+}  // namespace selvage::verify

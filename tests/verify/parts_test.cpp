@@ -1,0 +1,169 @@
+// A long check in pieces: resumed, or split into parts that are joined. The result is that of one run, or an error.
+#include <gtest/gtest.h>
+
+#include "tests/verify/frames.h"
+#include "tests/verify/sheet.h"
+#include "verify/merge.h"
+#include "verify/report.h"
+
+namespace selvage::verify {
+namespace {
+
+using selvage::testing::Frames;
+using selvage::testing::sheet;
+
+/// A sheet, and a triangle at a height that goes through it between frames 2 and 3 and lies in it in frame 5.
+std::vector<io::MeshData> frames() {
+  std::vector<io::MeshData> result;
+  for (const double height : {4.0, 3.0, 2.0, -2.0, -3.0, 0.25, -4.0}) {
+    io::MeshData mesh = sheet(5);
+    const auto p = testing::add_vertex(mesh, {1.25, 1.25, height}), q = testing::add_vertex(mesh, {1.5, 1.25, height}),
+               r = testing::add_vertex(mesh, {1.25, 1.5, height});
+    mesh.triangles.push_back({p, q, r});
+    mesh.groups = {{"a", io::Group::Role::kCloth, 0, 10}, {"b", io::Group::Role::kCloth, 10, 20}};
+    result.push_back(std::move(mesh));
+  }
+  return result;
+}
+
+SequenceOptions options() {
+  SequenceOptions options;
+  options.rules.exempt = {{"a", "b"}};
+  options.check.max_violations = 4;
+  return options;
+}
+
+const ReportContext kContext{"selvage test", {"memory"}, {}, {{"motions", "yes"}}};
+
+/// Without what no two runs share.
+std::string json(SequenceReport report) {
+  report.seconds = 0;
+  return json_report(report, kContext);
+}
+
+Part part(const std::vector<io::MeshData>& frames, std::size_t first, std::size_t end) {
+  SequenceOptions wanted = options();
+  wanted.range = {first, end};
+  const SequenceReport report = check_sequence(Frames(frames), wanted);
+  return {std::to_string(first) + ".json", {report, kContext}};
+}
+
+std::string merge_error(std::vector<Part> parts) {
+  try {
+    (void)merge(std::move(parts));
+  } catch (const MergeError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(Parts, AReportComesBackFromItsJson) {
+  const SequenceReport report = check_sequence(Frames(frames()), options());
+  EXPECT_EQ(report.verdict, Verdict::kViolated);
+  EXPECT_GT(report.exempted.at(0).pairs, 0);
+  ASSERT_EQ(report.violations.size(), 4U);
+  const std::string text = json_report(report, kContext);
+  const ParsedReport parsed = parse_report(text, "report.json");
+  EXPECT_EQ(json_report(parsed.report, parsed.context), text);
+  EXPECT_EQ(parsed.report.violations[0].x_t1, report.violations[0].x_t1);
+}
+
+TEST(Parts, WhatIsNoReportIsRefused) {
+  const std::string good = json_report(check_sequence(Frames(frames()), options()), kContext);
+  EXPECT_NO_THROW((void)parse_report(good, "a"));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  for (const std::string& bad : {std::string("{}"), std::string("[]"), std::string("x"),
+                                 good.substr(0, good.size() / 2), with("selvage.verify/1", "selvage.verify/2"),
+                                 with("\"violated\"", "\"fine\""), with("\"end_frame\": 7", "\"end_frame\": 8"),
+                                 with("\"first_frame\": 0", "\"first_frame\": -1"), with("\"frames\"", "\"frame\"")}) {
+    EXPECT_THROW((void)parse_report(bad, "a"), io::Error) << bad.substr(0, 80);
+  }
+}
+
+TEST(Parts, ARunThatIsResumedReportsWhatOneRunWould) {
+  const std::vector<io::MeshData> all = frames();
+  const std::string whole = json(check_sequence(Frames(all), options()));
+  std::vector<SequenceReport> notes;
+  SequenceOptions noting = options();
+  noting.checkpoint = [&](const SequenceReport& report) { notes.push_back(report); };
+  (void)check_sequence(Frames(all), noting);
+  ASSERT_EQ(notes.size(), all.size());
+  for (const SequenceReport& note : notes) {
+    const ParsedReport parsed = parse_report(json_report(note, kContext), "progress");
+    std::int64_t units = 0;
+    SequenceOptions resuming = options();
+    resuming.resume_from = &parsed.report;
+    resuming.progress = [&](std::size_t, std::size_t) { return ++units > 0; };
+    EXPECT_EQ(json(check_sequence(Frames(all), resuming)), whole);
+    EXPECT_LE(units, 2 * static_cast<std::int64_t>(all.size() - note.frame_crc32.size()))
+        << "what is done is not done again";
+  }
+  SequenceOptions resuming = options();
+  resuming.resume_from = &notes[3];
+  std::vector<io::MeshData> changed = all;
+  changed[3].points[0][2] += 1;
+  EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "the last frame that was done";
+  changed = all;
+  changed.pop_back();
+  EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "another sequence";
+}
+
+TEST(Parts, AllPartsMakeTheWhole) {
+  const std::vector<io::MeshData> all = frames();
+  const std::string whole = json(check_sequence(Frames(all), options()));
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      // In any order.
+      const ParsedReport merged = merge({part(all, j, all.size()), part(all, 0, i), part(all, i, j)});
+      EXPECT_EQ(json(merged.report), whole) << i << " " << j;
+    }
+  }
+}
+
+TEST(Parts, NothingMissingDoubleOrForeignIsJoined) {
+  const std::vector<io::MeshData> all = frames();
+  const Part a = part(all, 0, 3), b = part(all, 3, 5), c = part(all, 5, 7);
+  EXPECT_EQ(merge_error({a, b, c}), "");
+  EXPECT_NE(merge_error({}), "");
+  EXPECT_EQ(merge_error({b, c}), "no part holds frames 0 to 2");
+  EXPECT_EQ(merge_error({a, c}), "no part holds frames 3 to 4");
+  EXPECT_EQ(merge_error({a, b}), "no part holds frames 5 to 6");
+  EXPECT_NE(merge_error({a, b, b, c}).find("both hold frames 3 to 4"), std::string::npos);
+  EXPECT_NE(merge_error({a, part(all, 2, 5), c}).find("both hold"), std::string::npos);
+  Part foreign = b;
+  foreign.parsed.context.program = "selvage other";
+  EXPECT_NE(merge_error({a, foreign, c}).find("programs"), std::string::npos);
+  foreign = b;
+  foreign.parsed.context.options[0].second = "no";
+  EXPECT_NE(merge_error({a, foreign, c}).find("options"), std::string::npos);
+  std::vector<io::MeshData> other = all;
+  other[6].points[0][2] += 1;
+  EXPECT_NE(merge_error({a, part(other, 3, 5), c}).find("sequences"), std::string::npos);
+  other = all;
+  other[2].points[0][2] += 1;  // neither the first nor the last frame: only the neighbour knows
+  EXPECT_NE(merge_error({a, part(other, 3, 5), c}).find("frame 2 changed"), std::string::npos);
+}
+
+TEST(Parts, APartThatWasStoppedLeavesTheWholeUnknown) {
+  std::vector<io::MeshData> all(6, sheet(4));
+  SequenceOptions stopping;
+  stopping.range = {2, 4};
+  stopping.progress = [](std::size_t done, std::size_t) { return done < 2; };
+  const auto whole_part = [&](std::size_t first, std::size_t end) {
+    SequenceOptions wanted;
+    wanted.range = {first, end};
+    return Part{"p", {check_sequence(Frames(all), wanted), kContext}};
+  };
+  const SequenceReport stopped = check_sequence(Frames(all), stopping);
+  EXPECT_EQ(stopped.verdict, Verdict::kUnknown);
+  EXPECT_EQ(merge({whole_part(0, 2), whole_part(2, 4), whole_part(4, 6)}).report.verdict, Verdict::kClean);
+  EXPECT_EQ(merge({whole_part(0, 2), {"s", {stopped, kContext}}, whole_part(4, 6)}).report.verdict, Verdict::kUnknown);
+}
+
+}  // namespace selvage::verify
