@@ -18,12 +18,6 @@ constexpr std::array<PairKind, 2> kKinds{PairKind::kVf, PairKind::kEe};
 constexpr std::size_t kToiSample = 4000;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// What one method says of all candidates of one kind.
-struct Answers {
-  std::vector<Alarm> alarms;
-  double ns = kNever;  ///< of the best pass
-};
-
 class CcdBench {
  public:
   CcdBench(const MeshMotion& motion, const CcdBenchOptions& options) : motion_(motion), repeat_(options.repeat) {
@@ -65,16 +59,17 @@ class CcdBench {
 };
 
 void CcdBench::measure(PairKind kind, std::span<const CcdMethod> methods) {
-  std::vector<Answers> answers(methods.size());
+  std::vector<CcdAnswers> answers(methods.size());
+  std::vector<double> best_ns(methods.size(), kNever);
   for (int pass = 0; pass < repeat_; ++pass) {
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const double start = thread_nanoseconds();
-      std::vector<Alarm> alarms = methods[i].ask(kind, motion_, candidates_, ccd_options_);
-      answers[i].ns = std::min(answers[i].ns, thread_nanoseconds() - start);
-      if (pass > 0 && alarms.size() != answers[i].alarms.size()) {
+      CcdAnswers of_pass = methods[i].ask(kind, motion_, candidates_, ccd_options_);
+      best_ns[i] = std::min(best_ns[i], thread_nanoseconds() - start);
+      if (pass > 0 && of_pass.alarms.size() != answers[i].alarms.size()) {
         throw std::logic_error(std::string(methods[i].name) + " answered one list in two ways");
       }
-      answers[i].alarms = std::move(alarms);
+      answers[i] = std::move(of_pass);
     }
   }
   const bool is_vf = kind == PairKind::kVf;
@@ -83,7 +78,8 @@ void CcdBench::measure(PairKind kind, std::span<const CcdMethod> methods) {
   (is_vf ? report_.vf_contacts : report_.ee_contacts) = static_cast<std::int64_t>(answers.back().alarms.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
     judge(kind, methods[i], answers[i].alarms, report_.methods[i]);
-    (is_vf ? report_.methods[i].ns_vf : report_.methods[i].ns_ee) = answers[i].ns;
+    (is_vf ? report_.methods[i].ns_vf : report_.methods[i].ns_ee) = best_ns[i];
+    report_.methods[i].searched += answers[i].searched;
   }
 }
 
@@ -178,6 +174,7 @@ std::string to_json(const CcdBenchReport& report) {
                             {"false_positives", method.false_positives},
                             {"false_positives_beyond_gap", method.false_positives_beyond_gap},
                             {"unresolved", method.unresolved},
+                            {"searched", method.searched},
                             {"toi_examined", method.toi_examined},
                             {"late_toi", method.toi.late},
                             {"toi_error",

@@ -29,13 +29,13 @@ KernelQuery kernel_query(const MeshMotion& motion, const std::array<VertexId, 4>
 
 /// One after another; `ask` returns whether the pair is an alarm, and fills it in.
 template <typename Pairs, typename Ask>
-std::vector<Alarm> one_by_one(const MeshMotion& motion, const Pairs& pairs, const Ask& ask) {
-  std::vector<Alarm> alarms;
+CcdAnswers one_by_one(const MeshMotion& motion, const Pairs& pairs, const Ask& ask) {
+  CcdAnswers answers;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     Alarm alarm{i, 0, 0, false};
-    if (ask(vertices_of(motion.mesh, pairs[i]), alarm)) alarms.push_back(alarm);
+    if (ask(vertices_of(motion.mesh, pairs[i]), alarm)) answers.alarms.push_back(alarm);
   }
-  return alarms;
+  return answers;
 }
 
 using CcdQuery = CcdResult (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&, const CcdOptions&);
@@ -44,7 +44,7 @@ using ExactDecision = verify::MotionAnswer (*)(const std::array<verify::Point, 4
                                                verify::Detail);
 
 template <typename Pairs>
-std::vector<Alarm> ask_scalar(const MeshMotion& motion, const Pairs& pairs, const CcdOptions& options, CcdQuery ccd) {
+CcdAnswers ask_scalar(const MeshMotion& motion, const Pairs& pairs, const CcdOptions& options, CcdQuery ccd) {
   return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm& alarm) {
     const KernelQuery query = kernel_query(motion, vertices);
     const CcdResult result = ccd(query.x_t0, query.x_t1, options);
@@ -57,7 +57,7 @@ std::vector<Alarm> ask_scalar(const MeshMotion& motion, const Pairs& pairs, cons
 }
 
 template <typename Pairs>
-std::vector<Alarm> ask_textbook(const MeshMotion& motion, const Pairs& pairs, TextbookQuery textbook) {
+CcdAnswers ask_textbook(const MeshMotion& motion, const Pairs& pairs, TextbookQuery textbook) {
   return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm& alarm) {
     const KernelQuery query = kernel_query(motion, vertices);
     const TextbookAnswer answer = textbook(query.x_t0, query.x_t1);
@@ -78,36 +78,36 @@ ExactQuery exact_query(const MeshMotion& motion, const std::array<VertexId, 4>& 
 }
 
 template <typename Pairs>
-std::vector<Alarm> ask_exact(const MeshMotion& motion, const Pairs& pairs, ExactDecision decide) {
+CcdAnswers ask_exact(const MeshMotion& motion, const Pairs& pairs, ExactDecision decide) {
   return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm&) {
     const ExactQuery query = exact_query(motion, vertices);
     return decide(query.x_t0, query.x_t1, verify::Detail::kDecision).touches;
   });
 }
 
-std::vector<Alarm> kernel(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
-                          const CcdOptions& options) {
+CcdAnswers kernel(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions& options) {
   const std::size_t count = kind == PairKind::kVf ? candidates.vf.size() : candidates.ee.size();
   const CcdBatch batch(motion.mesh, motion.V_t0, motion.V_t1, options, count);
   const BatchReport report = kind == PairKind::kVf ? batch.ask(candidates.vf) : batch.ask(candidates.ee);
-  std::vector<Alarm> alarms;
-  alarms.reserve(report.answers.size());
+  CcdAnswers answers;
+  answers.searched = report.searched;
+  answers.alarms.reserve(report.answers.size());
   for (const BatchAnswer& answer : report.answers) {
-    alarms.push_back(
+    answers.alarms.push_back(
         {answer.candidate, answer.ccd.toi_lower, answer.ccd.gap_bound, answer.ccd.verdict == CcdVerdict::kUnresolved});
   }
-  return alarms;
+  return answers;
 }
-std::vector<Alarm> kernel_scalar(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
-                                 const CcdOptions& options) {
+CcdAnswers kernel_scalar(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
+                         const CcdOptions& options) {
   return kind == PairKind::kVf ? ask_scalar(motion, candidates.vf, options, vf_ccd)
                                : ask_scalar(motion, candidates.ee, options, ee_ccd);
 }
-std::vector<Alarm> textbook(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions&) {
+CcdAnswers textbook(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions&) {
   return kind == PairKind::kVf ? ask_textbook(motion, candidates.vf, textbook_vf)
                                : ask_textbook(motion, candidates.ee, textbook_ee);
 }
-std::vector<Alarm> exact(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions&) {
+CcdAnswers exact(PairKind kind, const MeshMotion& motion, const Candidates& candidates, const CcdOptions&) {
   return kind == PairKind::kVf ? ask_exact(motion, candidates.vf, verify::exact_vf_motion)
                                : ask_exact(motion, candidates.ee, verify::exact_ee_motion);
 }

@@ -19,10 +19,15 @@ struct Alarm {
   bool unresolved = false;
 };
 
+struct CcdAnswers {
+  std::vector<Alarm> alarms;  ///< in the order of the candidates
+  std::int64_t searched = 0;  ///< pairs that a cull left to a slower query, where the method counts them
+};
+
 struct CcdMethod {
   const char* name;
-  /// The alarms of one kind of candidates, in their order. One thread.
-  std::vector<Alarm> (*ask)(PairKind, const MeshMotion&, const Candidates&, const CcdOptions&);
+  /// What it says of one kind of candidates. One thread.
+  CcdAnswers (*ask)(PairKind, const MeshMotion&, const Candidates&, const CcdOptions&);
   bool gives_toi;
   bool gives_gap_bound;
 };

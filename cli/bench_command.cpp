@@ -98,6 +98,10 @@ std::string table(const bench::CcdBenchReport& report) {
     }
     text += '\n';
   }
+  const bench::CcdMethodReport& kernel = report.methods.front();
+  text += fmt::format("the kernel's cull left {} pairs to single queries: {:.2f} %\n", kernel.searched,
+                      100 * static_cast<double>(kernel.searched) /
+                          static_cast<double>(std::max<std::int64_t>(1, report.vf_candidates + report.ee_candidates)));
   return text +
          "one thread; processor time of the best whole pass over all candidates; the exact checker says the truth\n";
 }
