@@ -4,11 +4,11 @@
 // Model (IEEE 754 binary64, to nearest, gradual underflow; FpEnvGuard establishes it), u = 2^-53:
 //   fl(a + b) = (a + b)(1 + d), |d| <= u: sums have no underflow error;
 //   fl(a * b) = (a * b)(1 + d) + h, |d| <= u, |h| <= 2^-1075.
-// The same holds for double-double arithmetic with u = 7 * 2^-106 < 2^-103 (Joldes, Muller, Popescu 2017, theorems 3.1
-// and 5.1) and a small multiple of 2^-1074 for h.
+// In double-double arithmetic a product costs 7 * 2^-106 and a sum 3 * 2^-106, relative (Joldes, Muller, Popescu 2017,
+// theorems 5.1 and 3.1), with a small multiple of 2^-1074 for h, and the difference of two doubles nothing.
 // A product of n factors (1 + d) differs from 1 by at most n u / (1 - n u) (Higham 2002, Lemma 3.1). Each constant
-// below counts the roundings n, and adds a quarter for that denominator and for the evaluation of the bound itself,
-// both of second order in u.
+// below counts the differences of stored points, products and sums in a row, and adds a quarter of a product for that
+// denominator and for the evaluation of the bound itself, both of second order in u.
 //
 // Scaled differences: with P - Q the exact difference of two stored points along one axis,
 //   s = fl(P - Q) * 2^-k,  |s| < 1 for every corner difference, the largest in [0.5, 1).
@@ -22,10 +22,22 @@ namespace selvage::detail {
 
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
+/// What one operation costs, relative to its result.
 template <class Real>
-inline constexpr double kUnit = kUnitRoundoff;
+struct RoundingOf {
+  static constexpr double kDifference = kUnitRoundoff, kProduct = kUnitRoundoff, kSum = kUnitRoundoff;
+};
 template <>
-inline constexpr double kUnit<DoubleDouble> = 0x1p-103;
+struct RoundingOf<DoubleDouble> {
+  static constexpr double kDifference = 0, kProduct = 7 * 0x1p-106, kSum = 3 * 0x1p-106;
+};
+
+/// The bound for a value that so many differences of stored points, products and sums go into, one after another.
+template <class Real>
+constexpr double error_of(int differences, int products, int sums) {
+  using Rounding = RoundingOf<Real>;
+  return differences * Rounding::kDifference + (products + 0.25) * Rounding::kProduct + sums * Rounding::kSum;
+}
 
 /// What underflow costs a bound: every lost product is at most 2^-1074, times factors below 2^12, at most 2^8 of them.
 inline constexpr double kUnderflowError = 0x1p-1000;
@@ -37,12 +49,12 @@ inline constexpr double kPointRoundings = 3;
 /// fl(n . x): each product 1, the sums 2, relative to sum |n_j| |x_j|; and the points' own 3 u E_j:
 ///   |fl(n . x) - n . X| <= 6 u sum |n_j| E_j.
 template <class Real>
-inline constexpr double kSupportError = (kPointRoundings + 3.25) * kUnit<Real>;
+inline constexpr double kSupportError = error_of<Real>(1, 2, 3);
 
 /// The witness sum w_i x_i, along one axis: the subtraction 1, the product of two weights 1, the product 1, three sums
 /// 3, relative to sum w_i |x_i|. Corners interpolated to t lose kBlendError E besides, since they may cancel.
-inline constexpr double kWitnessError = 6.25 * kUnitRoundoff;
-inline constexpr double kBlendError = (kPointRoundings + 0.25) * kUnitRoundoff;
+inline constexpr double kWitnessError = error_of<double>(1, 2, 3);
+inline constexpr double kBlendError = error_of<double>(1, 1, 1);
 
 /// sqrt(x^2 + y^2 + z^2), scaled so that nothing that matters under- or overflows: squares 1 and sums 2, halved by the
 /// root: 1.5; the root 1.
@@ -51,20 +63,20 @@ inline constexpr double kNormError = 2.75 * kUnitRoundoff;
 /// A Bernstein coefficient of 3 det[u(t), v(t), r(t)], relative to three permanents of the extents (terms a_i b_j c_k):
 ///   the three subtractions 3; the two products 2; the difference inside a cross product 1; the sum of the two cross
 ///   products in the doubled middle coefficient 1; the sums of the dot product 2; the sum of the two determinants 1.
-///   (The outer coefficients: the product with 3 instead of the last two.)
+///   The outer coefficients have a third product, with 3, in place of the two sums, so that 3 and 4 cover both.
 template <class Real>
-inline constexpr double kDeterminantError = 10.25 * kUnit<Real>;
+inline constexpr double kDeterminantError = error_of<Real>(3, 3, 4);
 
 /// Three levels of s a + t b with s + t = 1 exactly: each 2 u of the largest coefficient; the error of the level before
 /// is carried on as a convex combination.
 template <class Real>
-inline constexpr double kBlossomError = 6.25 * kUnit<Real>;
+inline constexpr double kBlossomError = error_of<Real>(0, 3, 3);
 
 /// A component d_i e_j - d_j e_i of the cross product of an interpolated corner and an interpolated edge: the points 3
 /// + 3, the product 1, the difference 1, and 1 for the sum of two in a middle coefficient; relative to D_i E_j + D_j
 /// E_i (the extents of corners and edges), twice for the doubled middle coefficient.
 template <class Real>
-inline constexpr double kWindingError = (2 * kPointRoundings + 3.25) * kUnit<Real>;
+inline constexpr double kWindingError = error_of<Real>(2, 3, 4);
 
 /// The cull in lanes projects the points themselves, in a scale in which every |coordinate| < 1; N = |n_x| + |n_y| +
 /// |n_z|. A direction n separates the features over a part of the step if, at both its ends, n . p > n . q for all

@@ -192,6 +192,20 @@ double share_of_witness(const Case& c) {
   return ratio(exact(sum) - real_sum, detail::kWitnessError * total);
 }
 
+double share_of_lane(const Case& c) {
+  const double t = detail::time_of(c.tick[0]), s = 1 - t;
+  const Double3 n = leading(c.n);
+  std::array<double, 2> computed;
+  std::array<Rational, 2> real;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Double3 &a = c.x_t0[i], &b = c.x_t1[i];
+    computed[i] = dot(n, Double3{s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z});
+    real[i] = exact(s) * dot(exact(n), exact(a)) + exact(t) * dot(exact(n), exact(b));
+  }
+  const double bound = detail::kLaneError * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z));
+  return ratio(exact(computed[0] - computed[1]) - (real[0] - real[1]), bound);
+}
+
 double share_of_norm(const Case& c) {
   const Double3& v = c.x_t0[0];
   // norm^2 / v^2 - 1 is twice the relative error, to first order.
@@ -235,6 +249,7 @@ constexpr Bound kBounds[] = {{"point", share_of_point},
                              {"blossom", share_of_blossom<double>},
                              {"witness", share_of_witness},
                              {"norm", share_of_norm},
+                             {"lane", share_of_lane},
                              {"support, double-double", share_of_support<DoubleDouble>},
                              {"winding, double-double", share_of_winding<DoubleDouble>},
                              {"determinant, double-double", share_of_determinant<DoubleDouble>},
