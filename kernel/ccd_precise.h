@@ -18,8 +18,8 @@ inline constexpr Tick kNarrowWidth = 3;
 [[nodiscard]] std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion,
                                                         const TickInterval& interval, double suspect,
                                                         std::int32_t& left);
-/// At some 5 us each. On the fuzzer's classes 48 leave one of 48,000 contacts without an alarm's gap, as 128 do, for two
-/// thirds of the time; 32 leave six.
+/// At some 5 us each. On the fuzzer's classes 48 leave one of 48,000 contacts without an alarm's gap, as 128 do, for
+/// two thirds of the time; 32 leave six.
 inline constexpr int kMaxPreciseIntervals = 48;
 
 }  // namespace selvage::detail

@@ -37,7 +37,7 @@ Touch random_touch(Random& random, PairKind kind) {
   const auto offset = [&random, scale] {
     return random.chance(2) ? 0.0 : scale * std::ldexp(random.uniform(), random.integer(0, 40));
   };
-  const Vec3 shift(offset(), offset(), offset());
+  const Vec3 shift = {offset(), offset(), offset()};
   for (;;) {
     Touch touch;
     for (Points* x : {&touch.x_t0, &touch.x_t1}) {

@@ -29,7 +29,8 @@ class Random {
   /// Full significand, magnitude in [2^first, 2^last).
   double magnitude(int first, int last) {
     const double significand = 1 + static_cast<double>(bits() >> 12) * 0x1p-52;
-    return std::ldexp((bits() & 1) != 0 ? significand : -significand, integer(first, last - 1));
+    const int exponent = integer(first, last - 1);  // compilers evaluate arguments in different orders
+    return std::ldexp((bits() & 1) != 0 ? significand : -significand, exponent);
   }
   bool chance(int one_in) { return integer(1, one_in) == 1; }
 

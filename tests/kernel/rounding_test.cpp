@@ -210,6 +210,7 @@ static_assert(18 * detail::kDeterminantError<double> == 369 * 0x1p-54);
 static_assert(detail::kBlossomError<double> == 25 * 0x1p-55);
 static_assert(4 * detail::kWitnessError == 100 * 0x1p-55);
 static_assert(detail::kNormError == 11 * 0x1p-55);
+static_assert(3 * detail::kLaneError > 36 * 0x1p-53);
 
 }  // namespace
 
