@@ -21,7 +21,7 @@ std::string label(const verify::Violation& violation) {
 std::string overlap_text(const verify::Violation& violation) {
   fuzz::OverlapCase kept;
   kept.seed = "verify:" + label(violation);
-  kept.touches = true;
+  kept.touches = violation.kind != "apart";  // a pair on which two deciders differ may be either
   for (std::size_t i = 0; i < 6; ++i) {
     kept.faces[i / 3][i % 3] = violation.vertices[i];
     kept.x[i / 3][i % 3] = violation.x_t0.at(i);

@@ -83,6 +83,16 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
       .add_option("--min-distance", arguments.min_distance,
                   "Frames: features without a common vertex must be at least this far apart")
       ->type_name("LENGTH");
+  CLI::Option* second =
+      command.add_flag("--second-opinion", arguments.second_opinion,
+                       "Decide every pair that needed exact arithmetic, and every one that touches, again with CGAL; a "
+                       "disagreement is exit code 7");
+  command
+      .add_flag("--second-opinion-all", arguments.second_opinion_all,
+                "The same for every pair whose boxes overlap, also where a filter decided: a hundred times slower")
+      ->excludes(second);
+  command.add_flag("--gap", arguments.gap,
+                   "Report the smallest distance of features without a common vertex, over all frames");
   add_what_may_touch(command, arguments);
   command.add_flag("--bodies", arguments.bodies, "Check bodies against each other and themselves too");
   command.add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
@@ -116,6 +126,9 @@ verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const
   for (const std::string& pair : arguments.exempt) options.rules.exempt.push_back(parse_exemption(pair));
   options.rules.ignore = arguments.ignore;
   options.weld = arguments.weld;
+  options.gap = arguments.gap;
+  if (arguments.second_opinion) options.check.second_opinion = verify::SecondOpinionScope::kUndecided;
+  if (arguments.second_opinion_all) options.check.second_opinion = verify::SecondOpinionScope::kAll;
   if (!arguments.shard.empty()) options.range = frames_of(parse_shard(arguments.shard), sequence.frame_count());
   return options;
 }
@@ -125,6 +138,8 @@ std::vector<std::pair<std::string, std::string>> recorded_options(const VerifyAr
   return {{"motions", yes_or_no(options.motions)},
           {"min_distance", arguments.min_distance ? fmt::format("{:a}", *arguments.min_distance) : "none"},
           {"bodies", yes_or_no(arguments.bodies)},
+          {"gap", yes_or_no(arguments.gap)},
+          {"second_opinion", arguments.second_opinion_all ? "all" : yes_or_no(arguments.second_opinion)},
           {"groups", joined(arguments.groups)},
           {"exempt", joined(arguments.exempt)},
           {"ignore", joined(arguments.ignore)},

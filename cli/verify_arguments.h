@@ -17,7 +17,8 @@ namespace selvage::cli {
 
 struct VerifyArguments {
   SequenceArgument sequence;
-  bool frames_only = false, motion = false, bodies = false, weld = false, resume = false;
+  bool frames_only = false, motion = false, bodies = false, weld = false, resume = false, gap = false;
+  bool second_opinion = false, second_opinion_all = false;
   std::optional<double> min_distance;
   std::vector<std::string> groups, exempt, ignore;
   std::string json, shard;

@@ -62,13 +62,16 @@ ExitCode run(const VerifyArguments& arguments) {
   if (!arguments.cases.empty()) {
     write_cases(arguments.cases, arguments.min_distance.value_or(0), report.violations);
   }
+  if (!report.disagreements.empty()) {  // evidence against the checker itself: kept whether or not it was asked for
+    write_cases(arguments.cases.empty() ? "disagreements" : arguments.cases, 0, report.disagreements);
+  }
   if (!arguments.json.empty()) {
     io::write_atomically(arguments.json, verify::json_report(report, context));
     if (!interrupted()) VerifyProgress(arguments.json, context).remove();
   }
   const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
   print_report(verify::text_report(report, context, max_listed), report.verdict);
-  return exit_code(report.verdict);
+  return report.pairs.disagreed > 0 ? ExitCode::kInternal : exit_code(report.verdict);
 }
 
 }  // namespace

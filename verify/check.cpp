@@ -8,6 +8,8 @@ PairCounts& PairCounts::operator+=(const PairCounts& other) {
   overlap += other.overlap;
   self += other.self;
   exact += other.exact;
+  asked_again += other.asked_again;
+  disagreed += other.disagreed;
   return *this;
 }
 

@@ -13,6 +13,7 @@
 #include "io/sequence.h"
 #include "verify/exact_motion.h"
 #include "verify/group_rules.h"
+#include "verify/second_opinion.h"
 #include "verify/topology.h"
 
 namespace selvage::verify {
@@ -39,6 +40,7 @@ struct Violation {
 struct PairCounts {
   std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;  ///< examined (boxes overlap)
   std::int64_t exact = 0;                              ///< needed exact arithmetic
+  std::int64_t asked_again = 0, disagreed = 0;         ///< of the second opinion
 
   PairCounts& operator+=(const PairCounts& other);
 };
@@ -49,11 +51,19 @@ struct ViolationCounts {
   ViolationCounts& operator+=(const ViolationCounts& other);
 };
 
+/// Which pairs are decided again by the second opinion: none, those that a filter did not decide and all that touch, or
+/// all. (The minimum distance has no second decider.)
+enum class SecondOpinionScope : std::uint8_t { kNone, kUndecided, kAll };
+
 struct CheckResult {
   PairCounts pairs;
   ViolationCounts violations_total;
-  std::vector<Violation> violations;   ///< the first max_violations in (event, features) order
-  std::vector<std::int64_t> exempted;  ///< pairs left out, by exemption of the surface; trailing zeros may be missing
+  std::vector<Violation> violations;  ///< the first max_violations in (event, features) order
+  /// Pairs on which the second opinion differs, as violations, whether or not they are counted as such; the first
+  /// max_violations. Their kind is what the first decider says: "touches" or "apart".
+  std::vector<Violation> disagreements = {};
+  std::vector<std::int64_t> exempted =
+      {};  ///< pairs left out, by exemption of the surface; trailing zeros may be missing
 };
 
 struct CheckOptions {
@@ -61,6 +71,8 @@ struct CheckOptions {
   /// Frames: every vertex at least this far from every face that does not hold it, every edge from every edge with no
   /// common vertex; exactly. (Features that touch by construction, and those of one face, are not compared.)
   std::optional<double> min_distance;
+  SecondOpinionScope second_opinion = SecondOpinionScope::kNone;
+  SecondDeciders second_deciders = {};
   bool check_bodies = false;  ///< also what concerns bodies alone: pairs of body features, zero-area body faces
 };
 
@@ -76,6 +88,14 @@ struct CheckOptions {
 [[nodiscard]] CheckResult check_motion(const Surface& surface, std::span<const Point> V_t0, std::span<const Point> V_t1,
                                        const CheckOptions& options);
 
+/// The smallest distance of features without a common vertex, within doubles that are neighbours or equal.
+struct Gap {
+  double lower = 0, upper = 0;
+  std::int64_t frame = 0;
+  EventKind event = EventKind::kVf;  ///< kVf or kEe
+  std::array<std::int32_t, 2> features{};
+};
+
 enum class Verdict : std::uint8_t { kClean, kViolated, kUnknown };
 
 struct SequenceReport;
@@ -86,6 +106,7 @@ struct SequenceOptions {
   /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown.
   std::function<bool(std::size_t, std::size_t)> progress;
   GroupRules rules = {};
+  bool gap = false;   ///< find the smallest gap of all frames that are checked
   bool weld = false;  ///< vertices with the same bits in every frame are one; reads the whole sequence beforehand
   /// The frames to check, with the motions that lead to them, [first, second); nothing: all. Part of a sequence.
   std::optional<std::pair<std::size_t, std::size_t>> range = {};
@@ -115,7 +136,11 @@ struct SequenceReport {
   PairCounts pairs;
   ViolationCounts violations_total;
   std::vector<Violation> violations;
-  std::int64_t max_violations = 0;     ///< CheckOptions::max_violations
+  std::int64_t max_violations = 0;  ///< CheckOptions::max_violations
+  SecondOpinionScope second_opinion = SecondOpinionScope::kNone;
+  std::vector<Violation> disagreements;  ///< CheckResult::disagreements: where there is one, the verdict is unknown
+  bool gap_searched = false;
+  std::optional<Gap> gap;  ///< the smallest of all frames, the first of equals; nothing where no frame has a pair
   std::vector<std::string> unchecked;  ///< what was to be checked and was not, and why: never clean
   io::Precision precision = io::Precision::kFloat64;
   double largest_coordinate = 0;           ///< magnitude, over all frames

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "verify/direction.h"
 
@@ -59,6 +60,13 @@ bool exceeds(double gap, const Point& u, double d) {
   return gap > d * length_upper * (1 + 0x1p-49) + 0x1p-1070;
 }
 
+/// The gap along u as a length; 0 where there is none.
+double estimate(double gap, const Point& u) {
+  const double length = std::sqrt(dot(u, u));
+  const double distance = std::min(gap / length, std::numeric_limits<double>::max());
+  return distance > 0 ? distance : 0;  // also where it is not a number
+}
+
 }  // namespace
 
 bool triage_vf_farther(const std::array<Point, 4>& x, double d) {
@@ -69,6 +77,16 @@ bool triage_vf_farther(const std::array<Point, 4>& x, double d) {
 bool triage_ee_farther(const std::array<Point, 4>& x, double d) {
   const Point u = between_nearest_on_edges(x[0], x[1], x[2], x[3]);
   return exceeds(gaps(u, Local<2>(x[0], {x[0], x[1]}), Local<2>(x[0], {x[2], x[3]})).forward, u, d);
+}
+
+double estimate_vf_distance(const std::array<Point, 4>& x) {
+  const Point u = from_nearest_on_triangle(x[0], x[1], x[2], x[3]);
+  return estimate(gaps(u, Local<1>(x[0], {x[0]}), Local<3>(x[0], {x[1], x[2], x[3]})).forward, u);
+}
+
+double estimate_ee_distance(const std::array<Point, 4>& x) {
+  const Point u = between_nearest_on_edges(x[0], x[1], x[2], x[3]);
+  return estimate(gaps(u, Local<2>(x[0], {x[0], x[1]}), Local<2>(x[0], {x[2], x[3]})).forward, u);
 }
 
 }  // namespace selvage::verify

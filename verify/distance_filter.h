@@ -13,4 +13,8 @@ namespace selvage::verify {
 /// x = {a, b, c, d}: closed edge (a, b) against closed edge (c, d).
 [[nodiscard]] bool triage_ee_farther(const std::array<Point, 4>& x, double d);
 
+/// An estimate of the distance, >= 0, that proves nothing.
+[[nodiscard]] double estimate_vf_distance(const std::array<Point, 4>& x);
+[[nodiscard]] double estimate_ee_distance(const std::array<Point, 4>& x);
+
 }  // namespace selvage::verify

@@ -28,7 +28,11 @@ class FrameCheck {
                            const std::vector<Label>& labels = topology_.face_labels;
                            if (tally.is_exempt(topology_, labels, f, labels, g)) return;
                            ++tally.pairs.overlap;
-                           if (!slabs.triage_apart(f, g)) check_pair(f, g, tally);
+                           if (!slabs.triage_apart(f, g)) {
+                             check_pair(f, g, tally);
+                           } else if (asks_again(options_.second_opinion, true, false)) {
+                             ask_again(std::min(f, g), std::max(f, g), false, tally);
+                           }
                          });
     }
     check_areas(topology_.faces.cloth);
@@ -48,7 +52,15 @@ class FrameCheck {
     const OverlapAnswer answer =
         exact_overlap(topology_.triangles[at(f)], corners(f), topology_.triangles[at(g)], corners(g));
     if (answer.exact_used) ++tally.pairs.exact;
-    if (answer.kind != OverlapKind::kNone) tally.add({EventKind::kOverlap, {f, g}, name_of(answer.kind)});
+    const bool touches = answer.kind != OverlapKind::kNone;
+    if (touches) tally.add({EventKind::kOverlap, {f, g}, name_of(answer.kind)});
+    if (asks_again(options_.second_opinion, !answer.exact_used, touches)) ask_again(f, g, touches, tally);
+  }
+
+  void ask_again(std::int32_t f, std::int32_t g, bool touches, Tally& tally) const {
+    const bool second = options_.second_deciders.overlap(topology_.triangles[at(f)], corners(f),
+                                                         topology_.triangles[at(g)], corners(g));
+    tally.add_second_opinion(EventKind::kOverlap, {f, g}, touches, second);
   }
 
   /// The corner that lies between the other two: of three collinear points one does.
@@ -68,16 +80,24 @@ class FrameCheck {
       Predicates signs(x);
       const bool degenerate = signs.projection_axis(0, 1, 2) < 0;
       if (signs.exact_used()) ++tally.pairs.exact;
+      if (asks_again(options_.second_opinion, !signs.exact_used(), degenerate)) {
+        tally.add_second_opinion(EventKind::kSelf, {middle_corner(faces[i]), faces[i]}, degenerate,
+                                 options_.second_deciders.degenerate(x));
+      }
       if (degenerate) tally.add({EventKind::kSelf, {middle_corner(faces[i]), faces[i]}, "degenerate"});
     });
   }
 
+  Violation placed(const Hit& hit) const {
+    Violation violation = describe(topology_, hit);
+    set_positions(violation, V_, V_);
+    return violation;
+  }
+
   CheckResult result() const {
-    CheckResult result{tally_.pairs, tally_.violations(), {}, tally_.exempted()};
-    for (const Hit& hit : tally_.first_hits()) {
-      result.violations.push_back(describe(topology_, hit));
-      set_positions(result.violations.back(), V_, V_);
-    }
+    CheckResult result{tally_.pairs, tally_.violations(), {}, {}, tally_.exempted()};
+    for (const Hit& hit : tally_.first_hits()) result.violations.push_back(placed(hit));
+    for (const Hit& hit : tally_.disagreements()) result.disagreements.push_back(placed(hit));
     return result;
   }
 

@@ -22,7 +22,8 @@ void require_same_check(const Part& a, const Part& b) {
   if (x.sequence != y.sequence || x.frame_count != y.frame_count) differ("the sequences");
   const bool same_shape = x.max_violations == y.max_violations && x.exempted.size() == y.exempted.size() &&
                           x.ignored.size() == y.ignored.size() && x.welded.has_value() == y.welded.has_value() &&
-                          x.bodies_checked == y.bodies_checked && x.precision == y.precision;
+                          x.bodies_checked == y.bodies_checked && x.gap_searched == y.gap_searched &&
+                          x.second_opinion == y.second_opinion && x.precision == y.precision;
   if (!same_shape) differ("what they report");
 }
 
@@ -55,6 +56,11 @@ void add(SequenceReport& sum, const SequenceReport& part) {
   for (const Violation& violation : part.violations) {
     if (static_cast<std::int64_t>(sum.violations.size()) < sum.max_violations) sum.violations.push_back(violation);
   }
+  for (const Violation& violation : part.disagreements) {
+    if (static_cast<std::int64_t>(sum.disagreements.size()) < sum.max_violations)
+      sum.disagreements.push_back(violation);
+  }
+  if (part.gap && (!sum.gap || part.gap->upper < sum.gap->upper)) sum.gap = part.gap;
   sum.unchecked.insert(sum.unchecked.end(), part.unchecked.begin(), part.unchecked.end());
   for (std::size_t i = 0; i < sum.exempted.size(); ++i) sum.exempted[i].pairs += part.exempted[i].pairs;
   sum.ignored = part.ignored;

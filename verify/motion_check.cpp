@@ -21,8 +21,9 @@ class MotionCheck {
     if (!V_t0_.empty()) check_pairs();
     check_faces(topology_.faces.cloth);
     if (options_.check_bodies) check_faces(topology_.faces.body);
-    CheckResult result{tally_.pairs, tally_.violations(), {}, tally_.exempted()};
+    CheckResult result{tally_.pairs, tally_.violations(), {}, {}, tally_.exempted()};
     for (const Hit& hit : tally_.first_hits()) result.violations.push_back(timed(hit));
+    for (const Hit& hit : tally_.disagreements()) result.disagreements.push_back(timed(hit));
     return result;
   }
 
@@ -78,6 +79,19 @@ class MotionCheck {
     const MotionAnswer answer = ask(event, i, j, Detail::kDecision);
     if (answer.exact_used) ++tally.pairs.exact;
     if (answer.touches) tally.add({event, {i, j}, kind_name(answer.kind)});
+    if (asks_again(options_.second_opinion, !answer.exact_used, answer.touches)) {
+      tally.add_second_opinion(event, {i, j}, answer.touches, ask_second(event, i, j).touches);
+    }
+  }
+
+  SecondOpinion ask_second(EventKind event, std::int32_t i, std::int32_t j) const {
+    const SecondDeciders& second = options_.second_deciders;
+    const auto answer = [&](auto query, const auto& vertices) {
+      return query(gather(V_t0_, vertices), gather(V_t1_, vertices));
+    };
+    if (event == EventKind::kVf) return answer(second.vf, vf_vertices(i, j));
+    if (event == EventKind::kEe) return answer(second.ee, ee_vertices(i, j));
+    return answer(second.self, self_vertices(i, j));
   }
 
   void check_pairs() {

@@ -103,6 +103,17 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
     text += "note:       " + count(report.body_faces) + " faces belong to bodies; bodies are not checked against " +
             "each other or themselves (--bodies does)\n";
   }
+  if (report.gap) {
+    text += "gap:        " + number(report.gap->lower) + (report.gap->lower < report.gap->upper ? " to " : "") +
+            (report.gap->lower < report.gap->upper ? number(report.gap->upper) : "") +
+            ", the smallest: " + name_of(report.gap->event) + " " + count(report.gap->features[0]) + " " +
+            count(report.gap->features[1]) + " in frame " + count(report.gap->frame) + "\n";
+  }
+  if (report.second_opinion != SecondOpinionScope::kNone) {
+    text += "second:     " + count(report.pairs.asked_again) + " pairs decided again, " +
+            count(report.pairs.disagreed) + " disagreements\n";
+  }
+  for (const Violation& violation : report.disagreements) text += line(violation, context);
   for (const auto& [groups, pairs] : report.exempted) {
     text += "exempted:   " + count(pairs) + " pairs of \"" + groups[0] + "\" and \"" + groups[1] + "\"\n";
   }

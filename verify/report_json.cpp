@@ -65,6 +65,28 @@ Json allowances(const SequenceReport& report) {
   return {{"exempted", exempted}, {"ignored", ignored}, {"weld", weld}};
 }
 
+Json second_opinion(const SequenceReport& report) {
+  if (report.second_opinion == SecondOpinionScope::kNone) return nullptr;
+  Json disagreements = Json::array();
+  for (const Violation& violation : report.disagreements) disagreements.push_back(to_json(violation));
+  return {{"scope", report.second_opinion == SecondOpinionScope::kAll ? "all" : "undecided"},
+          {"asked", report.pairs.asked_again},
+          {"disagreed", report.pairs.disagreed},
+          {"disagreements", disagreements}};
+}
+
+Json gap(const SequenceReport& report) {
+  if (!report.gap_searched) return nullptr;
+  if (!report.gap) return {{"lower", nullptr}};
+  return {{"lower", report.gap->lower},
+          {"upper", report.gap->upper},
+          {"lower_hex", hex_float(report.gap->lower)},
+          {"upper_hex", hex_float(report.gap->upper)},
+          {"frame", report.gap->frame},
+          {"event", name_of(report.gap->event)},
+          {"features", report.gap->features}};
+}
+
 Json sequence(const SequenceReport& report) {
   Json crc32 = Json::array();
   for (const std::uint32_t word : report.frame_crc32) crc32.push_back(hex_word(word));
@@ -101,6 +123,8 @@ std::string json_report(const SequenceReport& report, const ReportContext& conte
                               {"ee", report.violations_total.ee},
                               {"overlap", report.violations_total.overlap},
                               {"self", report.violations_total.self}};
+  json["gap"] = gap(report);
+  json["second_opinion"] = second_opinion(report);
   json["max_violations"] = report.max_violations;
   json["violations"] = Json::array();
   for (const Violation& violation : report.violations) {

@@ -1,6 +1,7 @@
 // Reads a report back: a run that was killed continues from one, and parts of a sequence are joined.
 #include <array>
 #include <charconv>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,7 @@ std::uint32_t word(const std::string& text) {
 }
 
 double hex_float(const std::string& text) {
+  if (text == "inf") return std::numeric_limits<double>::infinity();
   std::string_view digits = text;
   const bool negative = digits.starts_with('-');
   if (negative) digits.remove_prefix(1);
@@ -135,8 +137,23 @@ ParsedReport parse(const Json& json) {
   report.frames = counted(json.at("frames"), report.frames_expected);
   report.motions = counted(json.at("motions"), report.motions_expected);
   const Json &pairs = json.at("pairs"), &total = json.at("violations_total");
-  report.pairs = {pairs.at("vf"), pairs.at("ee"), pairs.at("overlap"), pairs.at("self"), pairs.at("exact")};
+  report.pairs = {pairs.at("vf"), pairs.at("ee"), pairs.at("overlap"), pairs.at("self"), pairs.at("exact"), 0, 0};
   report.violations_total = {total.at("vf"), total.at("ee"), total.at("overlap"), total.at("self")};
+  const Json& gap = json.at("gap");
+  report.gap_searched = !gap.is_null();
+  if (report.gap_searched && !gap.at("lower").is_null()) {
+    report.gap = {hex_float(gap.at("lower_hex")), hex_float(gap.at("upper_hex")), gap.at("frame"),
+                  named<EventKind, 2>(gap.at("event"), {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}}}),
+                  gap.at("features")};
+  }
+  const Json& second = json.at("second_opinion");
+  if (!second.is_null()) {
+    report.second_opinion = named<SecondOpinionScope, 2>(
+        second.at("scope"), {{{"undecided", SecondOpinionScope::kUndecided}, {"all", SecondOpinionScope::kAll}}});
+    report.pairs.asked_again = second.at("asked");
+    report.pairs.disagreed = second.at("disagreed");
+    for (const Json& entry : second.at("disagreements")) report.disagreements.push_back(violation(entry));
+  }
   parse_allowances(json.at("allowed"), report);
   report.max_violations = json.at("max_violations");
   for (const Json& entry : json.at("violations")) {

@@ -9,6 +9,7 @@
 #include "verify/check.h"
 #include "verify/fp_guard.h"
 #include "verify/frame_source.h"
+#include "verify/smallest_gap.h"
 #include "verify/violation.h"
 
 namespace selvage::verify {
@@ -51,6 +52,8 @@ class SequenceCheck {
         options_.motions ? report_.end_frame - std::max<std::int64_t>(report_.first_frame, 1) : 0;
     report_.precision = sequence_.precision();
     report_.bodies_checked = options_.check.check_bodies;
+    report_.second_opinion = options_.check.second_opinion;
+    report_.gap_searched = options_.gap;
     report_.max_violations = static_cast<std::int64_t>(options_.check.max_violations);
     for (const auto& groups : options_.rules.exempt) report_.exempted.push_back({groups, 0});
     for (const std::string& group : options_.rules.ignore) report_.ignored.push_back({group, 0});
@@ -139,6 +142,10 @@ class SequenceCheck {
     add_collapsed(source_->collapsed_cloth(), frame, result);
     if (options_.check.check_bodies) add_collapsed(source_->collapsed_bodies(), frame, result);
     count(std::move(result), report_.frames, i);
+    if (!options_.gap) return;
+    std::optional<Gap> gap = smallest_gap(source_->topology(), frame.points, options_.check.check_bodies);
+    if (gap) gap->frame = static_cast<std::int64_t>(i);
+    if (gap && (!report_.gap || gap->upper < report_.gap->upper)) report_.gap = gap;
   }
 
   /// Faces that welding took a corner from have no area in any frame.
@@ -182,6 +189,11 @@ class SequenceCheck {
     for (std::size_t rule = 0; rule < result.exempted.size(); ++rule) {
       report_.exempted[rule].pairs += result.exempted[rule];
     }
+    for (Violation& violation : result.disagreements) {
+      if (report_.disagreements.size() == options_.check.max_violations) break;
+      violation.frame = static_cast<std::int64_t>(frame);
+      report_.disagreements.push_back(std::move(violation));
+    }
     for (Violation& violation : result.violations) {
       if (report_.violations.size() == options_.check.max_violations) break;
       violation.frame = static_cast<std::int64_t>(frame);
@@ -214,6 +226,7 @@ class SequenceCheck {
 }  // namespace
 
 Verdict verdict_of(const SequenceReport& report) {
+  if (report.pairs.disagreed > 0) return Verdict::kUnknown;
   if (report.violations_total.total() > 0) return Verdict::kViolated;
   const bool all_checked = report.frames.checked == report.frames_expected &&
                            report.motions.checked == report.motions_expected && report.unchecked.empty();

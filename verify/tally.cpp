@@ -33,6 +33,9 @@ void Tally::add(const Tally& other) {
   pairs += other.pairs;
   violations_ += other.violations_;
   for (const Hit& hit : other.hits_) keep(hit);
+  for (const Hit& hit : other.disagreements_) {
+    if (disagreements_.size() < limit_) disagreements_.push_back(hit);
+  }
   for (std::size_t rule = 0; rule < other.exempted_.size(); ++rule) count_exempted(rule, other.exempted_[rule]);
 }
 

@@ -26,6 +26,12 @@ struct Hit {
   }
 };
 
+/// Whether a second decider is asked about a pair that the first one has decided.
+inline bool asks_again(SecondOpinionScope scope, bool filtered, bool touches) {
+  if (scope == SecondOpinionScope::kNone) return false;
+  return scope == SecondOpinionScope::kAll || !filtered || touches;
+}
+
 /// Counts, and the `limit` first hits in (event, features) order. Memory does not grow with the number of hits.
 class Tally {
  public:
@@ -44,6 +50,15 @@ class Tally {
     if (rule >= 0) count_exempted(static_cast<std::size_t>(rule));
     return rule >= 0;
   }
+  /// Counts the answer of a second decider on a pair of which the first says that it touches, or not.
+  void add_second_opinion(EventKind event, std::array<std::int32_t, 2> features, bool touches, bool second) {
+    ++pairs.asked_again;
+    if (touches == second) return;
+    ++pairs.disagreed;
+    if (disagreements_.size() < limit_) disagreements_.push_back({event, features, touches ? "touches" : "apart"});
+  }
+  /// At most `limit`, in the order of the work.
+  [[nodiscard]] const std::vector<Hit>& disagreements() const { return disagreements_; }
   /// By exemption; those at the end may be missing, and are then zero.
   [[nodiscard]] const std::vector<std::int64_t>& exempted() const { return exempted_; }
   [[nodiscard]] const ViolationCounts& violations() const { return violations_; }
@@ -57,6 +72,7 @@ class Tally {
   std::size_t limit_;
   ViolationCounts violations_;
   std::vector<Hit> hits_;
+  std::vector<Hit> disagreements_;
   std::vector<std::int64_t> exempted_;
 };
 

@@ -61,10 +61,10 @@ TEST(LongRuns, ShardsMergeIntoTheWhole) {
   const auto files = sequence(folder.path(), 7, 3);
   const auto shards = folder.path() / "shards", whole = folder.path() / "whole.json", merged = shards / "merged.json";
   std::filesystem::create_directory(shards);
-  ASSERT_EQ(run_program(folder, verify(files, {"--json", whole})).exit_code, 0);
+  ASSERT_EQ(run_program(folder, verify(files, {"--gap", "--second-opinion", "--json", whole})).exit_code, 0);
   for (int i = 1; i <= 3; ++i) {
-    const auto run = run_program(
-        folder, verify(files, {"--shard", fmt::format("{}/3", i), "--json", shards / fmt::format("{}.json", i)}));
+    const auto run = run_program(folder, verify(files, {"--gap", "--second-opinion", "--shard", fmt::format("{}/3", i),
+                                                        "--json", shards / fmt::format("{}.json", i)}));
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(run.out.starts_with("clean (a part: frames ")) << run.out;
   }
@@ -74,6 +74,8 @@ TEST(LongRuns, ShardsMergeIntoTheWhole) {
     EXPECT_TRUE(run.out.starts_with("clean\n")) << run.out;
     EXPECT_EQ(report(merged), report(whole));
   }
+  EXPECT_EQ(report(whole)["second_opinion"]["disagreed"], 0);
+  EXPECT_GT(report(whole)["gap"]["lower"], 0);
   std::filesystem::remove(merged);
   std::filesystem::rename(shards / "2.json", folder.path() / "2.json");
   const auto missing = run_program(folder, {"merge", shards, "-o", merged});

@@ -59,11 +59,11 @@ TEST(ReportKeys, OfVerifyAreDocumented) {
   const std::string lower = "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n", rest = "v 9 9 9\nf 1 5 7\nf 2 5 7\nf 3 5 7\n";
   spit(before, lower + "v 1 1 1\nv 2 1 1\nv 1 2 1\nf 4 5 6\n" + rest);
   spit(after, lower + "v 1 1 0\nv 2 1 0\nv 1 2 0\nf 4 5 6\n" + rest);
-  ASSERT_EQ(
-      run_program(folder, {"verify", "--motion", before, after, "--json", json, "--cases", folder.path() / "cases",
-                           "--weld", "--group", "a=2:4", "--group", "b=4:5", "--exempt", "a,a", "--ignore", "b"})
-          .exit_code,
-      1);
+  ASSERT_EQ(run_program(folder, {"verify", "--motion", before, after, "--json", json, "--cases",
+                                 folder.path() / "cases", "--second-opinion", "--gap", "--weld", "--group", "a=2:4",
+                                 "--group", "b=4:5", "--exempt", "a,a", "--ignore", "b"})
+                .exit_code,
+            1);
   Keys keys;
   collect(nlohmann::json::parse(slurp(json)), "", keys);
   EXPECT_TRUE(keys.contains("violations[].t")) << "a frame";

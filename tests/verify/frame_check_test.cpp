@@ -229,7 +229,8 @@ TEST(FrameCheck, ListIsSortedCappedAndTheSameForAnyNumberOfThreads) {
   for (const std::size_t threads : std::initializer_list<std::size_t>{1, 2, 3, 8}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     for (const std::size_t limit : {std::size_t{0}, std::size_t{1}, std::size_t{10}}) {
-      const CheckResult capped = check_frame(surface(mesh), mesh.points, {limit, {}, false});
+      const CheckResult capped =
+          check_frame(surface(mesh), mesh.points, {.max_violations = limit, .min_distance = {}, .check_bodies = false});
       EXPECT_EQ(capped.violations_total.total(), all.violations_total.total());
       EXPECT_EQ(capped.pairs.overlap, all.pairs.overlap);
       ASSERT_EQ(capped.violations.size(), limit);
@@ -243,7 +244,9 @@ TEST(FrameCheck, BodiesAreCheckedAgainstClothAlwaysAndAgainstBodiesOnRequest) {
   mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}, {1, 1, 5}, {1, 1, 6}, {1, 1, 7}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   const auto total = [&](std::vector<std::uint8_t> is_body, bool bodies) {
-    return check_frame({mesh.triangles, is_body}, mesh.points, {100, {}, bodies}).violations_total.total();
+    return check_frame({mesh.triangles, is_body}, mesh.points,
+                       {.max_violations = 100, .min_distance = {}, .check_bodies = bodies})
+        .violations_total.total();
   };
   EXPECT_EQ(total({0, 0, 0}, false), 2);
   EXPECT_EQ(total({0, 1, 1}, false), 1);
@@ -269,8 +272,8 @@ TEST(FrameCheck, RefusesWhatItCannotJudge) {
   EXPECT_THROW(check(bad), std::invalid_argument);
   bad.triangles[2] = {0, 1, 1};
   EXPECT_THROW(check(bad), std::invalid_argument);
-  EXPECT_THROW(check(mesh, {100, -1.0, false}), std::invalid_argument);
-  EXPECT_THROW(check(mesh, {100, std::nan(""), false}), std::invalid_argument);
+  EXPECT_THROW(check(mesh, {.max_violations = 100, .min_distance = -1.0}), std::invalid_argument);
+  EXPECT_THROW(check(mesh, {.max_violations = 100, .min_distance = std::nan("")}), std::invalid_argument);
 }
 
 TEST(FrameCheck, MinimumDistanceIsEveryPairWithoutACommonVertex) {
@@ -299,7 +302,7 @@ TEST(FrameCheck, MinimumDistanceIsEveryPairWithoutACommonVertex) {
           ee += compare_ee_distance({at(a), at(b), at(c), at(d)}, distance) < 0 ? 1 : 0;
         }
       }
-      const CheckResult result = check(mesh, {100, distance, false});
+      const CheckResult result = check(mesh, {.max_violations = 100, .min_distance = distance});
       EXPECT_EQ(result.violations_total.vf, vf) << distance;
       EXPECT_EQ(result.violations_total.ee, ee) << distance;
       EXPECT_EQ(result.violations_total.overlap, 0);

@@ -16,7 +16,7 @@ namespace {
 using selvage::testing::sheet;
 using selvage::testing::surface;
 
-CheckOptions unlimited() { return {1000000, {}, false}; }
+CheckOptions unlimited() { return {.max_violations = 1000000, .min_distance = {}, .check_bodies = false}; }
 
 using Names = std::vector<std::tuple<EventKind, std::int32_t, std::int32_t>>;
 
@@ -143,7 +143,9 @@ TEST(MotionCheck, BodyPairsOnRequestOnly) {
   io::Points V_t1 = mesh.points;
   for (std::size_t i = 3; i < 6; ++i) V_t1[i][2] = -1;
   const auto total = [&](std::vector<std::uint8_t> is_body, bool bodies) {
-    return check_motion({mesh.triangles, is_body}, mesh.points, V_t1, {100, {}, bodies}).violations_total.total();
+    return check_motion({mesh.triangles, is_body}, mesh.points, V_t1,
+                        {.max_violations = 100, .min_distance = {}, .check_bodies = bodies})
+        .violations_total.total();
   };
   EXPECT_EQ(total({0, 0}, false), 3);
   EXPECT_EQ(total({1, 0}, false), 3);
@@ -158,10 +160,12 @@ TEST(MotionCheck, IsTheSameForAnyNumberOfThreads) {
   io::MeshData mesh = sheet(16);
   io::Points V_t1 = mesh.points;
   for (Point& p : V_t1) p[2] += 0.25 * lattice(random);
-  const CheckResult first = check_motion(surface(mesh), mesh.points, V_t1, {50, {}, false});
+  const CheckResult first =
+      check_motion(surface(mesh), mesh.points, V_t1, {.max_violations = 50, .min_distance = {}, .check_bodies = false});
   for (const std::size_t threads : std::initializer_list<std::size_t>{1, 2, 5}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const CheckResult again = check_motion(surface(mesh), mesh.points, V_t1, {50, {}, false});
+    const CheckResult again = check_motion(surface(mesh), mesh.points, V_t1,
+                                           {.max_violations = 50, .min_distance = {}, .check_bodies = false});
     EXPECT_EQ(names(again), names(first));
     EXPECT_EQ(again.pairs.exact, first.pairs.exact);
     EXPECT_EQ(again.violations_total.total(), first.violations_total.total());

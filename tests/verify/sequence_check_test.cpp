@@ -210,7 +210,8 @@ TEST(SequenceCheck, CountsWhatCgalCountsInPublicSequences) {
         const bool body = group.role == io::Group::Role::kBody;
         std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, body ? 1 : 0);
       }
-      const CheckResult result = check_frame({mesh.triangles, is_body}, mesh.points, {1000000, {}, false});
+      const CheckResult result = check_frame({mesh.triangles, is_body}, mesh.points,
+                                             {.max_violations = 1000000, .min_distance = {}, .check_bodies = false});
       std::int64_t cloth_pairs = 0, sharing = 0, body_pairs = 0;
       for (const Violation& v : result.violations) {
         if (v.event != EventKind::kOverlap) continue;

@@ -1,0 +1,19 @@
+// How close a frame comes to touching.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "verify/check.h"
+
+namespace selvage::verify {
+
+/// The smallest distance of a vertex and a face that does not hold it, or of two edges without a common vertex, over
+/// all pairs that the check owes (bodies and exemptions as there). 0 where they touch. Nothing where there is no such
+/// pair. `upper` is the smallest double that is not below the exact distance, `lower` the largest that is not above;
+/// the pair is the first in (event, features) order with that `upper`. Costs about as much as check_frame.
+[[nodiscard]] std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V, bool check_bodies);
+
+}  // namespace selvage::verify
