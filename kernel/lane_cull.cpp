@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "kernel/power_of_two.h"
 #include "kernel/rounding.h"
@@ -68,10 +69,9 @@ class Reader {
     const auto* words = (kKind == PairKind::kEe ? motion.edge_words : motion.face_words).data();
     const auto* list = static_cast<const std::int64_t*>(pairs);
     const Integer d;
+    std::array<std::int64_t, kCullLanes> tail = {};
     for (std::size_t row = 0; row < count; row += hn::Lanes(d)) {
-      const bool is_full = row + hn::Lanes(d) <= count;
-      const Number pair =
-          is_full ? hn::LoadU(d, list + row) : hn::MaskedLoad(hn::FirstN(d, count - row), d, list + row);
+      const Number pair = hn::LoadU(d, row + hn::Lanes(d) <= count ? list + row : Tail(list, row, count, tail));
       const Number second = High(pair);
       const auto word_at = [&](Number place) HWY_ATTR { return hn::BitCast(d, hn::GatherIndex(Word(), words, place)); };
       if constexpr (kKind == PairKind::kEe) {
@@ -118,6 +118,12 @@ class Reader {
   static HWY_INLINE Number Low(Number word) { return hn::And(word, hn::Set(Integer(), 0xffffffff)); }
   static HWY_INLINE Number High(Number word) {
     return hn::BitCast(Integer(), hn::ShiftRight<32>(hn::BitCast(Word(), word)));
+  }
+  /// The last pairs with room for a whole vector behind them.
+  static const std::int64_t* Tail(const std::int64_t* list, std::size_t row, std::size_t count,
+                                  std::array<std::int64_t, kCullLanes>& tail) {
+    std::memcpy(tail.data(), list + row, (count - row) * sizeof(std::int64_t));
+    return tail.data();
   }
   HWY_INLINE void Put(Number vertex, std::size_t k, std::size_t row) {
     hn::StoreU(hn::ShiftLeft<3>(vertex), Integer(), &at_[k][row]);
