@@ -1,10 +1,7 @@
 // kernel.h: the whole public API of the collision kernel, in the order data flows.
 //   F, V_t0, V_t1 --(make_mesh, validate)--> Mesh --(BoxHierarchy)--> Candidates --(CcdBatch)--> CollisionReport
-//   One pair at a time: vf_ccd, ee_ccd, self_ccd. A whole step at once: find_collisions.
-//   Most users   need make_mesh, BoxHierarchy, and find_collisions or find_proximities (collisions.h). One pair at a
-//   time:
-//                vf_ccd, ee_ccd, self_ccd, vf_proximity, ee_proximity. After some vertices have moved, pass them as
-//                `active` and keep the old answers of the pairs without one.
+//   Whole steps  find_collisions, find_proximities. One pair at a time: vf_ccd, ee_ccd, self_ccd, vf_proximity,
+//                ee_proximity. After some vertices have moved, pass them as `active` and keep the other pairs' answers.
 //   Positions    #V by 3 doubles in the caller's length unit; |coordinate| <= kMaxCoordinate.
 //   Trajectory   x(t) = (1 - t) x_t0 + t x_t1, t in [0, 1]: straight lines, nothing else.
 //   tolerance    a length the CALLER chooses; error_bound: a length the KERNEL proves. Never mixed in one name.
