@@ -21,8 +21,8 @@ MeshCase pleated_sheet(int side, int exponent, std::uint64_t seed) {
   for (int i = 0; i < stride; ++i) {
     for (int j = 0; j < stride; ++j) {
       const int phase = i % 8, height = phase < 4 ? phase : 8 - phase;
-      const Vec3 x(0.25 * i + 0.0625 * random.uniform(), j + 0.0625 * random.uniform(), height);
-      const Vec3 motion(random.uniform(), random.uniform(), random.uniform());
+      const Vec3 rough = detail::to_vec3(random.point()), motion = detail::to_vec3(random.point());
+      const Vec3 x = Vec3(0.25 * i, j, height) + 0.0625 * rough;
       V_t0.row(i * stride + j) = std::ldexp(1.0, exponent) * x;
       V_t1.row(i * stride + j) = std::ldexp(1.0, exponent) * (x + 0.5 * motion);
     }
