@@ -59,22 +59,9 @@ std::array<Real, 4> local_coefficients(const CoplanarityCubic<Real>& cubic, cons
   return {blend(bb0, bb1, t0), blend(bb0, bb1, t1), blend(be0, be1, t1), blend(ee0, ee1, t1)};
 }
 
-template <class Real>
-bool is_definite(const CoplanarityCubic<Real>& cubic, const TickInterval& interval) {
-  const std::array<Real, 4> local = local_coefficients(cubic, interval);
-  bool positive = true, negative = true;
-  for (const Real& c : local) {
-    positive &= leading(c) > cubic.error_bound;
-    negative &= leading(c) < -cubic.error_bound;
-  }
-  return positive || negative;
-}
-
 template CoplanarityCubic<double> coplanarity_cubic(const PairMotion<double>&);
 template CoplanarityCubic<DoubleDouble> coplanarity_cubic(const PairMotion<DoubleDouble>&);
 template std::array<double, 4> local_coefficients(const CoplanarityCubic<double>&, const TickInterval&);
 template std::array<DoubleDouble, 4> local_coefficients(const CoplanarityCubic<DoubleDouble>&, const TickInterval&);
-template bool is_definite(const CoplanarityCubic<double>&, const TickInterval&);
-template bool is_definite(const CoplanarityCubic<DoubleDouble>&, const TickInterval&);
 
 }  // namespace selvage::detail

@@ -24,16 +24,10 @@ template <class Real>
 template <class Real>
 [[nodiscard]] std::array<Real, 4> local_coefficients(const CoplanarityCubic<Real>& cubic, const TickInterval& interval);
 
-/// PROVED when true: the exact cubic has one sign on the whole interval.
-template <class Real>
-[[nodiscard]] bool is_definite(const CoplanarityCubic<Real>& cubic, const TickInterval& interval);
-
 extern template CoplanarityCubic<double> coplanarity_cubic(const PairMotion<double>&);
 extern template CoplanarityCubic<DoubleDouble> coplanarity_cubic(const PairMotion<DoubleDouble>&);
 extern template std::array<double, 4> local_coefficients(const CoplanarityCubic<double>&, const TickInterval&);
 extern template std::array<DoubleDouble, 4> local_coefficients(const CoplanarityCubic<DoubleDouble>&,
                                                                const TickInterval&);
-extern template bool is_definite(const CoplanarityCubic<double>&, const TickInterval&);
-extern template bool is_definite(const CoplanarityCubic<DoubleDouble>&, const TickInterval&);
 
 }  // namespace selvage::detail

@@ -13,7 +13,6 @@ struct DoubleDouble {
   DoubleDouble() = default;
   constexpr DoubleDouble(double value) : hi(value) {}  // NOLINT: every double is one
   constexpr DoubleDouble(double high, double low) : hi(high), lo(low) {}
-  explicit operator double() const { return hi; }
 };
 
 /// a + b exactly (Knuth).
@@ -66,7 +65,5 @@ inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
 inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
   return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
-inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
-inline DoubleDouble abs(const DoubleDouble& a) { return a.hi < 0 ? -a : a; }
 
 }  // namespace selvage::detail

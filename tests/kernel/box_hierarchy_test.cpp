@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include "tests/kernel/public_frames.h"
 #include "tests/kernel/random_motion.h"
@@ -87,6 +88,34 @@ TEST(BoxHierarchy, PropEqualsBruteForce) {
       }
     }
   });
+}
+
+/// The loops over boxes exist once for every kind of vector unit; all of them find the same pairs (K7).
+TEST(BoxHierarchy, EveryVectorUnitFindsTheSamePairs) {
+  const auto [mesh, V] = sheet(13, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i % 5, j % 4, i % 2); });
+  std::vector<std::uint8_t> active(static_cast<std::size_t>(mesh.vertex_count), 0);
+  active[7] = active[90] = 1;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    expect_brute_force(mesh, V, -V, {});
+    expect_brute_force(mesh, V, V, {0.5, active});
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(BoxHierarchy, MovesWithItsBoxes) {
+  const auto [mesh, V] = sheet(4, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i, j, 0); });
+  const Candidates expected = find_candidates_brute_force(mesh, V, V, {});
+  BoxHierarchy first(mesh);
+  first.refit(V, V, {});
+  BoxHierarchy second(std::move(first));
+  EXPECT_EQ(second.candidates(), expected);
+  BoxHierarchy third(mesh, HierarchyKind::kTopology);
+  third = std::move(second);
+  EXPECT_EQ(third.candidates(), expected);
 }
 
 TEST(BoxHierarchy, NoFacesAndOneFace) {

@@ -74,4 +74,13 @@ TEST(BruteForce, FeaturesThatShareAVertexAreNoPair) {
   EXPECT_EQ(find_candidates_brute_force(mesh, V, V, {}), expected);
 }
 
+TEST(Candidates, DifferIfAnyPairDiffers) {
+  Candidates other = kAll;
+  other.ee.pop_back();
+  EXPECT_NE(other, kAll);
+  other = kAll;
+  other.vf.front().face = 7;
+  EXPECT_NE(other, kAll);
+}
+
 }  // namespace selvage

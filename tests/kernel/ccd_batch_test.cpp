@@ -288,4 +288,20 @@ TEST(CcdBatch, PublicContactsAreFoundAndFewPairsAreSearched) {
   EXPECT_LT(static_cast<double>(ee.searched), 0.04 * static_cast<double>(candidates.ee.size()));
 }
 
+/// An infinite tolerance is no tolerance: nothing is separated, as single queries say.
+TEST(CcdBatch, AnInfiniteToleranceIsAnsweredAsBySingleQueries) {
+  Faces F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  const Mesh mesh = make_mesh(6, F);
+  Positions V(6, 3);
+  V << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 9, 1, 0, 9, 0, 1, 9;
+  const CcdOptions options = {std::numeric_limits<double>::infinity(), 64};
+  const std::vector<VfCandidate> pairs = {{3, 0}};
+  const BatchReport report = CcdBatch(mesh, V, V, options, 1000).ask(pairs);
+  const std::array<Vec3, 4> x = {V.row(3), V.row(0), V.row(1), V.row(2)};
+  const CcdResult single = vf_ccd(x, x, options);
+  ASSERT_EQ(report.answers.size(), single.verdict == CcdVerdict::kSeparated ? 0U : 1U);
+  EXPECT_TRUE(same_bits(report.answers.front().ccd, single));
+}
+
 }  // namespace selvage

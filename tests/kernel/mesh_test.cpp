@@ -27,6 +27,7 @@ TEST(InputErrorText, EveryErrorSaysWhatToDo) {
   for (int i = 0; i <= static_cast<int>(InputError::kOffLattice); ++i) {
     EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error");
   }
+  EXPECT_STREQ(describe(static_cast<InputError>(255)), "unknown error");
 }
 
 TEST(ValidateFaces, NamesTheDefect) {
