@@ -4,6 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 cmake_path(ABSOLUTE_PATH SOURCE NORMALIZE)
 cmake_path(ABSOLUTE_PATH BUILD NORMALIZE)
+string(REGEX REPLACE "/$" "" SOURCE "${SOURCE}")
 
 set(program ${BUILD}/tests/kernel/kernel_tests)
 if(NOT REPORT_ONLY)
