@@ -118,9 +118,14 @@ TEST(LongRuns, AShardIsNamedByHandOrBySlurm) {
 
 TEST(LongRuns, AKilledRunIsResumed) {
   const TemporaryFolder folder;
-  const auto files = sequence(folder.path(), 60, 40);
+  const auto once = sequence(folder.path(), 60, 40);
   const auto json = folder.path() / "r.json", whole = folder.path() / "whole.json",
              progress = folder.path() / "r.json.progress";
+  ASSERT_EQ(run_program(folder, verify(once, {"--json", whole, "--threads", "1"})).exit_code, 0);
+  // Progress is written every second: the files over and over, until there is time for it on the fastest machine.
+  const auto seconds = nlohmann::json::parse(slurp(whole))["seconds"].get<double>();
+  std::vector<std::string> files;
+  for (double planned = 0; planned < 3; planned += seconds) files.insert(files.end(), once.begin(), once.end());
   ASSERT_EQ(run_program(folder, verify(files, {"--json", whole})).exit_code, 0);
   const auto arguments = verify(files, {"--json", json, "--resume", "--threads", "1"});
   const pid_t child = testing::start_program(folder.path(), arguments);
@@ -132,7 +137,7 @@ TEST(LongRuns, AKilledRunIsResumed) {
   EXPECT_FALSE(std::filesystem::exists(json));
   const auto done = report(progress)["frames"]["checked"].get<int>();
   EXPECT_GT(done, 0);
-  EXPECT_LT(done, 60);
+  EXPECT_LT(done, static_cast<int>(files.size()));
 
   spit(folder.path() / "other.txt", slurp(progress));
   EXPECT_EQ(run_program(folder, verify(files, {"--json", json, "--resume", "--weld"})).exit_code, 2) << "other options";
@@ -147,7 +152,7 @@ TEST(LongRuns, AKilledRunIsResumed) {
   spit(files[static_cast<std::size_t>(done) - 1], sheet(40, 77));  // the last frame that was checked
   const auto changed = run_program(folder, arguments);
   EXPECT_EQ(changed.exit_code, 3) << changed.out;
-  EXPECT_NE(changed.err.find("changed since"), std::string::npos) << changed.err;
+  EXPECT_NE(changed.err.find("start anew"), std::string::npos) << changed.err;
 }
 
 TEST(LongRuns, AnInterruptedRunIsResumed) {
@@ -158,7 +163,6 @@ TEST(LongRuns, AnInterruptedRunIsResumed) {
   const auto arguments = verify(files, {"--json", json, "--resume", "--threads", "1"});
   const pid_t child = testing::start_program(folder.path(), arguments);
   testing::wait_until_signal_is_caught(child, SIGTERM);
-  usleep(300000);
   kill(child, SIGTERM);
   EXPECT_EQ(testing::wait_for_program(folder.path(), child).exit_code, 75);
   EXPECT_EQ(report(json)["verdict"], "unknown");
