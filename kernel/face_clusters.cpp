@@ -6,7 +6,8 @@ namespace selvage {
 
 namespace {
 
-/// Faces a cluster holds at most. Measured on the cloth-ball and rod-twist frames: see docs/guarantee.md, Broad phase.
+/// Faces a cluster holds at most. With 8 or 32, queries on the cloth-ball and rod-twist frames take 0.94 to 1.15 times
+/// as long, depending on the tree.
 constexpr std::int32_t kClusterFaces = 16;
 
 /// Views the face tree's numbering: nodes below #F are faces.
