@@ -119,7 +119,9 @@ TEST(SpatialFaceTree, PropHoldsEveryFaceOnceAndIsShallow) {
 TEST(SpatialFaceTree, IsTheSameForAnyThreadCount) {
   const Mesh mesh = comb(8000, 2);
   Positions V(mesh.vertex_count, 3);
-  for (int v = 0; v < mesh.vertex_count; ++v) V.row(v) << (v * 7919) % 1013, (v * 104729) % 4801, v % 5;
+  for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
+    V.row(v) = Eigen::Vector3<std::int64_t>((v * 7919) % 1013, (v * 104729) % 4801, v % 5).cast<double>();
+  }
   const FaceTree tree = make_spatial_face_tree(mesh, V, V);
   EXPECT_LE(depth_of(tree, mesh.faces.size()), std::log2(static_cast<double>(mesh.faces.size())) + 2);
   for (const int count : {1, 2, 3, 8}) {
