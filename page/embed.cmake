@@ -1,0 +1,22 @@
+# cmake -DASSETS=<files> -DOUTPUT=<file>.cpp -P embed.cmake
+# A source file that holds the assets as string literals, in pieces that every compiler takes (C++ asks for 65,536).
+cmake_minimum_required(VERSION 3.25)
+set(piece 32000)
+
+set(code "#include \"page/assets.h\"\n\n#include <stdexcept>\n\nnamespace selvage::page {\n\nstd::string asset(std::string_view name) {\n")
+foreach(file ${ASSETS})
+  file(READ "${file}" content)
+  if(content MATCHES "[^\t\n -~]")
+    message(FATAL_ERROR "${file}: a character that is not ASCII; write it as an escape")
+  endif()
+  get_filename_component(name "${file}" NAME)
+  string(APPEND code "  if (name == \"${name}\") {\n    std::string content;\n")
+  string(LENGTH "${content}" size)
+  foreach(begin RANGE 0 ${size} ${piece})
+    string(SUBSTRING "${content}" ${begin} ${piece} part)
+    string(APPEND code "    content += R\"asset(${part})asset\";\n")
+  endforeach()
+  string(APPEND code "    return content;\n  }\n")
+endforeach()
+string(APPEND code "  throw std::logic_error(\"no asset \" + std::string(name));\n}\n\n}  // namespace selvage::page\n")
+file(WRITE "${OUTPUT}" "${code}")
