@@ -74,7 +74,7 @@ class Attempt {
   CollisionStepReport report_;
 };
 
-/// Sections 7.2 and 7.3: every proximity at the start of the step, in parallel, a few rounds.
+/// Sections 7.2 and 7.3: every proximity at the start of the step.
 void Attempt::repel() {
   const std::vector<PairProximity> proximities =
       find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
@@ -83,18 +83,9 @@ void Attempt::repel() {
   for (const PairProximity& pair : proximities) {
     if (auto contact = make_contact(pair, motion_.V_t0(), bodies_.inverse_mass)) contacts.push_back(*contact);
   }
-  for (int round = 0; round < kRepulsionRounds; ++round) {
-    std::vector<PairChange> changes;
-    for (const RepulsionContact& contact : contacts) {
-      const RepulsionChange change = repel_contact(contact, motion_.displacement(), options_, dt_s_, round);
-      if (!change.repels) continue;
-      report_.repulsions += round == 0 ? 1 : 0;
-      report_.frictions += round == 0 && change.rubs ? 1 : 0;
-      changes.push_back({contact.interaction.vertices, change.change});
-    }
-    if (changes.empty()) return;
-    update_.apply(changes, options_.relaxation, motion_);
-  }
+  const RepulsionCount count = repel_contacts(contacts, options_, dt_s_, motion_);
+  report_.repulsions = count.repulsions;
+  report_.frictions = count.frictions;
 }
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
@@ -107,7 +98,7 @@ void Attempt::apply_impulses() {
           make_interaction(collision.kind, tracker_.vertices(collision), collision.ccd.weights, bodies_.inverse_mass);
       changes.push_back(collision_impulse(collision, interaction, motion_, options_.tolerance_m));
     }
-    update_.apply(changes, 1.0, motion_);
+    update_.apply(changes, options_.relaxation, motion_);
     if (!motion_.anything_changed()) return;
     tracker_.update(motion_);
   }

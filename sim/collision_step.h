@@ -18,9 +18,9 @@ struct CollisionOptions {
   double tolerance_m = 1e-6;           ///< distance kept at the end of every step (paper, section 6); >= 0
   double repulsion_stiffness_n_m = 0;  ///< spring constant k of the overlap repulsion; 0: the inelastic part alone
   double overlap_fraction = 0.1;       ///< of the overlap removed a step at most (paper, 7.2), in [0, 1]
-  /// A repulsion gives at most this share of its impulse in one parallel update, in (0, 1]; never more than 1 / number
-  /// of interactions, which is what keeps energy from growing. The paper names both remedies and 0.25 (7.2); at 0.25 a
-  /// lone node at rest keeps 3/4 of its approach and sinks until section 7.4, which has no friction, stops it.
+  /// An impulse of section 7.4 gives at most this share of itself in one parallel round, in (0, 1]; never more than
+  /// 1 / number of pairs at a vertex, which is what keeps energy from growing. The paper names both remedies and 0.25
+  /// (7.2, 7.4); with the second the first only costs rounds.
   double relaxation = 1;
   double friction_static = 0;            ///< Coulomb coefficient, dimensionless, >= friction_kinetic
   double friction_kinetic = 0;           ///< Coulomb coefficient, dimensionless, >= 0

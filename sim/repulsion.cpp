@@ -33,14 +33,14 @@ std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Po
 }
 
 RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
-                              const CollisionOptions& options, double dt_s, int round) {
+                              const CollisionOptions& options, double dt_s, int sweep) {
   RepulsionChange result;
   const Interaction& interaction = contact.interaction;
   const PairVectors d = gather(interaction, displacement);
   const double displacement_n = relative(interaction, d).dot(contact.normal);
-  if (round > 0 && !(-displacement_n > kSettledApproach * contact.distance)) return result;
+  if (sweep > 0 && !(-displacement_n > kSettledApproach * contact.distance)) return result;
   const Repulsion push = repulsion(contact.distance, displacement_n, contact.mobility * interaction.inverse_mass_scale,
-                                   options, round == 0 ? dt_s : 0);
+                                   options, sweep == 0 ? dt_s : 0);
   if (!(push.total() > 0)) return result;
   result.repels = true;
   result.change = distribute(interaction, push.total() * contact.normal);
@@ -50,6 +50,29 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
     for (std::size_t i = 0; i < 4; ++i) result.change[i] += (*rub)[i];
   }
   return result;
+}
+
+RepulsionCount repel_contacts(std::span<const RepulsionContact> contacts, const CollisionOptions& options, double dt_s,
+                              StepMotion& motion) {
+  RepulsionCount count;
+  for (int sweep = 0; sweep < kRepulsionSweeps; ++sweep) {
+    bool settled = true;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const RepulsionContact& contact = contacts[sweep % 2 == 0 ? k : contacts.size() - 1 - k];
+      const RepulsionChange change = repel_contact(contact, motion.displacement(), options, dt_s, sweep);
+      if (!change.repels) continue;
+      settled = false;
+      count.repulsions += sweep == 0 ? 1 : 0;
+      count.frictions += sweep == 0 && change.rubs ? 1 : 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (change.change[i].isZero(0)) continue;
+        const VertexId vertex = contact.interaction.vertices[i];
+        motion.move(vertex, motion.displacement().row(vertex).transpose() + change.change[i]);
+      }
+    }
+    if (settled) break;
+  }
+  return count;
 }
 
 }  // namespace selvage::sim

@@ -230,6 +230,22 @@ TEST(CollisionStep, RestingSheetLosesItsFallAndKeepsItsGap) {
   EXPECT_NEAR(highest(scene.V_t0, cloth), 0.8e-3, 5e-5);
 }
 
+// With all contacts at once, each with its share of 1 / number of contacts at a vertex, 52 to 78 % of the approach was
+// left here after ten rounds; one after the other leaves at most 12 %.
+TEST(CollisionStep, RepulsionsAloneStopAFallingStack) {
+  StepScene scene;
+  scene.add(make_box(Vec3(0.4, 0.4, 0.1), 3), Vec3(0, 0, -0.05), 0);
+  std::vector<StepScene::Part> layers;
+  for (const double z : {0.8e-3, 1.5e-3, 2.2e-3}) layers.push_back(scene.add(sheet(8), Vec3(0.003 * z, 0, z)));
+  for (const auto& layer : layers) scene.push(layer, Vec3(0, 0, -0.5e-3));
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.first_collisions, 0);
+  for (const auto& layer : layers) {
+    EXPECT_LT((scene.V_t0 - result.x).middleRows(layer.begin, layer.end - layer.begin).col(2).mean(), 0.2 * 0.5e-3);
+  }
+}
+
 TEST(CollisionStep, FrictionHoldsASheetOnASlopeBelowItsCoefficient) {
   // Gravity in the frame of a slope of 0.3: with friction 0.5 the sheet stays, with 0.1 it slides as the law says.
   const auto slide_m = [](double friction) {
