@@ -1,15 +1,11 @@
 #include "bench/broad_bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
-#include "bench/measure.h"
+#include "bench/timed.h"
 #include "kernel/box_hierarchy.h"
 #include "kernel/fp_env.h"
 
@@ -19,25 +15,6 @@ namespace {
 constexpr std::array<std::pair<const char*, HierarchyKind>, 3> kHierarchies{{{"automatic", HierarchyKind::kAutomatic},
                                                                              {"spatial", HierarchyKind::kSpatial},
                                                                              {"topology", HierarchyKind::kTopology}}};
-
-template <typename Body>
-void with_threads(int count, const Body& body) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
-  tbb::task_arena(count).execute(body);
-}
-
-/// Runs `body` and keeps its time where it is the best so far; `best` starts at zero, which is no time yet.
-template <typename Body>
-void time(BroadTime& best, const Body& body) {
-  const double cpu = process_nanoseconds();
-  const auto wall = std::chrono::steady_clock::now();
-  body();
-  const BroadTime taken{process_nanoseconds() - cpu,
-                        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - wall).count()};
-  const auto keep_less = [](double& a, double b) { a = a == 0 ? b : std::min(a, b); };
-  keep_less(best.cpu, taken.cpu);
-  keep_less(best.wall, taken.wall);
-}
 
 struct MotionBoxes {
   std::vector<Box> vertices, edges, faces;
@@ -124,7 +101,7 @@ class BroadBench {
       for (int pass = 0; pass < options_.repeat; ++pass) {
         const std::unique_ptr<Rival> rival = loaded.create(thread_count);
         bool refits = false;
-        BroadTime refit = method.refit;
+        BestTime refit = method.refit;
         time(method.build, [&] { rival->build(boxes); });
         time(refit, [&] { refits = rival->refit(boxes); });
         if (refits) method.refit = refit;

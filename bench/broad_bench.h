@@ -7,6 +7,7 @@
 
 #include "bench/mesh_motion.h"
 #include "bench/rival_loader.h"
+#include "bench/timed.h"
 
 namespace selvage::bench {
 
@@ -17,25 +18,20 @@ struct BroadBenchOptions {
   bool incremental = true;               ///< measure detection among a share of moved vertices
 };
 
-struct BroadTime {  ///< nanoseconds, best of the passes
-  double cpu = 0;   ///< processor time of all threads
-  double wall = 0;
-};
-
 struct BroadMethodReport {
   std::string name;  ///< automatic, spatial, topology: the kernel's hierarchies; cgal, embree
   int thread_count = 1;
   std::int64_t vf = 0, ee = 0;
   std::int64_t missing = 0, extra = 0;  ///< pairs, against the kernel's default hierarchy
-  BroadTime build, query;
-  BroadTime refit;  ///< 0 where the method has none but building again
+  BestTime build, query;
+  BestTime refit;  ///< 0 where the method has none but building again
 };
 
 /// Detection with the default hierarchy, one thread, when only some vertices have moved.
 struct BroadIncrementalReport {
   std::string spread;  ///< patch: neighbours on the surface; scattered: evenly over the vertex numbers
   std::int64_t active_vertices = 0, candidates = 0;
-  BroadTime refit, query;
+  BestTime refit, query;
 };
 
 struct BroadMotionReport {

@@ -5,7 +5,7 @@
 namespace selvage::bench {
 namespace {
 
-nlohmann::ordered_json json_of(const BroadTime& time) { return {{"cpu", time.cpu}, {"wall", time.wall}}; }
+nlohmann::ordered_json json_of(const BestTime& time) { return {{"cpu", time.cpu}, {"wall", time.wall}}; }
 
 nlohmann::ordered_json json_of(const BroadMotionReport& report) {
   nlohmann::ordered_json methods = nlohmann::ordered_json::array(), incremental = nlohmann::ordered_json::array();

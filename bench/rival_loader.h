@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/rivals/frame_rival.h"
 #include "bench/rivals/rival.h"
 
 namespace selvage::bench {
@@ -19,6 +20,14 @@ struct LoadedRival {
 
 /// All rivals there are, in a fixed order. They stay loaded.
 [[nodiscard]] std::vector<LoadedRival> load_rivals(const std::filesystem::path& folder);
+
+struct LoadedFrameRival {
+  std::string absent;  ///< as in LoadedRival
+  std::function<std::unique_ptr<FrameRival>()> create;
+};
+
+/// CGAL's self_intersections.
+[[nodiscard]] LoadedFrameRival load_frame_rival(const std::filesystem::path& folder);
 
 /// Where a build leaves them, seen from the running program: ../bench.
 [[nodiscard]] std::filesystem::path rivals_beside_program();

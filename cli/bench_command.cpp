@@ -9,6 +9,7 @@
 #include "bench/ccd_bench.h"
 #include "bench/query_bench.h"
 #include "cli/bench_broad_command.h"
+#include "cli/bench_verify_command.h"
 #include "cli/command.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
@@ -180,6 +181,7 @@ void add_bench_command(CLI::App& program, Job& job) {
   queries.callback([arguments, &job] { job = [arguments] { return bench_queries(*arguments); }; });
   add_ccd_command(bench, job);
   add_broad_command(bench, job);
+  add_bench_verify_command(bench, job);
 }
 
 }  // namespace selvage::cli

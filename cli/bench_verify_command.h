@@ -1,0 +1,13 @@
+// `selvage bench verify`: the exact checker against CGAL.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/exit_code.h"
+
+namespace selvage::cli {
+
+/// Adds the subcommand; when it is chosen, parsing sets `job`.
+void add_bench_verify_command(CLI::App& bench, Job& job);
+
+}  // namespace selvage::cli
