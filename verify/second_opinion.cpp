@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <CGAL/Algebraic_kernel_d_1.h>
@@ -50,85 +52,109 @@ std::array<Vector, N> paths(const std::array<Point, N>& x_t0, const std::array<P
   return result;
 }
 
+Polynomial primitive(const Polynomial& p) { return CGAL::is_zero(p) ? p : Polynomial(p / p.content()); }
+
+/// Up to a constant factor, by pseudo-remainders: for these degrees ten times faster than CGAL's modular algorithm.
+Polynomial common_divisor(Polynomial a, Polynomial b) {
+  while (!CGAL::is_zero(b)) {
+    a = primitive(CGAL::degree(a) < CGAL::degree(b) ? a : CGAL::pseudo_division_remainder(a, b));
+    std::swap(a, b);
+  }
+  return primitive(a);
+}
+
+int sign_at_start(const Polynomial& p) { return CGAL::sign(p[0]); }
+int sign_at_end(const Polynomial& p) { return CGAL::sign(std::accumulate(p.begin(), p.end(), CGAL::Gmpz(0))); }
+
 /// The sign of the polynomial at a time in [0,1].
 int sign_at(const Polynomial& polynomial, const Time& t) {
+  if (CGAL::is_zero(polynomial)) return 0;
+  if (t.is_rational()) {
+    const CGAL::Gmpq rational = t.rational();
+    if (rational == 0) return sign_at_start(polynomial);
+    return rational == 1 ? sign_at_end(polynomial) : polynomial.sign_at(rational);
+  }
   // Not CGAL's own sign_at_1: in 5.5.1 it refines the time in a loop that fails a precondition where refining happens
   // to find the rational value (SecondOpinion.SurvivesARationalRootFoundLate).
   const Kernel kernel;
-  if (kernel.is_zero_at_1_object()(polynomial, t)) return 0;
   // A bound of the derivative on [-1,2], where the approximations are: the sum of i |c_i| 2^(i-1).
   CGAL::Gmpz slope = 0, power = 1;
   for (int i = 1; i <= CGAL::degree(polynomial); ++i, power *= 2)
     slope += CGAL::abs(polynomial[static_cast<unsigned>(i)]) * power * i;
-  for (int bits = 16;; bits *= 2) {
+  constexpr int kFirstBits = 16;
+  for (int bits = kFirstBits;; bits *= 2) {
     const auto [low, high] = kernel.approximate_absolute_1_object()(t, bits);
     const Kernel::Bound value = polynomial.evaluate(low);
     if (CGAL::abs(value) > slope * (high - low)) return CGAL::sign(value);
+    if (low == high) return CGAL::sign(value);
+    if (bits > kFirstBits) continue;
+    // The time is the only root of its polynomial between these bounds, and a simple one.
+    const Polynomial common = common_divisor(polynomial, kernel.compute_polynomial_1_object()(t));
+    if (common.sign_at(t.low()) != common.sign_at(t.high())) return 0;
   }
 }
 
-/// A point and a segment of possibly no length.
+/// The roots in (0,1), ascending. REQUIRES not zero.
+std::vector<Time> roots_inside(const Polynomial& polynomial) {
+  // Descartes' rule for p(1 / (1 + x)) (1 + x)^d over x > 0: without a change of sign there is no root.
+  const Polynomial moved = CGAL::translate(CGAL::invert(polynomial), CGAL::Gmpz(1));
+  bool has_positive = false, has_negative = false;
+  for (const CGAL::Gmpz& c : moved) {
+    has_positive = has_positive || c > 0;
+    has_negative = has_negative || c < 0;
+  }
+  std::vector<Time> roots;
+  if (!(has_positive && has_negative)) return roots;
+  const Polynomial repeated = common_divisor(polynomial, CGAL::differentiate(polynomial));
+  const Polynomial square_free = primitive(CGAL::pseudo_division_quotient(polynomial, repeated));
+  Kernel().solve_1_object()(square_free, true, std::back_inserter(roots));
+  std::erase_if(roots, [](const Time& t) { return t <= Time(0) || t >= Time(1); });
+  return roots;
+}
+
+/// A point and a segment of possibly no length. Polynomials are computed when a sign is asked for: the first of them
+/// mostly decides.
 class PointOnSegment {
  public:
-  PointOnSegment(const Vector& p, const Vector& x, const Vector& y)
-      : length_squared_(norm_squared(y - x)),
-        distance_squared_(norm_squared(p - x)),
-        off_line_(norm_squared(cross(p - x, y - x))),
-        along_(dot(p - x, y - x)),
-        to_end_(length_squared_ - along_) {}
+  PointOnSegment(const Vector& p, const Vector& x, const Vector& y) : from_x_(p - x), edge_(y - x) {}
 
   [[nodiscard]] bool holds(const Time& t) const {
-    if (sign_at(length_squared_, t) == 0) return sign_at(distance_squared_, t) == 0;
-    return sign_at(off_line_, t) == 0 && sign_at(along_, t) >= 0 && sign_at(to_end_, t) >= 0;
+    if (sign_at(off_line(), t) != 0) return false;
+    const Polynomial length_squared = norm_squared(edge_);
+    if (sign_at(length_squared, t) == 0) return sign_at(norm_squared(from_x_), t) == 0;
+    const Polynomial along = dot(from_x_, edge_);
+    return sign_at(along, t) >= 0 && sign_at(length_squared - along, t) >= 0;
   }
   /// Polynomials at one of whose roots it begins to hold, unless it holds at t = 0.
   void add_critical(std::vector<Polynomial>& list) const {
-    if (!CGAL::is_zero(off_line_)) {
-      list.push_back(off_line_);  // zero wherever the condition holds
+    if (const Polynomial zero_where_it_holds = off_line(); !CGAL::is_zero(zero_where_it_holds)) {
+      list.push_back(zero_where_it_holds);
     } else {
-      list.insert(list.end(), {length_squared_, distance_squared_, along_, to_end_});
+      const Polynomial length_squared = norm_squared(edge_), along = dot(from_x_, edge_);
+      list.insert(list.end(), {length_squared, norm_squared(from_x_), along, length_squared - along});
     }
   }
 
  private:
-  Polynomial length_squared_, distance_squared_, off_line_, along_, to_end_;
-};
+  [[nodiscard]] Polynomial off_line() const { return norm_squared(cross(from_x_, edge_)); }
 
-/// A vertex-face or edge-edge pair: coplanar, and either spanning a plane with all weights >= 0, or a point on a
-/// segment.
-struct Pair {
-  Polynomial coplanarity;
-  Polynomial normal_squared;
-  std::vector<Polynomial> weights;  ///< times normal_squared
-  std::vector<PointOnSegment> degenerate;
-
-  [[nodiscard]] bool touches(const Time& t) const {
-    if (sign_at(coplanarity, t) != 0) return false;
-    if (sign_at(normal_squared, t) != 0) {
-      return std::ranges::all_of(weights, [&](const Polynomial& weight) { return sign_at(weight, t) >= 0; });
-    }
-    return std::ranges::any_of(degenerate, [&](const PointOnSegment& condition) { return condition.holds(t); });
-  }
+  Vector from_x_, edge_;
 };
 
 /// 0, 1, and all roots between of the polynomials that are not zero; ascending.
 std::vector<Time> critical_times(const std::vector<Polynomial>& polynomials) {
-  const Kernel kernel;
   std::vector<Time> times = {Time(0), Time(1)};
   for (const Polynomial& polynomial : polynomials) {
-    if (CGAL::is_zero(polynomial) || CGAL::degree(polynomial) == 0) continue;
-    std::vector<Time> roots;
-    kernel.solve_1_object()(polynomial, false, std::back_inserter(roots));
-    std::ranges::copy_if(roots, std::back_inserter(times), [](const Time& t) { return t > Time(0) && t < Time(1); });
+    if (!CGAL::is_zero(polynomial)) std::ranges::copy(roots_inside(polynomial), std::back_inserter(times));
   }
   std::sort(times.begin(), times.end());
   return times;
 }
 
-/// The set of touching times is closed. REQUIRES that its minimum is 0, 1 or a root of one of the polynomials.
+/// The first of these times at which the features touch.
 template <class Touches>
-SecondOpinion first_touch(const std::vector<Polynomial>& polynomials, const Touches& touches) {
-  for (const Time& t : critical_times(polynomials)) {
+SecondOpinion first_touch(const std::vector<Time>& times, const Touches& touches) {
+  for (const Time& t : times) {
     if (!touches(t)) continue;
     const auto [low, high] = Kernel().approximate_absolute_1_object()(t, 60);
     return {true, CGAL::to_interval(low).first, CGAL::to_interval(high).second};
@@ -136,19 +162,76 @@ SecondOpinion first_touch(const std::vector<Polynomial>& polynomials, const Touc
   return {};
 }
 
-SecondOpinion first_touch(const Pair& pair) {
-  // Touching is decided by the weights' signs where the normal is not zero, by the degenerate conditions elsewhere; so
-  // it begins at a root of a weight, of the normal, or, where the normal is always zero, of a condition.
-  std::vector<Polynomial> polynomials;
-  if (!CGAL::is_zero(pair.coplanarity)) {
-    polynomials = {pair.coplanarity};
-  } else if (!CGAL::is_zero(pair.normal_squared)) {
-    polynomials = pair.weights;
-    polynomials.push_back(pair.normal_squared);
-  } else {
-    for (const PointOnSegment& condition : pair.degenerate) condition.add_critical(polynomials);
+struct VfPair {
+  Vector p, a, b, c;
+
+  [[nodiscard]] Vector normal() const { return cross(b - a, c - a); }
+  [[nodiscard]] Vector difference() const { return p - a; }
+  [[nodiscard]] std::vector<Polynomial> weights(const Vector& n) const {
+    return {dot(cross(b - p, c - p), n), dot(cross(c - p, a - p), n), dot(cross(a - p, b - p), n)};
   }
-  return first_touch(polynomials, [&pair](const Time& t) { return pair.touches(t); });
+  [[nodiscard]] std::vector<PointOnSegment> degenerate() const { return {{p, a, b}, {p, b, c}, {p, c, a}}; }
+};
+
+struct EePair {
+  Vector a, b, c, d;
+
+  [[nodiscard]] Vector normal() const { return cross(b - a, d - c); }
+  [[nodiscard]] Vector difference() const { return c - a; }
+  /// Each edge parameter, measured from either end.
+  [[nodiscard]] std::vector<Polynomial> weights(const Vector& n) const {
+    return {dot(cross(c - a, d - c), n), dot(cross(d - c, c - b), n), dot(cross(c - a, b - a), n),
+            dot(cross(b - a, d - a), n)};
+  }
+  [[nodiscard]] std::vector<PointOnSegment> degenerate() const { return {{a, c, d}, {b, c, d}, {c, a, b}, {d, a, b}}; }
+};
+
+/// A pair that is coplanar, at all times or at those asked about, touches where it spans a plane and all weights (here
+/// times the normal squared) are >= 0, or where a point is on a segment.
+template <class Pair>
+class CoplanarPair {
+ public:
+  CoplanarPair(const Pair& pair, const Vector& normal)
+      : pair_(pair), normal_squared_(norm_squared(normal)), weights_(pair.weights(normal)) {}
+
+  /// Touching is decided by the weights' signs where the normal is not zero, by the degenerate conditions elsewhere; so
+  /// it begins at a root of a weight, of the normal, or, where the normal is always zero, of a condition.
+  [[nodiscard]] std::vector<Polynomial> critical() const {
+    std::vector<Polynomial> polynomials;
+    if (!CGAL::is_zero(normal_squared_)) {
+      polynomials = weights_;
+      polynomials.push_back(normal_squared_);
+    } else {
+      for (const PointOnSegment& condition : pair_.degenerate()) condition.add_critical(polynomials);
+    }
+    return polynomials;
+  }
+  [[nodiscard]] bool touches(const Time& t) const {
+    if (sign_at(normal_squared_, t) != 0) {
+      return std::ranges::all_of(weights_, [&](const Polynomial& weight) { return sign_at(weight, t) >= 0; });
+    }
+    return std::ranges::any_of(pair_.degenerate(), [&](const PointOnSegment& condition) { return condition.holds(t); });
+  }
+
+ private:
+  const Pair& pair_;
+  Polynomial normal_squared_;
+  std::vector<Polynomial> weights_;
+};
+
+template <class Pair>
+SecondOpinion first_touch(const Pair& pair) {
+  const Vector normal = pair.normal();
+  const Polynomial coplanarity = dot(pair.difference(), normal);
+  std::vector<Time> times;
+  if (!CGAL::is_zero(coplanarity)) {
+    times = critical_times({coplanarity});
+    std::erase_if(times, [&](const Time& t) { return sign_at(coplanarity, t) != 0; });
+    if (times.empty()) return {};
+  }
+  const CoplanarPair coplanar(pair, normal);
+  if (CGAL::is_zero(coplanarity)) times = critical_times(coplanar.critical());
+  return first_touch(times, [&coplanar](const Time& t) { return coplanar.touches(t); });
 }
 
 }  // namespace
@@ -156,27 +239,13 @@ SecondOpinion first_touch(const Pair& pair) {
 SecondOpinion second_opinion_vf(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1) {
   const FpGuard guard;
   const auto [p, a, b, c] = paths(x_t0, x_t1);
-  const Vector normal = cross(b - a, c - a);
-  Pair pair;
-  pair.coplanarity = dot(p - a, normal);
-  pair.normal_squared = norm_squared(normal);
-  pair.weights = {dot(cross(b - p, c - p), normal), dot(cross(c - p, a - p), normal), dot(cross(a - p, b - p), normal)};
-  pair.degenerate = {{p, a, b}, {p, b, c}, {p, c, a}};
-  return first_touch(pair);
+  return first_touch(VfPair{p, a, b, c});
 }
 
 SecondOpinion second_opinion_ee(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1) {
   const FpGuard guard;
   const auto [a, b, c, d] = paths(x_t0, x_t1);
-  const Vector normal = cross(b - a, d - c);
-  Pair pair;
-  pair.coplanarity = dot(c - a, normal);
-  pair.normal_squared = norm_squared(normal);
-  // Each edge parameter, measured from either end.
-  pair.weights = {dot(cross(c - a, d - c), normal), dot(cross(d - c, c - b), normal), dot(cross(c - a, b - a), normal),
-                  dot(cross(b - a, d - a), normal)};
-  pair.degenerate = {{a, c, d}, {b, c, d}, {c, a, b}, {d, a, b}};
-  return first_touch(pair);
+  return first_touch(EePair{a, b, c, d});
 }
 
 SecondOpinion second_opinion_self(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1) {
@@ -185,7 +254,7 @@ SecondOpinion second_opinion_self(const std::array<Point, 3>& x_t0, const std::a
   const PointOnSegment condition(p, a, b);
   std::vector<Polynomial> polynomials;
   condition.add_critical(polynomials);
-  return first_touch(polynomials, [&condition](const Time& t) { return condition.holds(t); });
+  return first_touch(critical_times(polynomials), [&condition](const Time& t) { return condition.holds(t); });
 }
 
 }  // namespace selvage::verify

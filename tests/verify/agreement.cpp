@@ -1,0 +1,239 @@
+#include "tests/verify/agreement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "tests/verify/motion_families.h"
+#include "verify/second_opinion.h"
+
+namespace selvage::verify::testing {
+namespace {
+
+enum class Question { kVf, kEe, kSelf };
+constexpr Question kQuestions[] = {Question::kVf, Question::kEe, Question::kSelf};
+
+/// A motion, and what is known of it from how it was made.
+struct Drawn {
+  MotionCase motion;
+  std::optional<Question> hit;      ///< touches at this time or before
+  double hit_time = 0;              ///< rounded
+  std::vector<Question> miss = {};  ///< do not touch
+};
+
+struct CaseClass {
+  std::string name;
+  std::function<Drawn(Draw&, int range)> draw;
+  int divisor = 1;  ///< of the number of cases
+  bool is_lattice = true;
+};
+
+std::vector<CaseClass> case_classes() {
+  std::vector<CaseClass> classes;
+  const auto add = [&classes](std::span<const Family> families, int divisor, bool is_lattice) {
+    for (const Family& family : families) {
+      classes.push_back({family.name,
+                         [draw = family.draw](Draw& source, int range) {
+                           return Drawn{draw(source, range), {}};
+                         },
+                         divisor, is_lattice});
+    }
+  };
+  const auto add_hit = [&classes](const char* name, Question question, PlantedHit (*plant)(Draw&, int)) {
+    classes.push_back({name, [=](Draw& source, int range) {
+                         const PlantedHit hit = plant(source, range);
+                         return Drawn{hit.motion, question, static_cast<double>(hit.numerator) / hit.denominator};
+                       }});
+  };
+  add(lattice_families(), 1, true);
+  add_hit("planted vf hit", Question::kVf, planted_vf_hit);
+  add_hit("planted ee hit", Question::kEe, planted_ee_hit);
+  add_hit("planted self hit", Question::kSelf, planted_self_hit);
+  classes.push_back({"planted vf gap", [](Draw& source, int range) {
+                       return Drawn{planted_miss(source, range, 1), {}, 0, {Question::kVf, Question::kSelf}};
+                     }});
+  classes.push_back({"planted ee gap", [](Draw& source, int range) {
+                       return Drawn{planted_miss(source, range, 2), {}, 0, {Question::kEe}};
+                     }});
+  add(double_families(), 20, false);
+  add(whole_range_families(), 1000, false);
+  return classes;
+}
+
+constexpr int kFewCases = 20;  // of a class that is slow, so that it is not dead in a short run
+
+struct Answers {
+  MotionAnswer first;
+  SecondOpinion second;
+};
+
+Answers ask(Question question, const MotionCase& motion) {
+  constexpr auto kDetail = Detail::kFirstTime;
+  switch (question) {
+    case Question::kVf:
+      return {exact_vf_motion(motion.x_t0, motion.x_t1, kDetail), second_opinion_vf(motion.x_t0, motion.x_t1)};
+    case Question::kEe:
+      return {exact_ee_motion(motion.x_t0, motion.x_t1, kDetail), second_opinion_ee(motion.x_t0, motion.x_t1)};
+    case Question::kSelf:
+      return {exact_self_motion(motion.three_t0(), motion.three_t1(), kDetail),
+              second_opinion_self(motion.three_t0(), motion.three_t1())};
+  }
+  throw std::logic_error("no such question");
+}
+
+/// Exact times, in intervals of doubles: certainly different ones do not overlap.
+bool overlap(double a_lower, double a_upper, double b_lower, double b_upper) {
+  return a_lower <= b_upper && b_lower <= a_upper;
+}
+
+MotionCase reordered(const MotionCase& motion, const std::array<std::size_t, 4>& order) {
+  MotionCase result;
+  for (std::size_t i = 0; i < 4; ++i) {
+    result.x_t0[i] = motion.x_t0[order[i]];
+    result.x_t1[i] = motion.x_t1[order[i]];
+  }
+  return result;
+}
+
+/// The labels under which the features stay the same.
+MotionCase relabelled(Draw& draw, Question question, const MotionCase& motion) {
+  static constexpr std::array<std::size_t, 4> kVf[] = {
+      {0, 2, 1, 3}, {0, 1, 3, 2}, {0, 3, 2, 1}, {0, 2, 3, 1}, {0, 3, 1, 2}};
+  static constexpr std::array<std::size_t, 4> kEe[] = {
+      {1, 0, 2, 3}, {0, 1, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}, {1, 0, 3, 2}};
+  if (question == Question::kSelf) return reordered(motion, {0, 2, 1, 3});
+  return reordered(motion, (question == Question::kVf ? kVf : kEe)[draw.integer(0, 4)]);
+}
+
+/// The first or the second half of the motion. REQUIRES even coordinates that doubles hold with a bit to spare.
+MotionCase half(const MotionCase& motion, bool second) {
+  MotionCase result = motion;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      (second ? result.x_t0 : result.x_t1)[i][k] = (motion.x_t0[i][k] + motion.x_t1[i][k]) / 2;
+    }
+  }
+  return result;
+}
+
+/// One class with one draw: asks, compares, counts; stops at the first disagreement.
+class Comparison {
+ public:
+  Comparison(const CaseClass& what, std::uint64_t seed) : class_(what), draw_(seed) { tally_.name = what.name; }
+
+  void run(int cases) {
+    const std::clock_t begin = std::clock();
+    for (int i = 0; i < cases && message_.empty(); ++i) {
+      Drawn drawn = class_.draw(draw_, kRanges[i % std::ssize(kRanges)]);
+      if (class_.is_lattice) {
+        for (auto* points : {&drawn.motion.x_t0, &drawn.motion.x_t1}) {
+          for (Point& p : *points) p = {2 * p[0], 2 * p[1], 2 * p[2]};
+        }
+      }
+      for (const Question question : kQuestions) check(question, drawn, i);
+    }
+    tally_.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  }
+  [[nodiscard]] const ClassTally& tally() const { return tally_; }
+  [[nodiscard]] const std::string& message() const { return message_; }
+
+ private:
+  static constexpr int kRanges[] = {1, 2, 3, 5, 10};
+
+  void check(Question question, const Drawn& drawn, int round) {
+    const Answers base = both(question, drawn.motion, tally_.drawn, "drawn");
+    if (drawn.hit == question) {
+      require(base.first.touches && base.first.first.lower_approx <= drawn.hit_time, question, drawn.motion,
+              "planted hit");
+      require(base.second.touches && base.second.first_lower <= drawn.hit_time, question, drawn.motion,
+              "planted hit, second");
+    }
+    if (std::ranges::find(drawn.miss, question) != drawn.miss.end()) {
+      require(!base.first.touches && !base.second.touches, question, drawn.motion, "planted gap");
+    }
+    if (round % 4 == 0) check_reversed(question, drawn.motion, base);
+    if (round % 4 == 1) check_relabelled(question, drawn.motion, base);
+    if (round % 4 == 2 && class_.is_lattice) check_halves(question, drawn.motion, base);
+  }
+
+  void check_reversed(Question question, const MotionCase& motion, const Answers& base) {
+    const Answers back = both(question, {motion.x_t1, motion.x_t0}, tally_.related, "reversed");
+    require(back.first.touches == base.first.touches, question, motion, "time reversal");
+    require(back.second.touches == base.second.touches, question, motion, "time reversal, second");
+  }
+
+  void check_relabelled(Question question, const MotionCase& motion, const Answers& base) {
+    const Answers other = both(question, relabelled(draw_, question, motion), tally_.related, "relabelled");
+    require(other.first.touches == base.first.touches && other.first.kind == base.first.kind &&
+                other.first.first.lower == base.first.first.lower && other.first.first.upper == base.first.first.upper,
+            question, motion, "relabelling");
+    require(other.second.touches == base.second.touches &&
+                (!base.second.touches || overlap(other.second.first_lower, other.second.first_upper,
+                                                 base.second.first_lower, base.second.first_upper)),
+            question, motion, "relabelling, second");
+  }
+
+  /// The whole touches iff a half does; first in the first half that does.
+  void check_halves(Question question, const MotionCase& motion, const Answers& base) {
+    const Answers first = both(question, half(motion, false), tally_.related, "first half");
+    const Answers second = both(question, half(motion, true), tally_.related, "second half");
+    require(base.first.touches == (first.first.touches || second.first.touches), question, motion, "halves");
+    require(base.second.touches == (first.second.touches || second.second.touches), question, motion, "halves, second");
+    if (!base.second.touches || !base.first.touches) return;
+    const double offset = first.second.touches ? 0 : 1;
+    const auto& [_, a] = first.first.touches ? first : second;
+    const auto& b = (first.first.touches ? first : second).first.first;
+    require(overlap(2 * base.second.first_lower - offset, 2 * base.second.first_upper - offset, a.first_lower,
+                    a.first_upper) &&
+                overlap(2 * base.first.first.lower_approx - offset, 2 * base.first.first.upper_approx - offset,
+                        b.lower_approx, b.upper_approx),
+            question, motion, "time in a half");
+  }
+
+  Answers both(Question question, const MotionCase& motion, std::int64_t& count, const char* what) {
+    const Answers answers = ask(question, motion);
+    const auto& [first, second] = answers;
+    ++count;
+    tally_.touches += first.touches ? 1 : 0;
+    tally_.unfiltered += first.exact_used ? 1 : 0;
+    tally_.inside += first.touches && first.first.lower_approx > 0 && first.first.upper_approx < 1 ? 1 : 0;
+    require(first.touches == second.touches, question, motion, what);
+    require(!first.touches || !second.touches ||
+                overlap(first.first.lower_approx, first.first.upper_approx, second.first_lower, second.first_upper),
+            question, motion, what);
+    return answers;
+  }
+
+  void require(bool holds, Question question, const MotionCase& motion, const char* what) {
+    if (holds || !message_.empty()) return;
+    std::ostringstream text;
+    text << class_.name << ": " << what << ", question " << static_cast<int>(question) << ", after "
+         << tally_.drawn + tally_.related << " queries" << motion;
+    message_ = text.str();
+  }
+
+  const CaseClass& class_;
+  Draw draw_;
+  ClassTally tally_;
+  std::string message_;
+};
+
+}  // namespace
+
+Agreement compare_deciders(std::uint64_t seed, int cases) {
+  Agreement agreement;
+  for (const CaseClass& what : case_classes()) {
+    Comparison comparison(what, seed);
+    comparison.run(std::max(std::min(cases, kFewCases), cases / what.divisor));
+    agreement.classes.push_back(comparison.tally());
+    if (!comparison.message().empty()) agreement.disagreements.push_back(comparison.message());
+  }
+  return agreement;
+}
+
+}  // namespace selvage::verify::testing
