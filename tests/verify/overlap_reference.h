@@ -17,6 +17,7 @@ using Vector = std::array<Rational, 3>;
 using Polygon = std::vector<Vector>;  ///< convex, in one plane; points may repeat or be collinear
 
 inline Vector exact(const Point& p) { return {Rational(p[0]), Rational(p[1]), Rational(p[2])}; }
+inline std::array<Vector, 3> exact(const std::array<Point, 3>& t) { return {exact(t[0]), exact(t[1]), exact(t[2])}; }
 inline Vector operator-(const Vector& a, const Vector& b) {
   return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
 }
@@ -109,10 +110,30 @@ inline bool on_segment(const Vector& x, const Vector& a, const Vector& b) {
   return is_zero(cross(b - a, x - a)) && dot(x - a, x - b) <= 0;
 }
 
+/// The points that two triangles have in common, as the corners of a convex polygon.
+inline Polygon common_part(const std::array<Vector, 3>& p, const std::array<Vector, 3>& q) {
+  const Hull hull_q = hull(q);
+  Polygon common(p.begin(), p.end());
+  for (const auto* half_spaces : {&hull_q.equal, &hull_q.bound}) {
+    for (const HalfSpace& half_space : *half_spaces) common = clip(common, half_space);
+  }
+  return common;
+}
+
+/// -1 empty, 0 a point, 1 a segment, 2 an area.
+inline int dimension(const Polygon& polygon) {
+  if (polygon.empty()) return -1;
+  Vector along{};
+  for (const Vector& x : polygon) {
+    if (is_zero(along)) along = x - polygon[0];
+    if (!is_zero(cross(along, x - polygon[0]))) return 2;
+  }
+  return is_zero(along) ? 0 : 1;
+}
+
 inline OverlapKind overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
                            const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b) {
-  const std::array<Vector, 3> p = {exact(a[0]), exact(a[1]), exact(a[2])};
-  const std::array<Vector, 3> q = {exact(b[0]), exact(b[1]), exact(b[2])};
+  const std::array<Vector, 3> p = exact(a), q = exact(b);
   std::vector<Vector> shared;
   for (std::size_t i = 0; i < 3; ++i) {
     if (std::find(face_b.begin(), face_b.end(), face_a[i]) != face_b.end()) shared.push_back(p[i]);
@@ -120,10 +141,7 @@ inline OverlapKind overlap(const std::array<std::int32_t, 3>& face_a, const std:
   if (shared.size() == 3) return OverlapKind::kSame;
 
   const Hull hull_p = hull(p), hull_q = hull(q);
-  Polygon common(p.begin(), p.end());
-  for (const auto* half_spaces : {&hull_q.equal, &hull_q.bound}) {
-    for (const HalfSpace& half_space : *half_spaces) common = clip(common, half_space);
-  }
+  const Polygon common = common_part(p, q);
   const bool beyond = std::any_of(common.begin(), common.end(), [&](const Vector& x) {
     if (shared.empty()) return true;
     return !on_segment(x, shared.front(), shared.back());  // of length zero where only a vertex is shared
