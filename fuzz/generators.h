@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fuzz/choice_source.h"
@@ -19,7 +20,16 @@ struct HitBand {
   double low = 0, high = 1;
 };
 
+/// What makes the classes of a group hard, by letter; campaigns report by group.
+struct QueryGroup {
+  char letter;
+  std::string_view name;
+};
+[[nodiscard]] const std::vector<QueryGroup>& query_groups();
+
 struct QueryClass {
+  char group;
+  std::int64_t per_unit = 0;  ///< cases, of each kind, in a work unit of a campaign
   std::string name;
   std::function<MotionQuery(ChoiceSource&, PairKind)> make;  ///< geometry; options are left at their defaults
   std::array<std::optional<HitBand>, 3> hits;                ///< by PairKind; absent: not made for this kind

@@ -38,6 +38,13 @@ MotionQuery lattice(ChoiceSource& source, PairKind kind, std::uint32_t radius) {
   return to_query(kind, random_motion(source, radius));
 }
 
+void nudge(ChoiceSource& source, MotionQuery& query, std::uint32_t ulps) {
+  for (int moves = source.range(1, 3); moves > 0; --moves) {
+    double& coordinate = choose_coordinate(source, query);
+    coordinate = move_by_ulps(coordinate, source.zigzag(ulps));
+  }
+}
+
 MotionQuery lattice_ulp(ChoiceSource& source, PairKind kind) {
   MotionQuery query;
   if (source.coin()) {
@@ -45,10 +52,7 @@ MotionQuery lattice_ulp(ChoiceSource& source, PairKind kind) {
   } else {
     query = contact(source, kind, choose_any_time(source), choose_any_place(source), Grid::kLattice);
   }
-  for (int moves = source.range(1, 3); moves > 0; --moves) {
-    double& coordinate = choose_coordinate(source, query);
-    coordinate = move_by_ulps(coordinate, source.zigzag(3));
-  }
+  nudge(source, query, 3);
   return query;
 }
 

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "kernel/assert.h"
+#include "verify/distance_filter.h"
 #include "verify/exact_distance.h"
+#include "verify/fp_guard.h"
+#include "verify/near_filter.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -64,14 +67,30 @@ verify::MotionAnswer exact_motion(const MotionQuery& query, verify::Detail detai
   return verify::exact_self_motion({t0[0], t0[1], t0[2]}, {t1[0], t1[1], t1[2]}, detail);
 }
 
-int compare_first_touch(const MotionQuery& query, double t) {
-  const bool is_vf = query.kind != PairKind::kEe;
-  return verify::compare_first_touch(raw_of(query.kind, query.x_t0), raw_of(query.kind, query.x_t1), is_vf, t);
+verify::MotionAgainst motion_against(const MotionQuery& query, double t) {
+  const std::array<verify::Point, 4> t0 = raw(query.x_t0);
+  const std::array<verify::Point, 4> t1 = raw(query.x_t1);
+  switch (query.kind) {
+    case PairKind::kVf:
+      return verify::vf_motion_against(t0, t1, t);
+    case PairKind::kEe:
+      return verify::ee_motion_against(t0, t1, t);
+    case PairKind::kSelf:
+      break;
+  }
+  return verify::self_motion_against({t0[0], t0[1], t0[2]}, {t1[0], t1[1], t1[2]}, t);
 }
 
 bool within_at(const MotionQuery& query, double t, double d) {
   const std::array<verify::Point, 4> t0 = raw_of(query.kind, query.x_t0);
   const std::array<verify::Point, 4> t1 = raw_of(query.kind, query.x_t1);
+  if (t == 0 || t == 1) {
+    const verify::FpGuard guard;
+    const std::array<verify::Point, 4>& x = t == 0 ? t0 : t1;
+    const bool is_ee = query.kind == PairKind::kEe;
+    if (is_ee ? verify::triage_ee_farther(x, d) : verify::triage_vf_farther(x, d)) return false;
+    if (is_ee ? verify::triage_ee_nearer(x, d) : verify::triage_vf_nearer(x, d)) return true;
+  }
   return query.kind == PairKind::kEe ? verify::ee_within_at(t0, t1, t, d) : verify::vf_within_at(t0, t1, t, d);
 }
 

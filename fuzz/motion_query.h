@@ -31,9 +31,9 @@ using CcdKernel = CcdResult (*)(const MotionQuery& query);
 /// Nothing but doubles crosses into the checker.
 [[nodiscard]] std::array<verify::Point, 4> raw(const std::array<Vec3, 4>& x);
 [[nodiscard]] verify::MotionAnswer exact_motion(const MotionQuery& query, verify::Detail detail);
-/// Sign of (exact first touch - t). REQUIRES that the query touches.
-[[nodiscard]] int compare_first_touch(const MotionQuery& query, double t);
-/// Whether the features are within d (closed) at t, exactly.
+/// The decision, and the sign of (first touch - t).
+[[nodiscard]] verify::MotionAgainst motion_against(const MotionQuery& query, double t);
+/// Whether the features are within d (closed) at t, exactly. At the ends of the step filters answer most queries.
 [[nodiscard]] bool within_at(const MotionQuery& query, double t, double d);
 
 /// Largest |coordinate| at either end.

@@ -31,6 +31,8 @@ MotionQuery end_at_tolerance(ChoiceSource& source, PairKind kind);
 
 // lattice_makers.cpp: ties and degeneracies by chance, on small integers
 MotionQuery lattice(ChoiceSource& source, PairKind kind, std::uint32_t radius);
+/// Moves one to three coordinates by up to so many ulps.
+void nudge(ChoiceSource& source, MotionQuery& query, std::uint32_t ulps);
 /// A lattice query or contact with one to three coordinates moved by up to three ulps.
 MotionQuery lattice_ulp(ChoiceSource& source, PairKind kind);
 /// Duplicate vertices, collinear corners, zero-length edges.
@@ -50,5 +52,10 @@ MotionQuery mixed_axes(ChoiceSource& source, PairKind kind);
 /// Every coordinate with an exponent of its own.
 MotionQuery mixed_coordinates(ChoiceSource& source, PairKind kind, int exponent_radius);
 MotionQuery uniform(ChoiceSource& source, PairKind kind);
+
+// recorded_makers.cpp
+/// A candidate pair of a step of a simulation, as it was or continued up to 2^6 times as far, with a few ulps changed
+/// in half of the cases. REQUIRES vf or ee.
+MotionQuery recorded(ChoiceSource& source, PairKind kind);
 
 }  // namespace selvage::fuzz::make

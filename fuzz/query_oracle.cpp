@@ -55,6 +55,10 @@ double spread(const MotionQuery& query) {
 Disagreement check_alarm(const MotionQuery& query, const CcdResult& answer, Judgement& judgement) {
   if (answer.gap_bound > gap_allowance(query, answer.cause)) return Disagreement::kGapTooLoose;
   if (judgement.touches) return Disagreement::kNone;  // distance 0 is within any bound
+  if (judgement.hit && answer.gap_bound >= query.options.tolerance) return Disagreement::kNone;  // within it at the end
+  if (answer.cause == CcdCause::kMotion && answer.gap_bound > 0) {
+    judgement.near_miss_bits = std::ilogb(spread(query)) - std::ilogb(answer.gap_bound);
+  }
   const std::array<double, 3> hints{answer.cause == CcdCause::kEnd ? 1 : answer.toi_lower, answer.toi_lower + 0x1p-52,
                                     1};
   switch (closest_approach(query, answer.gap_bound, hints, kMaxTests)) {
@@ -69,14 +73,11 @@ Disagreement check_alarm(const MotionQuery& query, const CcdResult& answer, Judg
   return Disagreement::kNone;
 }
 
-Disagreement compare(const MotionQuery& query, const CcdResult& answer, Judgement& judgement) {
-  if (!is_well_formed(query, answer)) return Disagreement::kMalformed;
+Disagreement compare(const MotionQuery& query, const CcdResult& answer, int first_touch_order, Judgement& judgement) {
   const bool free_of_touch = answer.verdict == CcdVerdict::kSeparated || answer.cause == CcdCause::kEnd;
   if (judgement.touches && free_of_touch) return Disagreement::kMissed;
   if (judgement.hit && answer.verdict == CcdVerdict::kSeparated) return Disagreement::kEndMissed;
-  if (judgement.touches && answer.toi_lower > 0 && compare_first_touch(query, answer.toi_lower) < 0) {
-    return Disagreement::kLateToi;
-  }
+  if (judgement.touches && answer.toi_lower > 0 && first_touch_order < 0) return Disagreement::kLateToi;
   return answer.verdict == CcdVerdict::kCollides ? check_alarm(query, answer, judgement) : Disagreement::kNone;
 }
 
@@ -116,9 +117,13 @@ double gap_allowance(const MotionQuery& query, CcdCause cause) {
 
 Judgement judge(const MotionQuery& query, const CcdResult& answer) {
   Judgement judgement;
-  judgement.touches = exact_motion(query, verify::Detail::kDecision).touches;
-  judgement.hit = judgement.touches || within_at(query, 1, query.options.tolerance);
-  judgement.disagreement = compare(query, answer, judgement);
+  const bool well_formed = is_well_formed(query, answer);
+  const verify::MotionAgainst exact = motion_against(query, well_formed ? answer.toi_lower : 0);
+  judgement.touches = exact.touches;
+  judgement.exact_used = exact.exact_used;
+  // What does not touch at all is not within 0 at the end.
+  judgement.hit = judgement.touches || (query.options.tolerance > 0 && within_at(query, 1, query.options.tolerance));
+  judgement.disagreement = well_formed ? compare(query, answer, exact.order, judgement) : Disagreement::kMalformed;
   return judgement;
 }
 

@@ -24,6 +24,9 @@ struct Judgement {
   bool touches = false;      ///< exactly, at some t in [0,1]
   bool hit = false;          ///< touches, or ends within tolerance: must not be answered `separated`
   bool gap_unknown = false;  ///< an alarm whose closest approach closest_approach() could not decide
+  bool exact_used = false;   ///< the checker's filter did not decide whether they touch
+  /// Where an alarm by motion does not touch: how near to a touch the query is, as bits of size / gap_bound; else 0.
+  int near_miss_bits = 0;
 };
 
 /// Everything that promises K1 to K3 say about `answer`. `unresolved` claims its toi_lower and no more.

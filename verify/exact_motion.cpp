@@ -54,6 +54,21 @@ int compare_with_double(Instant& instant, double t) {
   return compare(instant, other);
 }
 
+template <std::size_t N, class Triage, class Exact>
+MotionAgainst decide_against(const std::array<Point, N>& x_t0, const std::array<Point, N>& x_t1, double t,
+                             const Triage& triage_motion, const Exact& first_touch) {
+  if (!std::isfinite(t)) throw std::invalid_argument("exact motion: a time must be finite");
+  require_finite(x_t0);
+  require_finite(x_t1);
+  const FpGuard guard;
+  const MotionTriage triage = triage_motion(x_t0, x_t1);
+  if (triage == MotionTriage::kApart) return {};
+  if (triage == MotionTriage::kCrosses && (t <= 0 || t >= 1)) return {true, t <= 0 ? 1 : -1, false};  // inside (0,1)
+  std::optional<FirstTouch> touch = first_touch(moving_points(x_t0, x_t1));
+  if (!touch) return {false, 1, true};
+  return {true, compare_with_double(touch->instant, t), true};
+}
+
 }  // namespace
 
 MotionAnswer exact_vf_motion(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, Detail detail) {
@@ -66,6 +81,18 @@ MotionAnswer exact_ee_motion(const std::array<Point, 4>& x_t0, const std::array<
 
 MotionAnswer exact_self_motion(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1, Detail detail) {
   return decide(x_t0, x_t1, detail, triage_self_motion, [](const auto& x) { return first_self_touch(x); });
+}
+
+MotionAgainst vf_motion_against(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, double t) {
+  return decide_against(x_t0, x_t1, t, triage_vf_motion, [](const auto& x) { return first_vf_touch(x); });
+}
+
+MotionAgainst ee_motion_against(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, double t) {
+  return decide_against(x_t0, x_t1, t, triage_ee_motion, [](const auto& x) { return first_ee_touch(x); });
+}
+
+MotionAgainst self_motion_against(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1, double t) {
+  return decide_against(x_t0, x_t1, t, triage_self_motion, [](const auto& x) { return first_self_touch(x); });
 }
 
 int compare_first_touch(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, bool is_vf, double t) {

@@ -48,6 +48,20 @@ enum class Detail : std::uint8_t { kDecision, kFirstTime };
 [[nodiscard]] MotionAnswer exact_self_motion(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1,
                                              Detail detail);
 
+/// The decision and, where the motion touches, when: for the price of one.
+struct MotionAgainst {
+  bool touches = false;
+  int order = 1;            ///< sign of (first touch - t); 1 where nothing touches
+  bool exact_used = false;  ///< the filter did not decide
+};
+/// Exact for every finite double t. REQUIRES finite coordinates.
+[[nodiscard]] MotionAgainst vf_motion_against(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1,
+                                              double t);
+[[nodiscard]] MotionAgainst ee_motion_against(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1,
+                                              double t);
+[[nodiscard]] MotionAgainst self_motion_against(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1,
+                                                double t);
+
 /// -1, 0, 1: the first touch of the vertex-face or edge-edge motion is before, at, or after t; exact for every double t
 /// that is not NaN. Motions that do not touch answer 1. Used to check a kernel's toi_lower.
 [[nodiscard]] int compare_first_touch(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, bool is_vf,
