@@ -63,7 +63,8 @@ void answer_end(CcdResult& result, const PairMotion<double>& motion, double tole
   if (tolerance == 0) return;  // no touch at t = 1 is a distance above zero
   const auto closest = closest_point(motion.kind, motion.t1);
   const double lower = distance_lower(motion, motion.t1, closest);
-  if (times_power_lower(lower, motion.exponent) > tolerance) return;
+  // In the motion's own scale: at the caller's, a subnormal distance would be rounded, and the answer depend on scale.
+  if (lower > times_power_upper(tolerance, -motion.exponent)) return;
   result.verdict = CcdVerdict::kCollides;
   result.cause = CcdCause::kEnd;
   result.gap_bound = times_power_upper(gap_upper(motion, kTicks, motion.t1, closest.weights), motion.exponent);

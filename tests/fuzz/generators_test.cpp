@@ -50,10 +50,10 @@ TEST(Generators, ADeadClassIsOutOfBand) {
     for (const PairKind kind : kPairKinds) {
       if (!query_class.band(kind)) continue;
       Tally dead;
-      dead.cases = 2000;
+      dead.cases = 20000;
       EXPECT_TRUE(is_out_of_band(query_class, kind, dead)) << query_class.name << " " << name_of(kind);
       if (query_class.band(kind)->high == 1) continue;
-      Tally saturated{2000, 2000, 2000, 0, 0, 0, 0};
+      Tally saturated{20000, 20000, 20000, 0, 0, 0, 0};
       EXPECT_TRUE(is_out_of_band(query_class, kind, saturated)) << query_class.name << " " << name_of(kind);
     }
   }
