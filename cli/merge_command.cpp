@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/exit_code.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
 #include "verify/merge.h"
@@ -42,6 +43,10 @@ ExitCode run(const Arguments& arguments) {
       const std::vector<fs::path> found = reports_in(source, arguments.output);
       files.insert(files.end(), found.begin(), found.end());
     } else {
+      std::error_code absent;
+      if (fs::equivalent(source, arguments.output, absent)) {
+        throw UsageError(source + " is a part, and would be overwritten; name another output");
+      }
       files.emplace_back(source);
     }
   }

@@ -1,6 +1,9 @@
 #include "cli/sequence_argument.h"
 
+#include <fmt/format.h>
+
 #include "cli/exit_code.h"
+#include "cli/frame_numbers.h"
 #include "io/point_cache.h"
 
 namespace selvage::cli {
@@ -20,7 +23,20 @@ std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argume
   if (!argument.base.empty() && !io::is_point_cache(argument.sources.front())) {
     throw UsageError("--base is for a .pc2 or .mdd; " + argument.sources.front().string() + " has faces of its own");
   }
-  return io::open_sequence(argument.sources, argument.base);
+  auto sequence = io::open_sequence(argument.sources, argument.base);
+  if (const auto jump = jump_in_numbers(argument.sources)) fmt::print(stderr, "selvage: note: {}\n", *jump);
+  return sequence;
+}
+
+void require_not_read(const SequenceArgument& argument, const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> inputs = argument.sources;
+  inputs.push_back(argument.base);
+  for (const std::filesystem::path& input : inputs) {
+    std::error_code absent;
+    if (std::filesystem::equivalent(input, output, absent)) {
+      throw UsageError(output.string() + " is read, and would be overwritten; name another file");
+    }
+  }
 }
 
 }  // namespace selvage::cli

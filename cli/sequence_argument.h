@@ -19,7 +19,11 @@ struct SequenceArgument {
 /// Adds the positional SEQUENCE and --base; `argument` must outlive the parsing.
 void add_sequence_argument(CLI::App& command, SequenceArgument& argument);
 
-/// Throws io::Error, and UsageError where --base is given for what has faces of its own.
+/// Throws io::Error, and UsageError where --base is given for what has faces of its own. A jump in the numbers of mesh
+/// files is said on stderr.
 [[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argument);
+
+/// Throws UsageError where the output is one of the files that are read.
+void require_not_read(const SequenceArgument& argument, const std::filesystem::path& output);
 
 }  // namespace selvage::cli

@@ -105,7 +105,7 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
       ->check(CLI::NonNegativeNumber);  // as a signed number: an unsigned one would wrap "-3" around
   add_long_runs(command, arguments);
   command.add_option("--threads", arguments.threads, "Number of threads; 0: one a core")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1024))
       ->capture_default_str();
 }
 

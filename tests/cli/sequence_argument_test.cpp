@@ -58,6 +58,68 @@ TEST(SequenceArgument, BaseMeshIsNamedOrMissed) {
   EXPECT_NE(needless.err.find("faces of its own"), std::string::npos) << needless.err;
 }
 
+TEST(SequenceArgument, WhatIsReadIsNotOverwritten) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", cloth = folder.path() / "a.pc2", report = folder.path() / "r.json";
+  spit(mesh, kTwoFaces);
+  spit(cloth, cache(1));
+  ASSERT_EQ(run_program(folder, {"verify", mesh, "--json", report}).exit_code, 0);
+  const std::string whole = testing::slurp(report);
+  const std::vector<std::vector<std::string>> cases = {
+      {"verify", mesh, "--json", mesh},
+      {"verify", mesh, "--json", folder.path() / "." / "a.obj"},
+      {"verify", cloth, "--base", mesh, "--json", mesh},
+      {"render", cloth, "--base", mesh, "-o", cloth},
+      {"merge", report, "-o", report},
+  };
+  for (const auto& arguments : cases) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0] << result.out << result.err;
+    EXPECT_NE(result.err.find("would be overwritten"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(testing::slurp(mesh), kTwoFaces);
+  EXPECT_EQ(testing::slurp(cloth), cache(1));
+  EXPECT_EQ(testing::slurp(report), whole);
+}
+
+TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {
+  const TemporaryFolder folder;
+  const auto verify = [&folder](const std::vector<std::string>& names) {
+    std::vector<std::string> arguments = {"verify", "--motion"};
+    for (const std::string& name : names) {
+      spit(folder.path() / name, kTwoFaces);
+      arguments.push_back(folder.path() / name);
+    }
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(verify({"f_1.obj", "f_2.obj", "f_4.obj"}).find("f_4.obj comes right after "), std::string::npos);
+  EXPECT_NE(verify({"f_010.obj", "f_002.obj"}).find("f_002.obj comes right after "), std::string::npos);
+  EXPECT_NE(verify({"f_1.obj", "f_1.obj"}).find("f_1.obj comes right after "), std::string::npos);
+  for (const std::vector<std::string>& even : {std::vector<std::string>{"f_08.obj", "f_09.obj", "f_10.obj"},
+                                               {"f_9.obj", "f_10.obj", "f_11.obj"},
+                                               {"f_10.obj", "f_20.obj", "f_30.obj"},
+                                               {"1a.obj", "2a.obj"},
+                                               {"before.obj", "after.obj"},
+                                               {"take1_end.obj", "take3.obj", "take4.obj"}}) {
+    EXPECT_EQ(verify(even), "") << even[0];
+  }
+}
+
+TEST(SequenceArgument, AFolderOfMeshesIsNotTakenForASequence) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "f_1.obj", kTwoFaces);
+  for (const char* command : {"verify", "convert", "render"}) {
+    std::vector<std::string> arguments = {command, folder.path()};
+    if (std::string(command) != "verify") arguments.insert(arguments.end(), {"-o", folder.path() / "out.png"});
+    if (std::string(command) == "convert") arguments.back() = folder.path() / "out.npz";
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_NE(result.err.find("name its mesh files instead"), std::string::npos) << result.err;
+  }
+}
+
 TEST(SequenceArgument, PointCacheIsDrawn) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "cloth.pc2", mesh = folder.path() / "mesh.obj", sheet = folder.path() / "sheet.png";

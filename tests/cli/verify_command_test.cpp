@@ -204,6 +204,7 @@ TEST(VerifyCommand, UsageErrorsAreTwo) {
       {"verify", a, "--min-distance", "nan"},
       {"verify", a, "--max-violations", "-3"},
       {"verify", a, "--threads", "-1"},
+      {"verify", a, "--threads", "99999999999999999999"},
       {"verify", a, "--jsn", "x"},
   };
   for (const auto& arguments : cases) {

@@ -219,7 +219,7 @@ TEST(MeshFiles, ChangedFacesAreReported) {
 TEST(OpenSequence, WrongSourcesAreNamed) {
   const TemporaryFolder folder;
   expect_error(ErrorKind::kBadInput, "no file", [] { (void)open_sequence({}); });
-  expect_error(ErrorKind::kFile, "sequence.json", [&] { (void)open_sequence({folder.path()}); });
+  expect_error(ErrorKind::kBadInput, "a folder without sequence.json", [&] { (void)open_sequence({folder.path()}); });
   expect_error(ErrorKind::kFile, "missing.obj", [&] { (void)open_sequence({folder / "missing.obj"}); });
   write_plainly(folder / "a.stl", "solid");
   expect_error(ErrorKind::kBadInput, "neither .obj nor .ply", [&] { (void)open_sequence({folder / "a.stl"}); });

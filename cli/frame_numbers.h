@@ -1,0 +1,16 @@
+// Mesh files of a sequence are named one by one, mostly by a pattern of the shell: a file that is missing is not
+// missed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace selvage::cli {
+
+/// Where the numbers in the names do not go up in equal steps: one line that names the first place. Nothing where they
+/// do, or where the names are not one pattern with one number (the last digits before the extension).
+[[nodiscard]] std::optional<std::string> jump_in_numbers(const std::vector<std::filesystem::path>& files);
+
+}  // namespace selvage::cli
