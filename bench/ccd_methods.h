@@ -21,7 +21,7 @@ struct Alarm {
 
 struct CcdAnswers {
   std::vector<Alarm> alarms;  ///< in the order of the candidates
-  std::int64_t searched = 0;  ///< pairs that a cull left to a slower query, where the method counts them
+  std::int64_t searched = 0;  ///< pairs that a fast look left to a slower query, where the method counts them
 };
 
 struct CcdMethod {

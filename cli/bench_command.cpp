@@ -100,7 +100,7 @@ std::string table(const bench::CcdBenchReport& report) {
     text += '\n';
   }
   const bench::CcdMethodReport& kernel = report.methods.front();
-  text += fmt::format("the kernel's cull left {} pairs to single queries: {:.2f} %\n", kernel.searched,
+  text += fmt::format("the kernel's lanes left {} pairs to single queries: {:.2f} %\n", kernel.searched,
                       100 * static_cast<double>(kernel.searched) /
                           static_cast<double>(std::max<std::int64_t>(1, report.vf_candidates + report.ee_candidates)));
   return text +

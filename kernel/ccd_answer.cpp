@@ -39,21 +39,28 @@ double gap_upper(const PairMotion<double>& motion, Tick tick, const DifferencePo
   return distance_upper(motion, at, tick != 0 && tick != kTicks, weights);
 }
 
-void answer_contact(CcdResult& result, const PairMotion<double>& motion, Tick tick, double gap,
-                    const std::array<double, 4>& weights, const Double3& direction) {
-  result.verdict = gap <= kAlarmGap ? CcdVerdict::kCollides : CcdVerdict::kUnresolved;
+CcdResult contact_answer(const PlanePassage& passage, int exponent) {
+  CcdResult result;
+  result.verdict = CcdVerdict::kCollides;
   result.cause = CcdCause::kMotion;
-  result.toi_lower = time_of(tick);
-  result.gap_bound = times_power_upper(gap, motion.exponent);
-  result.weights = weights;
-  result.normal = unit(direction);
+  result.toi_lower = time_of(passage.tick);
+  result.gap_bound = times_power_upper(passage.gap, exponent);
+  result.weights = passage.weights;
+  result.normal = to_vec3(passage.normal);
+  result.intervals = passage.intervals;
+  return result;
 }
 
 void answer_contact(CcdResult& result, const PairMotion<double>& motion, Tick tick) {
   const auto at = polygon_at_tick(motion, tick);
   const auto closest = closest_point(motion.kind, at);
   const double gap = gap_upper(motion, tick, at, closest.weights);
-  answer_contact(result, motion, tick, gap, closest.weights, approach_direction(motion, tick));
+  result.verdict = gap <= kAlarmGap ? CcdVerdict::kCollides : CcdVerdict::kUnresolved;
+  result.cause = CcdCause::kMotion;
+  result.toi_lower = time_of(tick);
+  result.gap_bound = times_power_upper(gap, motion.exponent);
+  result.weights = closest.weights;
+  result.normal = unit(approach_direction(motion, tick));
 }
 
 void answer_end(CcdResult& result, const PairMotion<double>& motion, double tolerance) {

@@ -3,6 +3,7 @@
 
 #include "kernel/ccd.h"
 #include "kernel/pair_motion.h"
+#include "kernel/plane_passage.h"
 #include "kernel/time_ticks.h"
 
 namespace selvage::detail {
@@ -13,15 +14,11 @@ namespace selvage::detail {
 [[nodiscard]] double gap_upper(const PairMotion<double>& motion, Tick tick, const DifferencePolygon<double>& at,
                                const std::array<double, 4>& weights);
 
-/// An alarm is raised only with a witness this near, relative to the largest difference (in [0.5, 1) after scaling).
-/// One tick is left uncertified only if the gap in it is of the order of the rounding of one support, 3 kSupportError,
-/// plus the motion within one tick, 2^-51: below 2^-48. The rest is room for directions that are not optimal.
-inline constexpr double kAlarmGap = 0x1p-40;
+/// The answer to a contact of plain doubles, in canonical order; `exponent` as PairMotion's.
+[[nodiscard]] CcdResult contact_answer(const PlanePassage& passage, int exponent);
 
-/// Fills in a contact at the tick: `direction` becomes the normal. Unresolved if the gap is no alarm's.
-void answer_contact(CcdResult& result, const PairMotion<double>& motion, Tick tick, double gap,
-                    const std::array<double, 4>& weights, const Double3& direction);
-/// The same from the features' closest points, with the normal they had a little before.
+/// Fills in a contact at the tick from the features' closest points, with the normal they had a little before.
+/// Unresolved if the gap is no alarm's.
 void answer_contact(CcdResult& result, const PairMotion<double>& motion, Tick tick);
 
 /// Fills in the answer to a motion that is proved free of touch: what remains is the distance at t = 1.

@@ -4,9 +4,12 @@
 #include <limits>
 #include <optional>
 
+#include "kernel/canonical_order.h"
+#include "kernel/ccd_answer.h"
 #include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
 #include "kernel/lane_cull.h"
+#include "kernel/plane_passage.h"
 
 namespace selvage {
 
@@ -29,7 +32,11 @@ std::array<VertexId, 4> vertices_of(const Mesh& mesh, const EeCandidate& pair) {
   return {a[0], a[1], b[0], b[1]};
 }
 
-using Query = CcdResult (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&, const CcdOptions&);
+using Points = std::array<Vec3, 4>;
+using Query = CcdResult (*)(const Points&, const Points&, const CcdOptions&);
+
+template <typename Pair>
+constexpr PairKind kKindOf = std::is_same_v<Pair, VfCandidate> ? PairKind::kVf : PairKind::kEe;
 
 }  // namespace
 
@@ -40,17 +47,35 @@ struct CcdBatch::Impl {
   std::optional<detail::LaneMotion> lanes;  ///< none: every pair is asked by itself
 
   template <typename Pair>
-  void search(const Pair& pair, Query query, std::size_t candidate, BatchReport& report) const {
+  void load(const Pair& pair, Points& x_t0, Points& x_t1) const {
     const auto vertices = vertices_of(mesh, pair);
-    std::array<Vec3, 4> x_t0, x_t1;
     for (std::size_t k = 0; k < 4; ++k) {
       x_t0[k] = V_t0.row(vertices[k]);
       x_t1[k] = V_t1.row(vertices[k]);
     }
+  }
+
+  template <typename Pair>
+  void search(const Pair& pair, Query query, std::size_t candidate, BatchReport& report) const {
+    Points x_t0, x_t1;
+    load(pair, x_t0, x_t1);
     const CcdResult result = query(x_t0, x_t1, options);
     ++report.searched;
     report.intervals += result.intervals;
     if (result.verdict != CcdVerdict::kSeparated) report.answers.push_back({candidate, result});
+  }
+
+  /// As query() ends (ccd_query.cpp).
+  template <typename Pair>
+  void answer(const Pair& pair, const detail::LaneContact& contact, std::size_t candidate, BatchReport& report) const {
+    Points x_t0, x_t1;
+    load(pair, x_t0, x_t1);
+    const detail::CanonicalOrder order = detail::canonical_order(kKindOf<Pair>, x_t0.data(), x_t1.data());
+    CcdResult result = detail::contact_answer(contact.passage, contact.exponent);
+    result.weights = restore_weights(order, result.weights);
+    result.normal = restore_normal(order, detail::to_double3(result.normal));
+    report.intervals += result.intervals;
+    report.answers.push_back({candidate, result});
   }
 
   template <typename Pair>
@@ -62,11 +87,25 @@ struct CcdBatch::Impl {
       return report;
     }
     detail::PairNumbers left;
+    std::vector<detail::LaneContact> contacts;
     for (std::size_t first = 0; first < pairs.size(); first += detail::kPairBlock) {
       const auto block = pairs.subspan(first, std::min(detail::kPairBlock, pairs.size() - first));
-      const std::size_t left_count = cull_in_lanes(*lanes, block, options.tolerance, left);
-      report.intervals += static_cast<std::int64_t>(block.size() - left_count);
-      for (const std::uint64_t i : std::span(left).first(left_count)) search(block[i], query, first + i, report);
+      const detail::LanePairs lane_pairs(mesh, block);
+      cull_in_lanes(*lanes, lane_pairs, options.tolerance, left);
+      contacts.clear();
+      if (lanes->is_exact()) pass_in_lanes(*lanes, lane_pairs, options.tolerance, left, contacts);
+      report.intervals += static_cast<std::int64_t>(block.size() - left.count - contacts.size());
+      const auto found = static_cast<std::ptrdiff_t>(report.answers.size());
+      for (const detail::LaneContact& contact : contacts) {
+        const bool in_limit = contact.passage.intervals <= options.max_intervals;
+        if (in_limit)
+          answer(block[contact.pair], contact, first + contact.pair, report);
+        else
+          search(block[contact.pair], query, first + contact.pair, report);
+      }
+      for (const std::uint32_t i : std::span(left.place).first(left.count)) search(block[i], query, first + i, report);
+      std::sort(report.answers.begin() + found, report.answers.end(),
+                [](const BatchAnswer& a, const BatchAnswer& b) { return a.candidate < b.candidate; });
     }
     return report;
   }
@@ -78,7 +117,7 @@ CcdBatch::CcdBatch(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRe
   auto impl = std::make_unique<Impl>(Impl{mesh, V_t0, V_t1, options, std::nullopt});
   if (are_valid(options) && query_count * kVerticesPerQuery >= static_cast<std::size_t>(V_t0.rows()) &&
       query_count > 0) {
-    impl->lanes.emplace(mesh, V_t0, V_t1);
+    impl->lanes.emplace(V_t0, V_t1);
     if (!impl->lanes->is_valid()) impl->lanes.reset();
   }
   impl_ = std::move(impl);

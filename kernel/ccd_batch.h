@@ -1,4 +1,4 @@
-// The queries of ccd.h for whole lists of candidates: a cull in SIMD lanes, then one query after another for the rest.
+// The queries of ccd.h for whole lists of candidates: in SIMD lanes, then one query after another for the rest.
 //   What is left out is separated: PROVED, as vf_ccd and ee_ccd prove it. What is returned has their bits.
 //   All pairs that they call separated are left out. So may be a pair on which they give up (kUnresolved), or whose
 //   distance at t = 1 they cannot tell from tolerance: the cull sees it from another side.
@@ -22,14 +22,14 @@ struct BatchAnswer {
 /// What a list comes to.
 struct BatchReport {
   std::vector<BatchAnswer> answers;  ///< not separated, ascending
-  std::int64_t searched = 0;         ///< pairs that the cull left to single queries
-  std::int64_t intervals = 0;        ///< of all queries; 1 for a pair that is culled
+  std::int64_t searched = 0;         ///< pairs that the lanes left to single queries
+  std::int64_t intervals = 0;        ///< of all queries; 1 for a pair that the lanes call separated
 };
 
 /// One motion of a mesh, prepared for any number of lists. Calls may come from several threads.
 class CcdBatch {
  public:
-  /// O(#V + #E + #F), unless `query_count`, the number of queries to come, is so low that it does not pay. The mesh and
+  /// O(#V), unless `query_count`, the number of queries to come, is so low that it does not pay. The mesh and
   /// the positions must outlive the batch. Positions outside the domain are answered as by single queries.
   CcdBatch(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
            std::size_t query_count);

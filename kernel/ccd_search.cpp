@@ -5,7 +5,7 @@
 #include "kernel/ccd_precise.h"
 #include "kernel/closest_point.h"
 #include "kernel/coplanarity.h"
-#include "kernel/plane_crossing.h"
+#include "kernel/plane_passage.h"
 #include "kernel/root_intervals.h"
 #include "kernel/separation.h"
 
@@ -27,19 +27,6 @@ constexpr int kMaxDoubleIntervals = 128;
 constexpr std::size_t kSplitDepth = 64;
 /// A contact with weights above this lies inside both features, so that a sign change of the cubic makes it a real one.
 constexpr double kInnerWeight = 0x1p-20;
-/// So does one this deep inside the polygon, if the interval is short: the polygon's height is at least this, so that
-/// its frame is well-conditioned, depth is good to 2^-50, and nothing moves farther than 2^-33 within the interval.
-constexpr double kInnerDepth = 0x1p-20;
-/// Within so many ticks plain doubles may place a contact: toi_lower is early by at most 2^-36 of the step. The root
-/// intervals of 99.9 % of the contacts of a public cloth frame are below 2^12 ticks, half of them below 2^7.
-constexpr Tick kShortWidth = Tick{1} << 16;
-
-/// How the origin passes the plane of the difference polygon within a short interval.
-enum class Passage : std::uint8_t {
-  kBeside,   ///< PROVED: no touch
-  kThrough,  ///< within kAlarmGap of a touch, and through the inside of the polygon
-  kUnclear,
-};
 
 /// What the cubic in double-double arithmetic says of an interval; nothing where there is none.
 struct CubicSigns {
@@ -62,7 +49,6 @@ class Search {
   [[nodiscard]] Polygon polygon(Tick tick) const { return polygon_at_tick(motion_, tick); }
   [[nodiscard]] bool limit_reached() const { return result_.intervals >= options_.max_intervals; }
 
-  Passage pass_plane(const TickInterval& interval);
   bool clear(const TickInterval& interval);
   bool certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end);
   void look_precisely();
@@ -81,29 +67,6 @@ class Search {
   Double3 separating_;  // the last direction that certified an interval: the next one often is like it
   CcdResult result_;
 };
-
-/// Plain doubles on a short interval, at the end of which the cubic has passed through zero. Everything before the
-/// interval is certified, so that its begin is a safe time.
-Passage Search::pass_plane(const TickInterval& interval) {
-  if (interval.end - interval.begin > kShortWidth || limit_reached()) return Passage::kUnclear;
-  ++result_.intervals;
-  const Polygon at_begin = polygon(interval.begin);
-  const PlaneCrossing crossing = plane_crossing(motion_.kind, at_begin);
-  if (crossing.depth < 0) {
-    const bool beside = separates(motion_, at_begin, polygon(interval.end), crossing.outward);
-    return beside ? Passage::kBeside : Passage::kUnclear;
-  }
-  const double before = value_at(cubic_, time_of(interval.begin)), after = value_at(cubic_, time_of(interval.end));
-  const double bound = cubic_.error_bound;
-  const bool falls = before > bound && after < -bound, rises = before < -bound && after > bound;
-  if (!(falls || rises) || !(crossing.depth > kInnerDepth)) return Passage::kUnclear;
-  const double gap = distance_upper(motion_, at_begin, true, crossing.weights);
-  if (!(gap <= kAlarmGap)) return Passage::kUnclear;
-  // The cubic is 3 normal . corner: its sign is the side of the polygon on which the origin is not.
-  const Double3 direction = falls ? crossing.normal : -crossing.normal;
-  answer_contact(result_, motion_, interval.begin, gap, crossing.weights, direction);
-  return Passage::kThrough;
-}
 
 bool Search::certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end) {
   if (!is_zero(separating_) && separates(motion_, at_begin, at_end, separating_)) return true;
@@ -227,19 +190,24 @@ bool Search::clear(const TickInterval& interval) {
 }
 
 CcdResult Search::run() {
-  if (limit_reached()) return result_;
   RootIntervals pieces;
   pieces.interval[0] = {0, kTicks};
   pieces.count = 1;
   if (has_cubic()) {
+    const PlanePassage plain = plane_passage(motion_);
+    result_.intervals = std::min(plain.intervals, options_.max_intervals);
+    if (plain.intervals > options_.max_intervals) return result_;
+    if (plain.passage == Passage::kContact) return contact_answer(plain, motion_.exponent);
+    if (plain.passage == Passage::kSeparated) {
+      answer_end(result_, motion_, options_.tolerance);
+      return result_;
+    }
     cubic_ = coplanarity_cubic(motion_);
-    pieces = root_intervals(cubic_, options_.max_intervals);
+    pieces = root_intervals(cubic_, options_.max_intervals - result_.intervals);
   }
   result_.intervals += pieces.examined;
   for (int i = 0; i < pieces.count; ++i) {
-    const TickInterval& piece = pieces.interval[static_cast<std::size_t>(i)];
-    const Passage passage = has_cubic() ? pass_plane(piece) : Passage::kUnclear;
-    if (passage == Passage::kThrough || (passage == Passage::kUnclear && !clear(piece))) return result_;
+    if (!clear(pieces.interval[static_cast<std::size_t>(i)])) return result_;
   }
   answer_end(result_, motion_, options_.tolerance);
   return result_;

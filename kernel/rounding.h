@@ -16,6 +16,8 @@
 // The extent E (one value an axis) is the largest |s| on that axis over all corners and both ends of the step.
 #pragma once
 
+#include <algorithm>
+
 #include "kernel/double_double.h"
 
 namespace selvage::detail {
@@ -78,17 +80,22 @@ inline constexpr double kBlossomError = error_of<Real>(0, 3, 3);
 template <class Real>
 inline constexpr double kWindingError = error_of<Real>(2, 3, 4);
 
-/// The cull in lanes projects the points themselves, in a scale in which every |coordinate| < 1; N = |n_x| + |n_y| +
-/// |n_z|. A direction n separates the features over a part of the step if, at both its ends, n . p > n . q for all
-/// vertices p of the first and q of the second: then it does so for all points, at all times between.
-///   points of a part, s x_t0 + t x_t1 with s and t exact: the product 1, the sum 1, so 2 u N along n;
-///   a projection: the product 1, the sums 2, so 3 u N;
-///   both for two points, and their difference, which is below 2 N: 12 u N.
-/// The bound (kLaneError + tolerance) N + kLaneSlack is computed with 4 roundings; what they may take off is in
-/// kLaneError and, for the tolerance, added beforehand. Euclidean: N >= |n|. Scaling the mesh, and every product, may
-/// lose 2^-1074, times factors below 2^10: kLaneSlack. Infinity and NaN in n make N so, and then prove nothing.
-inline constexpr double kLaneError = 16 * kUnitRoundoff;
-inline constexpr double kLaneSlack = kUnderflowError;
-inline constexpr double kLaneToleranceRounding = 1 + 0x1p-48;
+/// The cull in lanes projects the points themselves, in float32 (u = 2^-24), in a scale in which every |coordinate| is
+/// at most 1; N = |n_x| + |n_y| + |n_z|. A direction n separates the features over the step if, at both its ends,
+/// n . p > n . q for all vertices p of the first and q of the second: then it does so for all points, at all times
+/// between.
+///   a coordinate: rounded to float32, 1; what its double was off by is below 2^-20 u;
+///   a projection: the product 1, the sums 2, and the coordinates' 1: 4 u N;
+///   two of them, and their difference, which is below 2 N: 10 u N.
+/// The bound (kNearError + tolerance) N + kNearSlack is computed with 4 roundings, of second order; they, and the
+/// doubles', are in the half. Euclidean: N >= |n|. Each of the 6 products may lose 2^-150: kNearSlack. Infinity and NaN
+/// in n make N so, and then prove nothing.
+inline constexpr float kNearUnitRoundoff = 0x1p-24F;
+inline constexpr float kNearError = 10.5F * kNearUnitRoundoff;
+inline constexpr float kNearSlack = 0x1p-140F;
+/// A tolerance in that scale in float32, rounded up by more than 4 roundings. Nothing is 4 apart.
+inline float near_tolerance(double tolerance) {
+  return tolerance > 0 ? static_cast<float>(std::min(tolerance, 4.0) * (1 + 0x1p-20)) + 0x1p-126F : 0.0F;
+}
 
 }  // namespace selvage::detail

@@ -9,6 +9,7 @@
 
 #include "kernel/closest_point.h"
 #include "kernel/coplanarity.h"
+#include "kernel/lane_motion.h"
 #include "kernel/power_of_two.h"
 #include "kernel/separation.h"
 #include "tests/kernel/exact.h"
@@ -210,7 +211,7 @@ static_assert(18 * detail::kDeterminantError<double> == 369 * 0x1p-54);
 static_assert(detail::kBlossomError<double> == 25 * 0x1p-55);
 static_assert(4 * detail::kWitnessError == 100 * 0x1p-55);
 static_assert(detail::kNormError == 11 * 0x1p-55);
-static_assert(3 * detail::kLaneError > 36 * 0x1p-53);
+static_assert(3 * detail::kNearError > 30 * 0x1p-24F);
 
 }  // namespace
 
@@ -220,6 +221,37 @@ TEST(SupportError, HoldsInDoublesAtEveryMagnitude) { check_supports<double>(8000
 TEST(SupportError, HoldsInDoubleDoublesAtEveryMagnitude) { check_supports<DoubleDouble>(4000, 0.02); }
 TEST(DeterminantError, HoldsInDoublesAtEveryMagnitude) { check_cubics<double>(6000, 0.05); }
 TEST(DeterminantError, HoldsInDoubleDoublesAtEveryMagnitude) { check_cubics<DoubleDouble>(3000, 0.001); }
+
+/// The rows that LaneMotion makes of a mesh of one magnitude or of mixed ones, near its origin or far from it.
+TEST(NearError, HoldsAtEveryMagnitude) {
+  Random random(17);
+  Sharpness sharpness;
+  for (int i = 0; i < 4000; ++i) {
+    const Sample s = random_sample(random, -1070, 990);
+    Positions V_t0(4, 3), V_t1(4, 3);
+    for (Eigen::Index v = 0; v < 4; ++v) {
+      V_t0.row(v) = to_vec3(s.x_t0[static_cast<std::size_t>(v)]);
+      V_t1.row(v) = to_vec3(s.x_t1[static_cast<std::size_t>(v)]);
+    }
+    const detail::LaneMotion motion(V_t0, V_t1);
+    ASSERT_TRUE(motion.is_valid());
+    const Double3 direction = random.chance(2) ? random.point() : random.point(-60, 0);
+    const std::array<float, 3> n = {static_cast<float>(direction.x), static_cast<float>(direction.y),
+                                    static_cast<float>(direction.z)};
+    const auto project = [&n](const float* x) { return (n[0] * x[0] + n[1] * x[1]) + n[2] * x[2]; };
+    const auto p = static_cast<std::size_t>(random.integer(0, 3)), q = static_cast<std::size_t>(random.integer(0, 3));
+    for (const std::size_t end : {0U, 1U}) {
+      const PairPoints& x = end == 0 ? s.x_t0 : s.x_t1;
+      const float* const rows = motion.near_rows.front().data() + 4 * end;
+      const float computed = project(rows + 8 * p) - project(rows + 8 * q);
+      const Rational3 exact_n = exact(Double3{n[0], n[1], n[2]});
+      const Rational real = testing::scaled_exactly(dot(exact_n, exact(x[p]) - exact(x[q])), -motion.near_exponent);
+      const float size = (std::fabs(n[0]) + std::fabs(n[1])) + std::fabs(n[2]);
+      sharpness.note(exact(double{computed}) - real, double{detail::kNearError * size + detail::kNearSlack});
+    }
+  }
+  sharpness.expect_at_least(0.1);
+}
 
 TEST(SupportError, ScalesWithTheExtentAndTheDirection) {
   const Double3 n = {0.5, -0.25, 1}, extent = {0.75, 0.5, 0.125};

@@ -193,17 +193,17 @@ double share_of_witness(const Case& c) {
 }
 
 double share_of_lane(const Case& c) {
-  const double t = detail::time_of(c.tick[0]), s = 1 - t;
-  const Double3 n = leading(c.n);
-  std::array<double, 2> computed;
+  const std::array<float, 3> n = {static_cast<float>(leading(c.n).x), static_cast<float>(leading(c.n).y),
+                                  static_cast<float>(leading(c.n).z)};
+  std::array<float, 2> computed;
   std::array<Rational, 2> real;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Double3 &a = c.x_t0[i], &b = c.x_t1[i];
-    computed[i] = dot(n, Double3{s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z});
-    real[i] = exact(s) * dot(exact(n), exact(a)) + exact(t) * dot(exact(n), exact(b));
+    const Double3& x = c.x_t0[i];
+    computed[i] = (n[0] * static_cast<float>(x.x) + n[1] * static_cast<float>(x.y)) + n[2] * static_cast<float>(x.z);
+    real[i] = dot(exact(Double3{n[0], n[1], n[2]}), exact(x));
   }
-  const double bound = detail::kLaneError * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z));
-  return ratio(exact(computed[0] - computed[1]) - (real[0] - real[1]), bound);
+  const float bound = detail::kNearError * (std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]));
+  return ratio(exact(double{computed[0] - computed[1]}) - (real[0] - real[1]), double{bound});
 }
 
 double share_of_norm(const Case& c) {
