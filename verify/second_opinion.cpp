@@ -94,22 +94,21 @@ int sign_at(const Polynomial& polynomial, const Time& t) {
   }
 }
 
-/// The roots in (0,1), ascending. REQUIRES not zero.
-std::vector<Time> roots_inside(const Polynomial& polynomial) {
-  // Descartes' rule for p(1 / (1 + x)) (1 + x)^d over x > 0: without a change of sign there is no root.
+/// Whether there may be a root in (0,1), by Descartes' rule for p(1 / (1 + x)) (1 + x)^d over x > 0: without a change
+/// of sign there is none.
+bool may_vanish_inside(const Polynomial& polynomial) {
   const Polynomial moved = CGAL::translate(CGAL::invert(polynomial), CGAL::Gmpz(1));
   bool has_positive = false, has_negative = false;
   for (const CGAL::Gmpz& c : moved) {
     has_positive = has_positive || c > 0;
     has_negative = has_negative || c < 0;
   }
-  std::vector<Time> roots;
-  if (!(has_positive && has_negative)) return roots;
-  const Polynomial repeated = common_divisor(polynomial, CGAL::differentiate(polynomial));
-  const Polynomial square_free = primitive(CGAL::pseudo_division_quotient(polynomial, repeated));
-  Kernel().solve_1_object()(square_free, true, std::back_inserter(roots));
-  std::erase_if(roots, [](const Time& t) { return t <= Time(0) || t >= Time(1); });
-  return roots;
+  return has_positive && has_negative;
+}
+
+/// With the roots that `divisor` lacks, each once if it was. REQUIRES that neither is zero.
+Polynomial without(const Polynomial& polynomial, const Polynomial& divisor) {
+  return primitive(CGAL::pseudo_division_quotient(polynomial, common_divisor(polynomial, divisor)));
 }
 
 /// A point and a segment of possibly no length. Polynomials are computed when a sign is asked for: the first of them
@@ -141,11 +140,20 @@ class PointOnSegment {
   Vector from_x_, edge_;
 };
 
-/// 0, 1, and all roots between of the polynomials that are not zero; ascending.
+/// 0, 1, and all roots between of the polynomials that are not zero; ascending, each once.
 std::vector<Time> critical_times(const std::vector<Polynomial>& polynomials) {
   std::vector<Time> times = {Time(0), Time(1)};
+  std::vector<Polynomial> solved;
   for (const Polynomial& polynomial : polynomials) {
-    if (!CGAL::is_zero(polynomial)) std::ranges::copy(roots_inside(polynomial), std::back_inserter(times));
+    if (CGAL::is_zero(polynomial) || !may_vanish_inside(polynomial)) continue;
+    Polynomial square_free = without(polynomial, CGAL::differentiate(polynomial));
+    // Equal roots of different polynomials would cost most of all when they are sorted.
+    for (const Polynomial& other : solved) square_free = without(square_free, other);
+    if (CGAL::degree(square_free) == 0) continue;
+    std::vector<Time> roots;
+    Kernel().solve_1_object()(square_free, true, std::back_inserter(roots));
+    std::ranges::copy_if(roots, std::back_inserter(times), [](const Time& t) { return t > Time(0) && t < Time(1); });
+    solved.push_back(std::move(square_free));
   }
   std::sort(times.begin(), times.end());
   return times;
