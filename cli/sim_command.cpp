@@ -25,6 +25,7 @@ struct SimArguments {
   std::optional<std::int64_t> frames;
   std::optional<std::size_t> threads;
   io::SequenceKind record = io::SequenceKind::kFrames;
+  sim::Quality quality = sim::Quality::kDraft;
   bool resume = false;
 };
 
@@ -129,7 +130,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
 ExitCode simulate(const SimArguments& arguments) {
   std::optional<tbb::global_control> limit;
   if (arguments.threads) limit.emplace(tbb::global_control::max_allowed_parallelism, *arguments.threads);
-  sim::Scene scene = sim::read_scene(arguments.scene);
+  sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);
   if (arguments.frames) scene.time.frame_count = *arguments.frames;
   sim::Simulation simulation(scene);
   refuse_intersecting_start(simulation);
@@ -156,6 +157,9 @@ void add_sim_command(CLI::App& program, Job& job) {
   command.add_option("--record", arguments->record, "frames, or steps: all that was certified")
       ->transform(CLI::CheckedTransformer(std::map<std::string, io::SequenceKind>{
           {"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}}));
+  command.add_option("--quality", arguments->quality, "draft or full, where the scene distinguishes")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, sim::Quality>{{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}}));
   command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");
   command.callback([arguments, &job] { job = [arguments] { return simulate(*arguments); }; });
 }

@@ -71,6 +71,7 @@ class Source {
 
 std::uint64_t scene_fingerprint(const Scene& scene, const World& world) {
   std::uint64_t hash = fnv1a(io::read_file(scene.file));
+  hash = fnv1a(scene.quality == Quality::kDraft ? "draft" : "full", hash);
   hash = fnv1a(
       {reinterpret_cast<const char*>(world.triangles.data()), world.triangles.size() * sizeof(world.triangles[0])},
       hash);

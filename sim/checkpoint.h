@@ -18,8 +18,8 @@ struct Checkpoint {
   RunTotals totals;
 };
 
-/// FNV-1a of everything that determines the run: the scene file's bytes, the faces, and the positions and velocities at
-/// time 0 (which cover the mesh files).
+/// FNV-1a of everything that determines the run: the scene file's bytes, the quality, the faces, and the positions and
+/// velocities at time 0 (which cover the mesh files).
 [[nodiscard]] std::uint64_t scene_fingerprint(const Scene& scene, const World& world);
 
 /// Replaces `file` atomically. Little-endian numbers with a checksum at the end.

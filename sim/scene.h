@@ -14,6 +14,9 @@
 
 namespace selvage::sim {
 
+/// Which of the two values holds where a scene file has {draft = ..., full = ...}.
+enum class Quality : std::uint8_t { kDraft, kFull };
+
 struct SheetSpec {
   std::int32_t nx = 0, ny = 0;  ///< vertices
   double width_m = 0, height_m = 0;
@@ -52,6 +55,7 @@ struct ClothSpec {
   double density_kg_m2 = 0;
   enum class Masses { kEqual, kArea } masses = Masses::kEqual;
   double stretch_n_m = 0, shear_n_m = 0, bend_n_m = 0;  ///< 0: no such springs
+  double stabilize_n_m = 0;                             ///< 0: no stabilisation springs
   double damping_ratio = 0;                             ///< of each spring's critical damping
   std::vector<PinSpec> pins;
 };
@@ -72,9 +76,10 @@ struct TimeSpec {
 
 struct Scene {
   std::filesystem::path file;
+  Quality quality = Quality::kDraft;
   TimeSpec time;
   Vec3 gravity_m_s2 = Vec3::Zero();
-  double drag_1_s = 0;
+  double drag_1_s = 0, quadratic_drag_1_m = 0;
   StrainLimits strain;
   CollisionOptions collision;
   SqueezePolicy squeeze = SqueezePolicy::kStop;

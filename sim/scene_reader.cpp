@@ -166,6 +166,7 @@ ClothSpec read_cloth(TomlTable table, std::set<std::string>& names) {
     table.fail("shear_n_m", "only sheets have shear springs; the edges of a mesh resist shear by themselves");
   }
   cloth.bend_n_m = table.number("bend_n_m", kNotNegative, 0);
+  cloth.stabilize_n_m = table.number("stabilize_n_m", kNotNegative, 0);
   cloth.damping_ratio = table.number("damping_ratio", {0, 10}, 0);
   std::set<VertexId> pinned;
   for (TomlTable& pin_table : table.tables("pin")) {
@@ -244,6 +245,7 @@ Scene read_root(TomlTable root) {
   scene.time = read_time(std::move(*time));
   scene.gravity_m_s2 = root.vector("gravity_m_s2", {-1e6, 1e6}, Vec3::Zero());
   scene.drag_1_s = root.number("drag_1_s", {0, 1e6}, 0);
+  scene.quadratic_drag_1_m = root.number("quadratic_drag_1_m", {0, 1e6}, 0);
   scene.strain.strain = root.number("strain_limit", {0, 0.9}, scene.strain.strain);
   scene.strain.strain_rate = root.number("strain_rate_limit", {0, 0.9}, scene.strain.strain_rate);
   scene.squeeze = root.choice("squeeze", {"stop", "yield"}) == 0 ? SqueezePolicy::kStop : SqueezePolicy::kYield;
@@ -267,11 +269,13 @@ Scene read_root(TomlTable root) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name) {
+Scene parse_scene(std::string_view text, const std::string& name, Quality quality) {
   try {
     const toml::table table = toml::parse(text);
-    Scene scene = read_root(TomlTable(table, "scene", name));
+    const TomlSource source{name, quality};
+    Scene scene = read_root(TomlTable(table, "scene", source));
     scene.file = name;
+    scene.quality = quality;
     return scene;
   } catch (const toml::parse_error& error) {
     throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}; correct the TOML syntax", name,
@@ -279,8 +283,8 @@ Scene parse_scene(std::string_view text, const std::string& name) {
   }
 }
 
-Scene read_scene(const std::filesystem::path& file) {
-  return parse_scene(io::read_file(file, kSceneByteLimit), file.string());
+Scene read_scene(const std::filesystem::path& file, Quality quality) {
+  return parse_scene(io::read_file(file, kSceneByteLimit), file.string(), quality);
 }
 
 }  // namespace selvage::sim

@@ -31,7 +31,7 @@ std::optional<double> as_number(const toml::node& node) {
 }  // namespace
 
 void TomlTable::fail_at(const toml::node& node, const std::string& message) const {
-  throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}", file_, node.source().begin.line, message));
+  throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}", source_.file, node.source().begin.line, message));
 }
 
 void TomlTable::fail(std::string_view key, const std::string& message) const {
@@ -41,11 +41,21 @@ void TomlTable::fail(std::string_view key, const std::string& message) const {
 
 void TomlTable::fail(const std::string& message) const { fail_at(table_, fmt::format("{}: {}", name_, message)); }
 
+// A value, or one of the two of {draft = ..., full = ...}.
+const toml::node& TomlTable::for_quality(const toml::node& node) const {
+  const toml::table* table = node.as_table();
+  if (table == nullptr || table->size() != 2) return node;
+  const toml::node* draft = table->get("draft");
+  const toml::node* full = table->get("full");
+  if (draft == nullptr || full == nullptr) return node;
+  return source_.quality == Quality::kDraft ? *draft : *full;
+}
+
 const toml::node* TomlTable::find(std::string_view key, bool required, std::string_view what) {
   asked_.emplace_back(key);
   const toml::node* node = table_.get(key);
   if (node == nullptr && required) fail(fmt::format("{} is missing; add {} = {}", key, key, what));
-  return node;
+  return node == nullptr ? nullptr : &for_quality(*node);
 }
 
 double TomlTable::number(std::string_view key, const Range& range, std::optional<double> fallback) {
@@ -124,7 +134,7 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) {
   const toml::node* node = find(key, false, "");
   if (node == nullptr) return std::nullopt;
   if (!node->is_table()) fail(key, fmt::format("{} must be a table", key));
-  return TomlTable(*node->as_table(), std::string(key), file_);
+  return TomlTable(*node->as_table(), std::string(key), source_);
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
@@ -135,7 +145,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   if (array == nullptr) fail(key, fmt::format("{} must be a list of tables: [[{}]]", key, key));
   for (const toml::node& item : *array) {
     if (!item.is_table()) fail_at(item, fmt::format("{}: {} must hold tables only", name_, key));
-    found.emplace_back(*item.as_table(), std::string(key), file_);
+    found.emplace_back(*item.as_table(), std::string(key), source_);
   }
   return found;
 }

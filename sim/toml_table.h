@@ -12,6 +12,7 @@
 
 #include "io/error.h"
 #include "kernel/types.h"
+#include "sim/scene.h"
 
 namespace selvage::sim {
 
@@ -25,11 +26,18 @@ inline constexpr Range kNotNegative{0, 1e300};
 /// Scripted and initial coordinates: beyond it 1e-6 m is below the spacing of doubles, and no tolerance means anything.
 inline constexpr Range kCoordinate{-1e9, 1e9};
 
+/// Where tables come from: the name that errors give, and which of two values holds where a file has
+/// {draft = ..., full = ...}.
+struct TomlSource {
+  std::string file;
+  Quality quality = Quality::kDraft;
+};
+
 class TomlTable {
  public:
   /// `name` is how errors call the table: "cloth 'curtain'". Both references outlive it.
-  TomlTable(const toml::table& table, std::string name, const std::string& file)
-      : table_(table), name_(std::move(name)), file_(file) {}
+  TomlTable(const toml::table& table, std::string name, const TomlSource& source)
+      : table_(table), name_(std::move(name)), source_(source) {}
 
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
   /// The functions below throw io::Error(kBadInput) if the key is absent, of another type, or outside its range; with
@@ -56,11 +64,12 @@ class TomlTable {
 
  private:
   const toml::node* find(std::string_view key, bool required, std::string_view what);
+  [[nodiscard]] const toml::node& for_quality(const toml::node& node) const;
   [[noreturn]] void fail_at(const toml::node& node, const std::string& message) const;
 
   const toml::table& table_;
   std::string name_;
-  const std::string& file_;
+  const TomlSource& source_;
   std::vector<std::string> asked_;
 };
 

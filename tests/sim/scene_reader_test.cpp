@@ -66,6 +66,8 @@ const BadScene kBadScenes[] = {
      "starts where"},
     {"a shortest step above the longest", "[time]\nframes = 1\nmax_step_s = 1e-3\nmin_step_s = 2e-3\n", 4,
      "min_step_s"},
+    {"one quality of two", "[time]\nframes = {draft = 2}\n", 2, "an integer"},
+    {"a bad value for one quality", "[time]\nframes = {draft = 0, full = 2}\n", 2, "an integer"},
     {"shear on a mesh",
      "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 1\nstretch_n_m = 1\nmesh = {file = \"a.obj\"}\n"
      "shear_n_m = 2\n",
@@ -163,6 +165,22 @@ rotation_deg = [0, 0, 90]
   EXPECT_EQ(cloth.pins.at(1).script.interpolation, Interpolation::kSmooth);
   EXPECT_EQ(std::get<BoxSpec>(scene.bodies.at(0).surface).cells, 4);
   EXPECT_EQ(scene.bodies.at(0).script.keys.at(0).pose.rotation_deg, Vec3(0, 0, 90));
+}
+
+TEST(SceneReader, ValuesMayDependOnTheQuality) {
+  const std::string text =
+      "gravity_m_s2 = {draft = [0, 0, -1], full = [0, 0, -2]}\n[time]\nframes = {draft = 2, full = 7}\n[[cloth]]\n"
+      "sheet = {nx = {draft = 4, full = 9}, ny = 3, width_m = 1, height_m = 1}\n"
+      "density_kg_m2 = 1\nstretch_n_m = {draft = 5, full = 6.5}\n";
+  const Scene draft = parse_scene(text, "scene.toml", Quality::kDraft);
+  const Scene full = parse_scene(text, "scene.toml", Quality::kFull);
+  EXPECT_EQ(draft.time.frame_count, 2);
+  EXPECT_EQ(full.time.frame_count, 7);
+  EXPECT_EQ(std::get<SheetSpec>(draft.cloths.at(0).surface).nx, 4);
+  EXPECT_EQ(std::get<SheetSpec>(full.cloths.at(0).surface).nx, 9);
+  EXPECT_EQ(full.cloths.at(0).stretch_n_m, 6.5);
+  EXPECT_EQ(full.gravity_m_s2, Vec3(0, 0, -2));
+  EXPECT_EQ(full.quality, Quality::kFull);
 }
 
 }  // namespace selvage
