@@ -1,15 +1,16 @@
 #include "sim/central_differences.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/assert.h"
 #include "sim/parallel.h"
-#include "sim/velocity.h"
+#include "sim/velocity_march.h"
 
 namespace selvage::sim {
 
 CentralDifferences::CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options)
-    : springs_(springs), options_(options), half_step_damping_(springs.springs().size()) {
+    : springs_(springs), options_(options), along_(springs.springs().size()) {
   SELVAGE_ASSERT(options.step_s > 0);
   for (const Spring& spring : springs.springs()) damping_.push_back(spring.damping_n_s_m);
 }
@@ -17,31 +18,79 @@ CentralDifferences::CentralDifferences(const SpringSystem& springs, const Centra
 void CentralDifferences::find_forces(const Positions& x) {
   springs_.elastic_forces(x, force_);
   springs_.directions(x, direction_);
+  if (options_.stabilizers != nullptr) options_.stabilizers->add_forces(x, 1, 0, force_);
 }
 
 void CentralDifferences::explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h) {
-  springs_.apply(direction_, damping_, motion.v, damping_force_, scratch_);
+  damping_impulses({springs_, inverse_mass, 0, damping_, {}, options_.stabilizers, 0, 1}, direction_, motion.v,
+                   damping_force_, scratch_);
   parallel_each(motion.v.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
     if (w == 0) return;
-    motion.v.row(i) += h / 2 *
-                       (options_.gravity_m_s2.transpose() - options_.drag_1_s * motion.v.row(i) +
-                        w * (force_.row(i) - damping_force_.row(i)));
+    const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * motion.v.row(i).norm();
+    motion.v.row(i) +=
+        h / 2 *
+        (options_.gravity_m_s2.transpose() - drag_1_s * motion.v.row(i) + w * (force_.row(i) - damping_force_.row(i)));
   });
 }
 
 void CentralDifferences::implicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h,
                                             double stiffness_share) {
+  const double stiffness_s2 = stiffness_share * (h / 2) * (h / 2);
   for (std::size_t s = 0; s < damping_.size(); ++s) {
-    half_step_damping_[s] =
-        h / 2 * damping_[s] + stiffness_share * (h / 2) * (h / 2) * springs_.springs()[s].stiffness_n_m;
+    along_[s] = h / 2 * damping_[s] + stiffness_s2 * springs_.springs()[s].stiffness_n_m;
   }
+  across_.clear();
+  if (stiffness_share > 0) {
+    springs_.tension_shares(motion.x, across_);
+    for (std::size_t s = 0; s < across_.size(); ++s) across_[s] *= stiffness_s2 * springs_.springs()[s].stiffness_n_m;
+  }
+  const VelocitySystem system{springs_, inverse_mass,         options_.drag_1_s, along_,
+                              across_,  options_.stabilizers, stiffness_s2,      h / 2};
   Positions rhs = motion.v;
   parallel_each(rhs.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
     if (w > 0) rhs.row(i) += h / 2 * (options_.gravity_m_s2.transpose() + w * force_.row(i));
   });
-  solve_velocity({springs_, inverse_mass, options_.drag_1_s, half_step_damping_}, direction_, rhs, h / 2, motion.v);
+  if (options_.quadratic_drag_1_m > 0) {
+    motion.v = rhs;
+    march(system, inverse_mass, h / 2, motion.v);
+  } else {
+    solve_velocity(system, direction_, rhs, h / 2, motion.v);
+  }
+}
+
+// rhs holds the elastic kick, which does not depend on the velocity; the march adds what does.
+void CentralDifferences::march(const VelocitySystem& system, std::span<const double> inverse_mass, double time_s,
+                               Positions& v) {
+  double rate_1_s = 0, speed = 0;
+  for (Eigen::Index i = 0; i < v.rows(); ++i) {
+    const auto vertex = static_cast<std::size_t>(i);
+    if (inverse_mass[vertex] == 0) continue;
+    double row = 0;  // Gershgorin: twice the diagonal of the springs' part
+    springs_.for_each_at(static_cast<VertexId>(i),
+                         [&](std::uint32_t s, double) { row += 2 * (along_[s] + (across_.empty() ? 0 : across_[s])); });
+    if (system.stabilizers != nullptr) {
+      row += system.stabilizers->row_sum(static_cast<VertexId>(i), system.stabilizer_stiffness_share,
+                                         system.stabilizer_damping_share);
+    }
+    rate_1_s = std::max(rate_1_s, inverse_mass[vertex] * row / time_s);
+    speed = std::max(speed, v.row(i).norm());
+  }
+  rate_1_s += options_.drag_1_s + 2 * options_.quadratic_drag_1_m * speed;
+  const auto acceleration = [&](const Positions& u, Positions& a) {
+    damping_impulses(system, direction_, u, a, scratch_);
+    parallel_each(a.rows(), [&](Eigen::Index i) {
+      const double w = inverse_mass[static_cast<std::size_t>(i)];
+      if (w > 0) {
+        const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * u.row(i).norm();
+        a.row(i) = -(w / time_s) * a.row(i) - drag_1_s * u.row(i);
+      } else {
+        a.row(i).setZero();
+      }
+    });
+  };
+  march_velocity(acceleration, rate_1_s, time_s, 1, v);
 }
 
 void CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_t1,

@@ -5,7 +5,9 @@
 
 #include "sim/dynamics.h"
 #include "sim/spring.h"
+#include "sim/stabilizer.h"
 #include "sim/strain.h"
+#include "sim/velocity.h"
 
 namespace selvage::sim {
 
@@ -13,7 +15,11 @@ struct CentralDifferencesOptions {
   Vec3 gravity_m_s2 = Vec3::Zero();
   double drag_1_s = 0;  ///< acceleration -drag v: still air, proportional to mass
   StrainLimits strain;
-  double step_s = 0;  ///< longest internal step; REQUIRES > 0 and below stable_step_s()
+  double step_s = 0;                              ///< longest internal step; REQUIRES > 0 and below stable_step_s()
+  const StabilizerSystem* stabilizers = nullptr;  ///< none, or outlives the dynamics
+  /// Air drag that grows with the square of the speed: acceleration -quadratic_drag_1_m |v| v. Damping is not linear
+  /// then, and the velocity marches (velocity_march.h) instead of being solved for.
+  double quadratic_drag_1_m = 0;
 };
 
 /// Explicit in the elastic forces, implicit in damping in the second half step (paper, sections 5 and 7.6):
@@ -28,22 +34,24 @@ class CentralDifferences : public Dynamics {
                double dt_s) override;
 
   /// v(n+1) of the line above with h = dt_s. A collision step is longer than what is stable for explicit springs, so
-  /// here they act where the velocity carries the ends in half a step: (dt/2)^2 k n n^T is added to the matrix. For
-  /// dt_s within the stable step this is a correction of second order; for longer ones it is what keeps it bounded.
+  /// here they act where the velocity carries the ends in half a step: (dt/2)^2 times their stiffness, along and (in
+  /// tension) across, is added to the matrix. For dt_s within the stable step this is a correction of second order; for
+  /// longer ones it is what keeps it bounded: without the part across, springs at twice their length exploded.
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
   void find_forces(const Positions& x);
   void explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h);
   void implicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h, double stiffness_share);
+  void march(const VelocitySystem& system, std::span<const double> inverse_mass, double time_s, Positions& v);
 
   const SpringSystem& springs_;
   CentralDifferencesOptions options_;
-  std::vector<double> damping_;            ///< per spring, N s / m
-  std::vector<double> half_step_damping_;  ///< per spring: impulse per rate of elongation over half a step
-  Positions force_, direction_;            ///< at the positions last given to find_forces
-  Positions damping_force_;
-  std::vector<double> scratch_;
+  std::vector<double> damping_;         ///< per spring, N s / m
+  std::vector<double> along_, across_;  ///< per spring: impulse per rate of elongation, and across, over half a step
+  Positions force_, direction_;         ///< at the positions last given to find_forces
+  std::vector<double> tension_;         ///< per spring, as force_: tension_shares()
+  Positions damping_force_, scratch_;
 };
 
 }  // namespace selvage::sim

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -61,20 +62,56 @@ void add_sheet_springs(const SheetSpec& sheet, SpringBuilder& builder) {
   }
 }
 
-void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
-  std::map<std::array<VertexId, 2>, std::vector<VertexId>> opposite_of;  // edge to the third vertices of its faces
+/// Every edge with the third vertices of its faces.
+std::map<std::array<VertexId, 2>, std::vector<VertexId>> edges_of(const io::Triangles& triangles) {
+  std::map<std::array<VertexId, 2>, std::vector<VertexId>> opposite_of;
   for (const auto& t : triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId a = t[(k + 1) % 3], b = t[(k + 2) % 3];
       opposite_of[{std::min(a, b), std::max(a, b)}].push_back(t[k]);
     }
   }
-  for (const auto& [edge, opposite] : opposite_of) {
+  return opposite_of;
+}
+bool is_hinge(const std::vector<VertexId>& opposite) { return opposite.size() == 2 && opposite[0] != opposite[1]; }
+
+void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
+  for (const auto& [edge, opposite] : edges_of(triangles)) {
     builder.add(SpringKind::kStructural, edge[0], edge[1]);
-    if (opposite.size() == 2 && opposite[0] != opposite[1]) {
-      builder.add(SpringKind::kBending, opposite[0], opposite[1]);
+    if (is_hinge(opposite)) builder.add(SpringKind::kBending, opposite[0], opposite[1]);
+  }
+}
+
+// With the two faces unfolded into one plane, the line between c and d crosses the line of a and b: the two material
+// points are where it does. Nothing for faces without area.
+std::optional<Stabilizer> hinge_stabilizer(const Positions& x, const std::array<VertexId, 2>& edge,
+                                           const std::vector<VertexId>& opposite) {
+  const Vec3 a = x.row(edge[0]), ab = Vec3(x.row(edge[1])) - a;
+  const double length = ab.norm();
+  if (!(length > 0)) return std::nullopt;
+  std::array<double, 2> along{}, height{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec3 p = Vec3(x.row(opposite[k])) - a;
+    along[k] = p.dot(ab) / length;
+    height[k] = p.cross(ab).norm() / length;
+  }
+  if (!(height[0] > 0) || !(height[1] > 0)) return std::nullopt;
+  const double t = height[0] / (height[0] + height[1]);
+  const double s = (along[0] + t * (along[1] - along[0])) / length;
+  return Stabilizer{{edge[0], edge[1], opposite[0], opposite[1]}, {1 - s, s, t - 1, -t}, 0, 0};
+}
+
+std::vector<Stabilizer> sheet_stabilizers(const SheetSpec& sheet) {
+  std::vector<Stabilizer> made;
+  const std::int32_t nx = sheet.nx, ny = sheet.ny;
+  for (std::int32_t j = 0; j < ny; ++j) {
+    for (std::int32_t i = 0; i < nx; ++i) {
+      const VertexId a = j * nx + i;
+      if (i > 0 && i + 1 < nx) made.push_back({{a, a - 1, a + 1, 0}, {1, -0.5, -0.5, 0}, 0, 0});
+      if (j > 0 && j + 1 < ny) made.push_back({{a, a - nx, a + nx, 0}, {1, -0.5, -0.5, 0}, 0, 0});
     }
   }
+  return made;
 }
 
 double area_m2(const Positions& x, const std::array<VertexId, 3>& t) {
@@ -92,6 +129,28 @@ std::vector<Spring> make_springs(const ClothSpec& spec, const Shape& rest, const
     add_mesh_springs(rest.triangles, builder);
   }
   return builder.take();
+}
+
+std::vector<Stabilizer> make_stabilizers(const ClothSpec& spec, const Shape& rest, const std::vector<double>& mass_kg) {
+  std::vector<Stabilizer> made;
+  if (spec.stabilize_n_m == 0) return made;
+  if (const auto* sheet = std::get_if<SheetSpec>(&spec.surface)) {
+    made = sheet_stabilizers(*sheet);
+  } else {
+    for (const auto& [edge, opposite] : edges_of(rest.triangles)) {
+      if (!is_hinge(opposite)) continue;
+      if (const auto hinge = hinge_stabilizer(rest.x, edge, opposite)) made.push_back(*hinge);
+    }
+  }
+  for (Stabilizer& s : made) {
+    double inverse_mass = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      inverse_mass += s.weights[i] * s.weights[i] / mass_kg[static_cast<std::size_t>(s.vertices[i])];
+    }
+    s.stiffness_n_m = spec.stabilize_n_m;
+    s.damping_n_s_m = spec.damping_ratio * 2 * std::sqrt(spec.stabilize_n_m / inverse_mass);
+  }
+  return made;
 }
 
 std::vector<double> cloth_masses(const ClothSpec& spec, const Shape& rest) {

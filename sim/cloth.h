@@ -6,6 +6,7 @@
 #include "sim/scene.h"
 #include "sim/shapes.h"
 #include "sim/spring.h"
+#include "sim/stabilizer.h"
 
 namespace selvage::sim {
 
@@ -16,6 +17,11 @@ namespace selvage::sim {
 /// `mass_kg` is that of cloth_masses.
 [[nodiscard]] std::vector<Spring> make_springs(const ClothSpec& spec, const Shape& rest,
                                                const std::vector<double>& mass_kg);
+
+/// A stabiliser for every middle node of a sheet's bending springs, or for every inner edge of a mesh, at rest where
+/// the cloth is flat. None for stiffness zero. Damping as above, with the reduced mass 1 / sum of w^2 / m.
+[[nodiscard]] std::vector<Stabilizer> make_stabilizers(const ClothSpec& spec, const Shape& rest,
+                                                       const std::vector<double>& mass_kg);
 
 /// density times area in all, shared equally (section 3: "giving all particles the same mass") or by a third of the
 /// adjacent faces' areas. Vertices of no face get a mass in the first case alone.

@@ -57,29 +57,42 @@ void SpringSystem::directions(const PositionsRef& x, Positions& direction) const
   });
 }
 
-void SpringSystem::apply(const Positions& direction, std::span<const double> coefficient, const Positions& v,
-                         Positions& result, std::vector<double>& scratch) const {
-  scratch.resize(springs_.size());
+void SpringSystem::tension_shares(const PositionsRef& x, std::vector<double>& share) const {
+  share.resize(springs_.size());
+  parallel_each(static_cast<Eigen::Index>(springs_.size()), [&](Eigen::Index s) {
+    const Spring& spring = springs_[static_cast<std::size_t>(s)];
+    const double length = (x.row(spring.b) - x.row(spring.a)).norm();
+    share[static_cast<std::size_t>(s)] = length > spring.rest_length_m ? 1 - spring.rest_length_m / length : 0;
+  });
+}
+
+void SpringSystem::apply(const Positions& direction, std::span<const double> coefficient,
+                         std::span<const double> across, const Positions& v, Positions& result,
+                         Positions& scratch) const {
+  scratch.resize(direction.rows(), 3);
   parallel_each(direction.rows(), [&](Eigen::Index s) {
     const Spring& spring = springs_[static_cast<std::size_t>(s)];
     const auto slot = static_cast<std::size_t>(s);
-    scratch[slot] = coefficient[slot] * direction.row(s).dot(v.row(spring.a) - v.row(spring.b));
+    const double side = across.empty() ? 0 : across[slot];
+    const Eigen::RowVector3d d = v.row(spring.a) - v.row(spring.b);
+    scratch.row(s) = ((coefficient[slot] - side) * direction.row(s).dot(d)) * direction.row(s) + side * d;
   });
   result.resize(vertex_count(), 3);
   parallel_each(result.rows(), [&](Eigen::Index i) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for_each_at(static_cast<VertexId>(i),
-                [&](std::uint32_t s, double sign) { sum += (sign * scratch[s]) * direction.row(s); });
+    for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double sign) { sum += sign * scratch.row(s); });
     result.row(i) = sum;
   });
 }
 
-double stable_step_s(const SpringSystem& springs, std::span<const double> inverse_mass) {
+double stable_step_s(const SpringSystem& springs, std::span<const double> inverse_mass,
+                     const StabilizerSystem& stabilizers) {
   double omega_squared_upper = 0;
   for (VertexId i = 0; i < springs.vertex_count(); ++i) {
     double stiffness = 0;
     springs.for_each_at(i, [&](std::uint32_t s, double) { stiffness += springs.springs()[s].stiffness_n_m; });
-    omega_squared_upper = std::max(omega_squared_upper, 2 * inverse_mass[static_cast<std::size_t>(i)] * stiffness);
+    omega_squared_upper = std::max(omega_squared_upper, inverse_mass[static_cast<std::size_t>(i)] *
+                                                            (2 * stiffness + stabilizers.row_sum(i, 1, 0)));
   }
   return omega_squared_upper > 0 ? 2 / std::sqrt(omega_squared_upper) : std::numeric_limits<double>::infinity();
 }

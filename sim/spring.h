@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/types.h"
+#include "sim/stabilizer.h"
 
 namespace selvage::sim {
 
@@ -40,11 +41,15 @@ class SpringSystem {
   /// Unit vectors from a to b of every spring at x; zero for a spring of length 0.
   void directions(const PositionsRef& x, Positions& direction) const;
 
-  /// Row i of `result` becomes sum over the springs s at i of coefficient[s] n_s n_s^T (v_i - v_other): the product
-  /// with a symmetric positive semidefinite matrix whose rows sum to zero. With the damping coefficients it is minus
-  /// the damping force. `scratch` holds one number per spring.
-  void apply(const Positions& direction, std::span<const double> coefficient, const Positions& v, Positions& result,
-             std::vector<double>& scratch) const;
+  /// Per spring: 1 - rest length / length where it is stretched, else 0. Across its direction a spring in tension
+  /// resists with this share of its stiffness.
+  void tension_shares(const PositionsRef& x, std::vector<double>& share) const;
+
+  /// Row i of `result` becomes sum over the springs s at i of (coefficient[s] n_s n_s^T + across[s] (I - n_s n_s^T))
+  /// (v_i - v_other): the product with a symmetric positive semidefinite matrix whose rows sum to zero. With the
+  /// damping coefficients it is minus the damping force. `across` may be empty: zero. `scratch` is room to work in.
+  void apply(const Positions& direction, std::span<const double> coefficient, std::span<const double> across,
+             const Positions& v, Positions& result, Positions& scratch) const;
 
   /// Calls visit(spring index, other end, sign) for the springs at vertex i in a fixed order; sign is +1 where i is a.
   template <class Visit>
@@ -65,8 +70,10 @@ class SpringSystem {
 };
 
 /// The largest step for which central differencing of these springs is stable: 2 / omega, where the squared frequency
-/// omega^2 = lambda_max(M^-1 K) is at most 2 max_i w_i sum_{s at i} k_s (Gershgorin's rows of the stretched springs'
-/// matrix; Hughes 1987 for the limit 2 / omega, which damping does not lower in this scheme). Infinite without springs.
-[[nodiscard]] double stable_step_s(const SpringSystem& springs, std::span<const double> inverse_mass);
+/// omega^2 = lambda_max(M^-1 K) is at most max_i w_i (2 sum_{s at i} k_s + the stabilisers' row sum) (Gershgorin's rows
+/// of the stretched springs' matrix; Hughes 1987 for the limit 2 / omega, which damping does not lower in this scheme).
+/// Infinite without springs.
+[[nodiscard]] double stable_step_s(const SpringSystem& springs, std::span<const double> inverse_mass,
+                                   const StabilizerSystem& stabilizers = {});
 
 }  // namespace selvage::sim

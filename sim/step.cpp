@@ -27,7 +27,9 @@ std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world) 
   CentralDifferencesOptions options;
   options.gravity_m_s2 = scene.gravity_m_s2;
   options.drag_1_s = scene.drag_1_s;
+  options.quadratic_drag_1_m = scene.quadratic_drag_1_m;
   options.strain = scene.strain;
+  if (!world.stabilizers.empty()) options.stabilizers = &world.stabilizers;
   options.step_s = dynamics_step_s(scene, world);
   return std::make_unique<CentralDifferences>(world.springs, options);
 }

@@ -24,7 +24,7 @@ class ConjugateGradients {
 
   // result = (1 + dt drag) m v + B v on free rows, 0 on the others.
   void apply(const Positions& v, Positions& result) {
-    system_.springs.apply(direction_, system_.spring_coefficient, v, result, scratch_);
+    damping_impulses(system_, direction_, v, result, scratch_);
     parallel_each(result.rows(), [&](Eigen::Index i) {
       const double w = inverse_mass(i);
       if (w > 0) {
@@ -64,6 +64,11 @@ class ConjugateGradients {
       energy = next;
       ++iteration;
     }
+    damping_impulses(system_, direction_, v, product, scratch_);
+    for (Eigen::Index i = 0; i < v.rows(); ++i) {
+      const double w = inverse_mass(i);
+      if (w > 0) v.row(i) = (rhs.row(i) - w * product.row(i)) / (1 + dt_s_ * system_.drag_1_s);
+    }
     return iteration;
   }
 
@@ -75,8 +80,14 @@ class ConjugateGradients {
       const double w = inverse_mass(i);
       Eigen::RowVector3d sum = Eigen::RowVector3d::Constant(w > 0 ? (1 + dt_s_ * system_.drag_1_s) / w : 1);
       system_.springs.for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double) {
-        sum += system_.spring_coefficient[s] * direction_.row(s).cwiseAbs2();
+        const double side = system_.across_coefficient.empty() ? 0 : system_.across_coefficient[s];
+        sum += (system_.spring_coefficient[s] - side) * direction_.row(s).cwiseAbs2();
+        sum.array() += side;
       });
+      if (system_.stabilizers != nullptr) {
+        sum.array() += system_.stabilizers->diagonal(static_cast<VertexId>(i), system_.stabilizer_stiffness_share,
+                                                     system_.stabilizer_damping_share);
+      }
       diagonal.row(i) = sum;
     });
     return diagonal;
@@ -89,10 +100,17 @@ class ConjugateGradients {
   const Positions& direction_;
   double dt_s_;
   Positions diagonal_;
-  std::vector<double> scratch_;
+  Positions scratch_;
 };
 
 }  // namespace
+
+void damping_impulses(const VelocitySystem& system, const Positions& direction, const Positions& v, Positions& result,
+                      Positions& scratch) {
+  system.springs.apply(direction, system.spring_coefficient, system.across_coefficient, v, result, scratch);
+  if (system.stabilizers == nullptr) return;
+  system.stabilizers->add_forces(v, -system.stabilizer_stiffness_share, -system.stabilizer_damping_share, result);
+}
 
 std::int32_t solve_velocity(const VelocitySystem& system, const Positions& direction, const Positions& rhs, double dt_s,
                             Positions& v) {

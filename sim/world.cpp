@@ -51,6 +51,10 @@ class WorldBuilder {
       spring.b += begin;
       springs_.push_back(spring);
     }
+    for (Stabilizer stabilizer : make_stabilizers(spec, rest, mass_kg)) {
+      for (VertexId& vertex : stabilizer.vertices) vertex += begin;
+      stabilizers_.push_back(stabilizer);
+    }
     for (std::size_t n = 0; n < spec.pins.size(); ++n) {
       add_pin(fmt::format("{} pin {}", spec.name, n), spec.pins[n], begin, static_cast<VertexId>(rest.x.rows()));
     }
@@ -73,6 +77,7 @@ class WorldBuilder {
                 cloth_vertex_count,
                 std::move(inverse_mass_),
                 SpringSystem(std::move(springs_), cloth_vertex_count),
+                stabilizers_.empty() ? StabilizerSystem() : StabilizerSystem(stabilizers_, cloth_vertex_count),
                 std::move(bodies_),
                 0,
                 0,
@@ -87,7 +92,7 @@ class WorldBuilder {
       }
     }
     world.mesh = make_mesh(vertex_count(), faces);
-    world.stable_step_s = stable_step_s(world.springs, world.inverse_mass);
+    world.stable_step_s = stable_step_s(world.springs, world.inverse_mass, world.stabilizers);
     const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
     world.x_t0 = float32 ? Positions(x_.cast<float>().cast<double>()) : std::move(x_);
     world.v_t0 = std::move(v_);
@@ -141,6 +146,7 @@ class WorldBuilder {
   Positions x_{0, 3}, v_{0, 3};
   std::vector<double> inverse_mass_;
   std::vector<Spring> springs_;
+  std::vector<Stabilizer> stabilizers_;
   std::vector<Collider> bodies_, pins_;
 };
 
@@ -175,6 +181,7 @@ std::string describe(const Scene& scene, const World& world) {
   line("springs", fmt::format("{} structural", count(SpringKind::kStructural)));
   if (count(SpringKind::kShear) > 0) line("", fmt::format("{} shear", count(SpringKind::kShear)));
   if (count(SpringKind::kBending) > 0) line("", fmt::format("{} bending", count(SpringKind::kBending)));
+  if (!world.stabilizers.empty()) line("", fmt::format("{} stabilising", world.stabilizers.count()));
   if (scene.strain.strain > 0) line("limits", fmt::format("strain {:g}", scene.strain.strain));
   if (scene.strain.strain_rate > 0) line("limits", fmt::format("strain rate {:g} a step", scene.strain.strain_rate));
   if (scene.gravity_m_s2 != Vec3::Zero()) {
@@ -182,6 +189,7 @@ std::string describe(const Scene& scene, const World& world) {
                                 scene.gravity_m_s2.z()));
   }
   if (scene.drag_1_s > 0) line("air", fmt::format("drag {:g} 1/s", scene.drag_1_s));
+  if (scene.quadratic_drag_1_m > 0) line("air", fmt::format("drag {:g} 1/m, quadratic", scene.quadratic_drag_1_m));
   for (std::size_t n = static_cast<std::size_t>(world.body_count); n < world.colliders.size(); ++n) {
     line("pin", fmt::format("{}, {} vertices", world.colliders[n].name(), world.colliders[n].vertices().size()));
   }

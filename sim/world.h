@@ -20,6 +20,7 @@ struct World {
   std::int32_t cloth_vertex_count = 0;
   std::vector<double> inverse_mass;  ///< #V, 1/kg; pins do not show here, as they may be released; 0 for bodies
   SpringSystem springs;              ///< of the cloth vertices
+  StabilizerSystem stabilizers;      ///< of the cloth vertices
   std::vector<Collider> colliders;   ///< the bodies, then the pins; the index is the collision step's body id
   std::int32_t body_count = 0;       ///< of the colliders
   double stable_step_s = 0;          ///< of the springs

@@ -24,10 +24,11 @@ SpringSystem one_spring(double stiffness, double damping) {
 
 Positions damping_force(const testing::RandomCloth& cloth, const Positions& v) {
   Positions direction, product;
-  std::vector<double> coefficient, scratch;
+  Positions scratch;
+  std::vector<double> coefficient;
   for (const Spring& spring : cloth.springs.springs()) coefficient.push_back(spring.damping_n_s_m);
   cloth.springs.directions(cloth.x, direction);
-  cloth.springs.apply(direction, coefficient, v, product, scratch);
+  cloth.springs.apply(direction, coefficient, {}, v, product, scratch);
   return -product;
 }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "sim/central_differences.h"
+#include "sim/velocity_march.h"
 #include "tests/sim/random_cloth.h"
 
 namespace selvage {
@@ -64,6 +66,73 @@ TEST(Velocity, HeldVerticesKeepTheirVelocity) {
   solve_velocity({cloth.springs, cloth.inverse_mass, 0, coefficient}, direction, cloth.v, 0.01, v);
   EXPECT_EQ(Vec3(v.row(7)), Vec3(cloth.v.row(7)));
   EXPECT_NE(Vec3(v.row(8)), Vec3(cloth.v.row(8)));
+}
+
+TEST(Velocity, KeepsMomentaToRoundingWhateverConjugateGradientsLeave) {
+  const auto cloth = random_cloth(3, 12);
+  const std::vector<double> coefficient(cloth.springs.springs().size(), 0.5);
+  Positions direction, v = cloth.v;
+  cloth.springs.directions(cloth.x, direction);
+  solve_velocity({cloth.springs, cloth.inverse_mass, 0, coefficient}, direction, cloth.v, 0.01, v);
+  EXPECT_GT((v - cloth.v).norm(), 0.1 * cloth.v.norm());
+  EXPECT_LE((linear_momentum(cloth, v) - linear_momentum(cloth, cloth.v)).norm(), 1e-14);
+  EXPECT_LE((angular_momentum(cloth, v) - angular_momentum(cloth, cloth.v)).norm(), 1e-14);
+}
+
+TEST(Velocity, AcrossTheDirectionSpringsResistWithTheirOwnCoefficient) {
+  const SpringSystem spring({Spring{0, 1, SpringKind::kStructural, 1, 10, 0}}, 2);
+  const std::vector<double> inverse_mass = {1, 0}, along = {0.5}, across = {0.25};
+  Positions direction(1, 3), rhs(2, 3), v = Positions::Zero(2, 3);
+  direction << 1, 0, 0;
+  rhs << 1, 1, 0, 0, 0, 0;
+  solve_velocity({spring, inverse_mass, 0, along, across}, direction, rhs, 0.01, v);
+  EXPECT_NEAR(v(0, 0), 1 / 1.5, 1e-12);
+  EXPECT_NEAR(v(0, 1), 1 / 1.25, 1e-12);
+}
+
+TEST(VelocityMarch, LinearDampingDecaysExponentiallyAtFirstOrder) {
+  // a = -c v: exactly exp(-c t) v. Ten times the steps, a tenth of the error.
+  const double c = 3, time_s = 0.7;
+  double error[2];
+  int n = 0;
+  for (const std::int32_t refinement : {10, 100}) {
+    Positions v = Positions::Ones(1, 3);
+    const auto steps = march_velocity([&](const Positions& u, Positions& a) { a = -c * u; }, c, time_s, refinement, v);
+    EXPECT_EQ(steps, 5 * refinement) << "steps of at most kMarchContraction / c";
+    error[n++] = std::abs(v(0, 0) - std::exp(-c * time_s));
+  }
+  EXPECT_NEAR(error[0] / error[1], 10, 1);
+  EXPECT_LT(error[1], 1e-3);
+}
+
+TEST(VelocityMarch, QuadraticDragFollowsItsClosedForm) {
+  // a = -c |v| v: exactly v / (1 + c |v| t), which no linear solve gives.
+  const double c = 2, speed = 3, time_s = 0.5;
+  Positions v(1, 3);
+  v << speed, 0, 0;
+  march_velocity([&](const Positions& u, Positions& a) { a = (-c * u.row(0).norm()) * u; }, 2 * c * speed, time_s, 200,
+                 v);
+  EXPECT_NEAR(v(0, 0), speed / (1 + c * speed * time_s), 1e-3);
+}
+
+// Section 7.6 has two ways; they must agree where both apply, the more the shorter the step.
+TEST(VelocityMarch, AgreesWithConjugateGradientsAsTheStepShrinks) {
+  const auto cloth = random_cloth(5, 8);
+  CentralDifferencesOptions options;
+  options.strain = {.strain = 0, .strain_rate = 0};
+  options.step_s = 0.5 * stable_step_s(cloth.springs, cloth.inverse_mass);
+  CentralDifferencesOptions marching = options;
+  marching.quadratic_drag_1_m = 1e-300;  // marches, and drags nothing
+  double difference[2];
+  int n = 0;
+  for (const double dt_s : {1e-3, 1e-4}) {
+    Motion solved{cloth.x, cloth.v}, marched = solved;
+    CentralDifferences(cloth.springs, options).final_velocity(solved, cloth.inverse_mass, dt_s);
+    CentralDifferences(cloth.springs, marching).final_velocity(marched, cloth.inverse_mass, dt_s);
+    difference[n++] = (solved.v - marched.v).norm() / (solved.v - cloth.v).norm();
+  }
+  EXPECT_LT(difference[0], 0.1);
+  EXPECT_LT(difference[1], 0.2 * difference[0]);
 }
 
 }  // namespace selvage

@@ -1,0 +1,56 @@
+// Stabilisation springs: each pulls a middle node back between the ends of a bending spring (paper, section 3). A
+// bending spring has two rest states, one folded to either side; the stabiliser has one, the flat one, and no singular
+// direction.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/types.h"
+
+namespace selvage::sim {
+
+/// A spring of rest length 0 between two material points: its vector is sum_i weights[i] x_i, its energy k/2
+/// |vector|^2. On a grid the points are the middle node and the midpoint of its two neighbours, {1, -1/2, -1/2}; on a
+/// mesh they lie on an inner edge and on the line between the two vertices opposite it, where these cross when the pair
+/// is unfolded.
+struct Stabilizer {
+  std::array<VertexId, 4> vertices{};  ///< different; unused ones have weight 0
+  std::array<double, 4> weights{};     ///< sum 0
+  double stiffness_n_m = 0;            ///< force per length of the vector
+  double damping_n_s_m = 0;            ///< force per rate of the vector
+};
+
+/// The sum of all stabilisers, as constant coefficients c_ij of pairs: the force on i is sum_j c_ij (x_i - x_j) with
+/// c_ij = c_ji to the bit. Each pair's forces are opposite and along the line between its vertices, so linear and
+/// angular momentum are kept to rounding. Deterministic for any thread count.
+class StabilizerSystem {
+ public:
+  StabilizerSystem() = default;
+  /// REQUIRES vertices with weight in [0, vertex_count).
+  StabilizerSystem(std::span<const Stabilizer> stabilizers, std::int32_t vertex_count);
+
+  [[nodiscard]] bool empty() const { return neighbours_.empty(); }
+  [[nodiscard]] std::int32_t count() const { return count_; }
+
+  /// Adds minus (stiffness_share K + damping_share D) X to rows [0, vertex_count) of `result`: elastic forces at X with
+  /// shares (1, 0), damping forces at the velocities X with (0, 1).
+  void add_forces(const PositionsRef& X, double stiffness_share, double damping_share, Positions& result) const;
+  /// Element (i, i) of stiffness_share K + damping_share D, one for all three axes.
+  [[nodiscard]] double diagonal(VertexId i, double stiffness_share, double damping_share) const;
+  /// Sum of the magnitudes of row i of the same matrix: Gershgorin's bound.
+  [[nodiscard]] double row_sum(VertexId i, double stiffness_share, double damping_share) const;
+
+ private:
+  struct Neighbour {
+    VertexId vertex;
+    double stiffness, damping;  ///< c_ij
+  };
+  std::int32_t count_ = 0;
+  std::vector<std::size_t> begin_;  ///< those of vertex i are neighbours_[begin_[i] .. begin_[i + 1])
+  std::vector<Neighbour> neighbours_;
+};
+
+}  // namespace selvage::sim
