@@ -135,6 +135,12 @@ struct SequenceReport {
   std::optional<std::uint32_t> crc32_before;
   PairCounts pairs;
   ViolationCounts violations_total;
+  struct Violated {
+    std::int64_t frame = 0;  ///< as Violation::frame
+    bool motion = false;
+    ViolationCounts counts;
+  };
+  std::vector<Violated> violated;  ///< every frame and motion with a violation, in the order in which they were checked
   std::vector<Violation> violations;
   std::int64_t max_violations = 0;  ///< CheckOptions::max_violations
   SecondOpinionScope second_opinion = SecondOpinionScope::kNone;

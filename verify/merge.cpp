@@ -53,6 +53,7 @@ void add(SequenceReport& sum, const SequenceReport& part) {
   sum.frame_crc32.insert(sum.frame_crc32.end(), part.frame_crc32.begin(), part.frame_crc32.end());
   sum.pairs += part.pairs;
   sum.violations_total += part.violations_total;
+  sum.violated.insert(sum.violated.end(), part.violated.begin(), part.violated.end());
   for (const Violation& violation : part.violations) {
     if (static_cast<std::int64_t>(sum.violations.size()) < sum.max_violations) sum.violations.push_back(violation);
   }

@@ -32,6 +32,15 @@ std::string feature_names(const Violation& violation) {
   return text + ")";
 }
 
+/// Where to look: the first vertex at the first touch, rounded.
+std::string place(const Violation& violation) {
+  if (violation.at_touch.empty()) return "";
+  char buffer[96];
+  const auto& [x, y, z] = violation.at_touch.front();
+  std::snprintf(buffer, sizeof buffer, ", at (%.9g, %.9g, %.9g)", x, y, z);
+  return buffer;
+}
+
 std::string line(const Violation& violation, const ReportContext& context) {
   const auto frame_name = [&](std::int64_t frame) {
     const auto index = static_cast<std::size_t>(frame);
@@ -42,7 +51,8 @@ std::string line(const Violation& violation, const ReportContext& context) {
     text += " to " + std::to_string(violation.frame + 1) + ", t in [" + number(violation.t.lower_approx) + ", " +
             number(violation.t.upper_approx) + "]";
   }
-  text += std::string(": ") + name_of(violation.event) + " " + violation.kind + ", " + feature_names(violation);
+  text += std::string(": ") + name_of(violation.event) + " " + violation.kind + ", " + feature_names(violation) +
+          place(violation);
   text += " [" + frame_name(violation.frame) + "]\n";
   if (!violation.case_file.empty()) text += "    selvage replay " + violation.case_file + "\n";
   return text;
@@ -128,6 +138,9 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   for (const std::string& what : report.unchecked) text += "unchecked:  " + what + "\n";
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
+  if (listed > 0 && report.violations.front().case_file.empty()) {
+    text += "  --cases DIR writes each as a case, which selvage replay explains\n";
+  }
   const std::int64_t left_out = report.violations_total.total() - static_cast<std::int64_t>(listed);
   if (left_out > 0) text += "  and " + count(left_out) + " more (--max-violations lists more)\n";
   return text;

@@ -27,13 +27,15 @@ Json bits(const std::vector<Point>& points) {
   return json;
 }
 
+const char* unit_name(bool motion) { return motion ? "motion" : "frame"; }
+
 Json to_json(const Violation& violation) {
   Json vertices = Json::array();
   for (const std::int32_t v : violation.vertices) {
     if (v >= 0) vertices.push_back(v);
   }
   Json json = {{"frame", violation.frame},
-               {"unit", violation.motion ? "motion" : "frame"},
+               {"unit", unit_name(violation.motion)},
                {"event", name_of(violation.event)},
                {"kind", violation.kind},
                {"features", violation.features},
@@ -53,6 +55,19 @@ Json to_json(const Violation& violation) {
     json["replay"] = "selvage replay " + violation.case_file;
   }
   return json;
+}
+
+Json to_json(const ViolationCounts& counts) {
+  return {{"vf", counts.vf}, {"ee", counts.ee}, {"overlap", counts.overlap}, {"self", counts.self}};
+}
+
+Json violated(const SequenceReport& report) {
+  Json units = Json::array();
+  for (const auto& [frame, motion, counts] : report.violated) {
+    units.push_back({{"frame", frame}, {"unit", unit_name(motion)}});
+    units.back().update(to_json(counts));
+  }
+  return units;
 }
 
 Json allowances(const SequenceReport& report) {
@@ -119,10 +134,8 @@ std::string json_report(const SequenceReport& report, const ReportContext& conte
                    {"self", report.pairs.self},
                    {"exact", report.pairs.exact}};
   json["allowed"] = allowances(report);
-  json["violations_total"] = {{"vf", report.violations_total.vf},
-                              {"ee", report.violations_total.ee},
-                              {"overlap", report.violations_total.overlap},
-                              {"self", report.violations_total.self}};
+  json["violations_total"] = to_json(report.violations_total);
+  json["violated"] = violated(report);
   json["gap"] = gap(report);
   json["second_opinion"] = second_opinion(report);
   json["max_violations"] = report.max_violations;

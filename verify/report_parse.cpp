@@ -60,10 +60,16 @@ std::vector<Point> points(const Json& json) {
   return result;
 }
 
+bool is_motion(const Json& json) { return named<bool, 2>(json, {{{"motion", true}, {"frame", false}}}); }
+
+ViolationCounts violation_counts(const Json& json) {
+  return {json.at("vf"), json.at("ee"), json.at("overlap"), json.at("self")};
+}
+
 Violation violation(const Json& json) {
   Violation result;
   result.frame = json.at("frame");
-  result.motion = named<bool, 2>(json.at("unit"), {{{"motion", true}, {"frame", false}}});
+  result.motion = is_motion(json.at("unit"));
   result.event = named<EventKind, 4>(
       json.at("event"),
       {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}, {"overlap", EventKind::kOverlap}, {"self", EventKind::kSelf}}});
@@ -136,9 +142,12 @@ ParsedReport parse(const Json& json) {
       {{{"clean", Verdict::kClean}, {"violated", Verdict::kViolated}, {"unknown", Verdict::kUnknown}}});
   report.frames = counted(json.at("frames"), report.frames_expected);
   report.motions = counted(json.at("motions"), report.motions_expected);
-  const Json &pairs = json.at("pairs"), &total = json.at("violations_total");
+  const Json& pairs = json.at("pairs");
   report.pairs = {pairs.at("vf"), pairs.at("ee"), pairs.at("overlap"), pairs.at("self"), pairs.at("exact"), 0, 0};
-  report.violations_total = {total.at("vf"), total.at("ee"), total.at("overlap"), total.at("self")};
+  report.violations_total = violation_counts(json.at("violations_total"));
+  for (const Json& entry : json.at("violated")) {
+    report.violated.push_back({entry.at("frame"), is_motion(entry.at("unit")), violation_counts(entry)});
+  }
   const Json& gap = json.at("gap");
   report.gap_searched = !gap.is_null();
   if (report.gap_searched && !gap.at("lower").is_null()) {

@@ -141,7 +141,7 @@ class SequenceCheck {
     CheckResult result = check_frame(source_->topology(), frame.points, options_.check);
     add_collapsed(source_->collapsed_cloth(), frame, result);
     if (options_.check.check_bodies) add_collapsed(source_->collapsed_bodies(), frame, result);
-    count(std::move(result), report_.frames, i);
+    count(std::move(result), i, false);
     if (!options_.gap) return;
     std::optional<Gap> gap = smallest_gap(source_->topology(), frame.points, options_.check.check_bodies);
     if (gap) gap->frame = static_cast<std::int64_t>(i);
@@ -176,14 +176,18 @@ class SequenceCheck {
       report_.unchecked.push_back(motion + why);
       return true;
     }
-    count(check_motion(source_->topology(), previous_.points, frame.points, options_.check), report_.motions, i - 1);
+    count(check_motion(source_->topology(), previous_.points, frame.points, options_.check), i - 1, true);
     return report_progress();
   }
 
-  void count(CheckResult result, SequenceReport::Counted& counted, std::size_t frame) {
+  void count(CheckResult result, std::size_t frame, bool motion) {
+    SequenceReport::Counted& counted = motion ? report_.motions : report_.frames;
     ++counted.checked;
     ++units_done_;
-    if (result.violations_total.total() > 0) ++counted.violated;
+    if (result.violations_total.total() > 0) {
+      ++counted.violated;
+      report_.violated.push_back({static_cast<std::int64_t>(frame), motion, result.violations_total});
+    }
     report_.pairs += result.pairs;
     report_.violations_total += result.violations_total;
     for (std::size_t rule = 0; rule < result.exempted.size(); ++rule) {

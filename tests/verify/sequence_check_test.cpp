@@ -160,6 +160,15 @@ TEST(SequenceCheck, ListIsCappedOverTheWholeSequence) {
   EXPECT_EQ(report.violations.size(), 4U);
   EXPECT_GT(report.violations_total.total(), 4);
   EXPECT_EQ(report.motions.violated, 3);
+  ASSERT_EQ(report.violated.size(), 3U) << "each of them is counted, also those that the list has no place for";
+  ViolationCounts sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(report.violated[i].frame, static_cast<std::int64_t>(i));
+    EXPECT_TRUE(report.violated[i].motion);
+    sum += report.violated[i].counts;
+  }
+  EXPECT_EQ(sum.vf, report.violations_total.vf);
+  EXPECT_EQ(sum.total(), report.violations_total.total());
 }
 
 TEST(Report, TextAndJsonTellTheSame) {
