@@ -1,0 +1,2 @@
+// In place of three.js' own: nothing reflects an environment.
+export class PMREMGenerator {}
