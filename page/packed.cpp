@@ -27,10 +27,24 @@ std::string packed(std::string_view bytes) {
   uLongf size = ::compressBound(bytes.size());
   std::string stream(size, '\0');
   const int status = ::compress2(reinterpret_cast<Bytef*>(stream.data()), &size,
-                                 reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+                                 reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
   if (status != Z_OK) throw std::bad_alloc();  // the only failure when the buffer is compressBound long
   stream.resize(size);
   return base64(stream);
+}
+
+std::string packed_integers(std::span<const std::int32_t> values, std::size_t stride) {
+  const std::size_t count = values.size();
+  std::string planes(4 * count, '\0');
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto value = static_cast<std::uint32_t>(values[i]);
+    const std::uint32_t difference = i < stride ? value : value - static_cast<std::uint32_t>(values[i - stride]);
+    const std::uint32_t folded = difference << 1 ^ (difference >> 31 != 0 ? ~0u : 0u);
+    for (std::size_t plane = 0; plane < 4; ++plane) {
+      planes[plane * count + i] = static_cast<char>(folded >> (8 * plane) & 255);
+    }
+  }
+  return packed(planes);
 }
 
 }  // namespace selvage::page

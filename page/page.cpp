@@ -1,7 +1,6 @@
 #include "page/page.h"
 
 #include "page/assets.h"
-#include "page/packed.h"
 
 namespace selvage::page {
 namespace {
@@ -36,8 +35,8 @@ void Page::add_data(std::string_view id, std::string_view json) {
   data_ += element("script", {{"type", "application/json"}, {"id", id}}, content).code + "\n";
 }
 
-void Page::add_packed(std::string_view id, std::string_view bytes) {
-  data_ += element("script", {{"type", "text/plain"}, {"id", id}}, Html{packed(bytes)}).code + "\n";
+void Page::add_packed(std::string_view id, std::string_view packed) {
+  data_ += element("script", {{"type", "text/plain"}, {"id", id}}, Html{std::string(packed)}).code + "\n";
 }
 
 void Page::add_script(std::string_view code) { scripts_ += "<script>\n" + std::string(code) + "\n</script>\n"; }

@@ -26,8 +26,8 @@ class Page {
   void add_section(std::string_view heading, const Html& content, std::string_view id = {});
   /// JSON for scripts: JSON.parse(document.getElementById(id).textContent).
   void add_data(std::string_view id, std::string_view json);
-  /// Bytes for scripts, deflated and in base64: assets/unpack.js has unpack(id), which gives them back.
-  void add_packed(std::string_view id, std::string_view bytes);
+  /// What packed() or packed_integers() made: assets/unpack.js has unpack(id) and unpackIntegers(id, stride).
+  void add_packed(std::string_view id, std::string_view text);
   /// Runs when the page is loaded, after those that were added before. An asset of this project, which is trusted.
   void add_script(std::string_view code);
 
