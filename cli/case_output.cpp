@@ -12,7 +12,6 @@
 namespace selvage::cli {
 namespace {
 
-/// "motion-12-vf-3-0": unique in a report.
 std::string label(const verify::Violation& violation) {
   return fmt::format("{}-{}-{}-{}-{}", violation.motion ? "motion" : "frame", violation.frame,
                      verify::name_of(violation.event), violation.features[0], violation.features[1]);
@@ -49,6 +48,8 @@ std::string motion_text(const verify::Violation& violation, double min_distance)
 
 }  // namespace
 
+std::string case_name(const verify::Violation& violation) { return label(violation) + ".case"; }
+
 std::string case_text(const verify::Violation& violation, double min_distance) {
   return violation.event == verify::EventKind::kOverlap ? overlap_text(violation)
                                                         : motion_text(violation, min_distance);
@@ -59,7 +60,7 @@ void write_cases(const std::filesystem::path& folder, double min_distance, std::
   std::filesystem::create_directories(folder, error);
   if (error) throw io::Error(io::ErrorKind::kFile, folder.string() + ": " + error.message());
   for (verify::Violation& violation : violations) {
-    const std::filesystem::path file = folder / (label(violation) + ".case");
+    const std::filesystem::path file = folder / case_name(violation);
     io::write_atomically(file, case_text(violation, min_distance));
     violation.case_file = file.string();
   }

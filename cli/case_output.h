@@ -9,6 +9,8 @@
 
 namespace selvage::cli {
 
+/// "motion-12-vf-3-0.case": unique in a report.
+[[nodiscard]] std::string case_name(const verify::Violation& violation);
 /// The text of its case: a motion, a frame as a motion at rest, or two triangles. `min_distance` is that of the check.
 [[nodiscard]] std::string case_text(const verify::Violation& violation, double min_distance);
 /// Writes one file a violation into `folder`, which is made if it is absent, and notes its name in the violation.

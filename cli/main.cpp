@@ -17,6 +17,7 @@
 #include "cli/sim_command.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
+#include "cli/view_command.h"
 #include "kernel/fp_env.h"
 
 int main(int argc, char** argv) {
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
   add_replay_command(program, job);
   add_sim_command(program, job);
   add_verify_command(program, job);
+  add_view_command(program, job);
 
   try {
     program.parse(argc, argv);

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/exit_code.h"
+#include "cli/page/report_page.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
 #include "verify/merge.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<std::string> sources;
-  std::string output;
+  std::string output, html;
 };
 
 /// The reports of a folder: all its .json files but the output, which an earlier merge may have left there.
@@ -61,6 +62,9 @@ ExitCode run(const Arguments& arguments) {
     throw io::Error(io::ErrorKind::kBadInput, error.what());
   }
   io::write_atomically(arguments.output, verify::json_report(merged.report, merged.context));
+  if (!arguments.html.empty()) {
+    io::write_atomically(arguments.html, report_page(merged.report, merged.context, nullptr, {}));
+  }
   constexpr std::size_t kListed = 10;  // as selvage verify does on a terminal
   print_report(verify::text_report(merged.report, merged.context, kListed), merged.report.verdict);
   return merged.report.pairs.disagreed > 0 ? ExitCode::kInternal : exit_code(merged.report.verdict);
@@ -76,6 +80,10 @@ void add_merge_command(CLI::App& program, Job& job) {
   command.add_option("-o,--output", arguments->output, "The report on the whole sequence")
       ->type_name("FILE")
       ->required();
+  command
+      .add_option("--html", arguments->html,
+                  "Write it as a page too; without the meshes, for the reports do not hold them: the witnesses alone")
+      ->type_name("FILE");
   command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }
 

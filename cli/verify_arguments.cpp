@@ -96,6 +96,16 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
   add_what_may_touch(command, arguments);
   command.add_flag("--bodies", arguments.bodies, "Check bodies against each other and themselves too");
   command.add_option("--json", arguments.json, "Write the report as JSON")->type_name("FILE");
+  command
+      .add_option(
+          "--html", arguments.html,
+          "Write the report as one page that opens offline: counts, a timeline, and a 3D view of each violation")
+      ->type_name("FILE");
+  command
+      .add_option("--html-mb", arguments.html_mb,
+                  "At most this much of meshes in the page: frames with violations first, then some of the others")
+      ->check(CLI::Range(0, 2000))
+      ->capture_default_str();
   command.add_option("--cases", arguments.cases, "Write each listed violation as a case that selvage replay explains")
       ->type_name("DIR");
   command

@@ -21,7 +21,8 @@ struct VerifyArguments {
   bool second_opinion = false, second_opinion_all = false;
   std::optional<double> min_distance;
   std::vector<std::string> groups, exempt, ignore;
-  std::string json, shard;
+  std::string json, html, shard;
+  std::int64_t html_mb = 20;
   std::filesystem::path cases;
   std::optional<std::int64_t> max_violations;
   std::int64_t threads = 0;

@@ -9,6 +9,7 @@
 #include "cli/case_output.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/page/report_page.h"
 #include "cli/terminal.h"
 #include "cli/verdict.h"
 #include "cli/verify_arguments.h"
@@ -69,6 +70,11 @@ ExitCode run(const VerifyArguments& arguments) {
   if (!arguments.json.empty()) {
     io::write_atomically(arguments.json, verify::json_report(report, context));
     if (!interrupted()) VerifyProgress(arguments.json, context).remove();
+  }
+  if (!arguments.html.empty()) {
+    const ReportPageOptions page{arguments.min_distance.value_or(0),
+                                 static_cast<std::size_t>(arguments.html_mb) * 1000 * 1000};
+    io::write_atomically(arguments.html, report_page(report, context, sequence.get(), page));
   }
   const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
   print_report(verify::text_report(report, context, max_listed), report.verdict);

@@ -1,0 +1,59 @@
+#include "cli/view_command.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/page/player_page.h"
+#include "cli/sequence_argument.h"
+#include "cli/terminal.h"
+#include "io/atomic_file.h"
+
+namespace selvage::cli {
+namespace {
+
+struct ViewArguments {
+  SequenceArgument sequence;
+  std::filesystem::path page;
+  std::int64_t max_mb = 50;
+  page::UpAxis up = page::UpAxis::kZ;
+};
+
+ExitCode view_sequence(const ViewArguments& arguments) {
+  const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
+  std::string title;
+  for (const auto& source : arguments.sequence.sources) title += (title.empty() ? "" : " ") + source.string();
+  ProgressBar bar("packing");
+  const PlayerPage made =
+      player_page(title, *sequence, arguments.up, static_cast<std::size_t>(arguments.max_mb) * 1000 * 1000,
+                  [&](std::size_t done, std::size_t total) { bar.update(done, total); });
+  io::write_atomically(arguments.page, made.html);
+  fmt::print("{}\n", made.summary);
+  return ExitCode::kClean;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, Job& job) {
+  CLI::App& command =
+      add_command(program, "view",
+                  "Write a page that plays a sequence in the browser, offline; for looking at, positions are rounded",
+                  "selvage view demo/curtain -o page.html");
+  const auto arguments = std::make_shared<ViewArguments>();
+  add_sequence_argument(command, arguments->sequence);
+  command.add_option("-o,--output", arguments->page, "The HTML file")->required();
+  command
+      .add_option("--max-mb", arguments->max_mb,
+                  "At most this much of meshes: else every second, third, ... frame only")
+      ->check(CLI::Range(1, 2000))
+      ->capture_default_str();
+  command.add_option("--up", arguments->up, "The axis that points up (the page can change it)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, page::UpAxis>{{"y", page::UpAxis::kY}, {"z", page::UpAxis::kZ}}));
+  command.callback([arguments, &job] { job = [arguments] { return view_sequence(*arguments); }; });
+}
+
+}  // namespace selvage::cli

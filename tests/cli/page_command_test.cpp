@@ -1,0 +1,194 @@
+// The pages of verify, merge and view, as files; tests/cli/pages.py opens them in a browser.
+#include <bit>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.h"
+
+namespace selvage {
+namespace {
+
+using testing::run_program;
+using testing::slurp;
+using testing::spit;
+using testing::TemporaryFolder;
+
+/// A face at z = 0 and, above it by `height`, another; as OBJ.
+std::string two_faces(double height) {
+  return fmt::format("v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 {0}\nv 2 1 {0}\nv 1 2 {0}\nf 4 5 6\n", height);
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+nlohmann::json data_of(const std::string& page, const std::string& id) {
+  const std::string start = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::size_t begin = page.find(start);
+  if (begin == page.npos) return {};
+  return nlohmann::json::parse(page.substr(begin + start.size(), page.find("</script>", begin) - begin - start.size()));
+}
+
+std::string verdict_of(const std::string& page) {
+  const std::string start = "<h1 id=\"verdict\">";
+  const std::size_t begin = page.find(start) + start.size();
+  return page.substr(begin, page.find('<', begin) - begin);
+}
+
+constexpr const char* kRow = "<tr data-title=";
+constexpr const char* kBar = "data-begin=";
+
+std::vector<std::int64_t> frames_of(const std::string& page) {
+  std::vector<std::int64_t> frames;
+  const auto scene = data_of(page, "scene");
+  for (const auto& frame : scene["frames"]) frames.push_back(frame["frame"]);
+  return frames;
+}
+
+}  // namespace
+
+TEST(VerifyPage, SaysWhatTheReportSays) {
+  const TemporaryFolder folder;
+  const auto page = folder.path() / "page.html", json = folder.path() / "report.json", kept = folder.path() / "a.case";
+  std::vector<std::string> command = {"verify", "--motion", "--json", json, "--html", page};
+  for (const double height : {1.0, -3.0, -4.0}) {
+    command.push_back(folder.path() / fmt::format("{}.obj", height));
+    spit(command.back(), two_faces(height));
+  }
+  ASSERT_EQ(run_program(folder, command).exit_code, 1);
+  const std::string html = slurp(page);
+  const auto report = nlohmann::json::parse(slurp(json));
+  EXPECT_EQ(data_of(html, "report"), report);
+  EXPECT_EQ(verdict_of(html), "violated");
+  ASSERT_EQ(report["violations"].size(), 3U);
+  EXPECT_EQ(occurrences(html, kRow), 3U);
+  EXPECT_EQ(occurrences(html, kBar), 3U);
+  EXPECT_NE(html.find("Frame 0 - motion 0 to 1: 3 vertex-face"), html.npos);
+  EXPECT_EQ(frames_of(html), (std::vector<std::int64_t>{0, 1, 2})) << "those with witnesses first";
+  EXPECT_NE(html.find("The meshes of 3 of 3 frames"), html.npos);
+
+  const auto cases = data_of(html, "cases");
+  ASSERT_EQ(cases.size(), 3U);
+  EXPECT_NE(html.find("selvage replay " + cases[0]["name"].get<std::string>()), html.npos);
+  spit(kept, cases[0]["text"]);
+  const auto replayed = run_program(folder, {"replay", kept});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_NE(replayed.out.find(report["violations"][0]["t"]["lower"]), std::string::npos) << replayed.out;
+}
+
+TEST(VerifyPage, HasEveryVerdictAndItsReasons) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj", b = folder.path() / "b.obj", page = folder.path() / "page.html";
+  spit(a, two_faces(1));
+  spit(b, two_faces(2) + "f 1 4 5\n");
+  EXPECT_EQ(run_program(folder, {"verify", a, "--html", page}).exit_code, 0);
+  EXPECT_EQ(verdict_of(slurp(page)), "clean");
+  EXPECT_EQ(occurrences(slurp(page), kRow), 0U);
+  EXPECT_EQ(frames_of(slurp(page)), (std::vector<std::int64_t>{0})) << "a clean frame can be looked at";
+  EXPECT_EQ(run_program(folder, {"verify", "--motion", a, b, "--html", page}).exit_code, 5);
+  EXPECT_EQ(verdict_of(slurp(page)), "unknown");
+  EXPECT_NE(slurp(page).find("vertices cannot be paired"), std::string::npos);
+  EXPECT_EQ(data_of(slurp(page), "scene")["surfaces"].size(), 2U);
+}
+
+TEST(VerifyPage, NamesOfStrangersStayText) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "<script>alert(1)<.obj", page = folder.path() / "page.html";
+  spit(mesh, "g </script><b>&\n" + two_faces(0));
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--ignore", "</script><b>&", "--html", page}).exit_code, 5);
+  const std::string ignored = slurp(page);
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--html", page}).exit_code, 1);
+  for (const std::string& html : {ignored, slurp(page)}) {
+    EXPECT_EQ(html.find("<script>alert"), html.npos);
+    EXPECT_EQ(html.find("<b>"), html.npos);
+    EXPECT_EQ(occurrences(html, "<script"), occurrences(html, "</script>"));
+  }
+  EXPECT_NE(ignored.find("Ignored: &quot;&lt;/script&gt;&lt;b&gt;&amp;&quot;"), ignored.npos);
+}
+
+TEST(VerifyPage, MeshesThatDoNotFitAreLeftOutAndSo) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", page = folder.path() / "page.html";
+  spit(mesh, two_faces(0));
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--html", page, "--html-mb", "0"}).exit_code, 1);
+  EXPECT_TRUE(frames_of(slurp(page)).empty());
+  EXPECT_NE(slurp(page).find("1 more with witnesses or in between did not fit into --html-mb 0"), std::string::npos);
+  EXPECT_EQ(occurrences(slurp(page), kRow), 1U) << "the witness is there all the same";
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--html", folder.path() / "none/page.html"}).exit_code, 4);
+}
+
+TEST(MergePage, IsThatOfOneRunWithoutTheMeshes) {
+  const TemporaryFolder folder;
+  std::vector<std::string> sources;
+  for (int i = 0; i < 4; ++i) {
+    sources.push_back(folder.path() / fmt::format("{}.obj", i));
+    spit(sources.back(), two_faces(i == 2 ? 0 : 1));
+  }
+  std::vector<std::string> merge = {"merge", "-o", folder.path() / "all.json", "--html", folder.path() / "page.html"};
+  for (const char* shard : {"1/2", "2/2"}) {
+    std::vector<std::string> verify = {"verify", "--shard", shard, "--json",
+                                       folder.path() / (std::string{shard[0]} + ".json")};
+    merge.push_back(verify.back());
+    verify.insert(verify.end(), sources.begin(), sources.end());
+    (void)run_program(folder, verify);
+  }
+  const auto merged = run_program(folder, merge);
+  EXPECT_EQ(merged.exit_code, 1) << merged.err;
+  const std::string html = slurp(folder.path() / "page.html");
+  EXPECT_EQ(verdict_of(html), "violated");
+  EXPECT_EQ(occurrences(html, kRow), 1U);
+  EXPECT_EQ(occurrences(html, kBar), 4U);
+  EXPECT_TRUE(frames_of(html).empty());
+}
+
+TEST(ViewPage, HasAllFramesOrEveryNthThatFits) {
+  constexpr std::int32_t kVertices = 3000, kFrames = 40;
+  const TemporaryFolder folder;
+  const auto cache = folder.path() / "cloth.pc2", page = folder.path() / "page.html";
+  std::string mesh, bytes("POINTCACHE2\0\1\0\0\0", 16);
+  const auto append = [&](auto value) {
+    const auto raw = std::bit_cast<std::array<char, 4>>(value);
+    bytes.append(raw.begin(), raw.end());
+  };
+  append(kVertices);
+  append(0.0F);
+  append(1.0F);
+  append(kFrames);
+  std::mt19937 generator(1);
+  for (std::int32_t i = 0; i < 3 * kVertices * kFrames; ++i) append(static_cast<float>(generator() >> 8));
+  for (std::int32_t i = 0; i < kVertices; ++i) mesh += "v 0 0 0\n";
+  for (std::int32_t i = 0; i + 2 < kVertices; i += 3) mesh += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+  spit(folder.path() / "cloth.obj", mesh);
+  spit(cache, bytes);
+
+  const auto all = run_program(folder, {"view", cache, "-o", page});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_TRUE(all.out.starts_with("40 of 40 frames (all), rounded to multiples of ")) << all.out;
+  EXPECT_EQ(frames_of(slurp(page)).size(), 40U);
+
+  const auto some = run_program(folder, {"view", cache, "-o", page, "--max-mb", "1"});
+  EXPECT_EQ(some.exit_code, 0) << some.err;
+  const std::vector<std::int64_t> frames = frames_of(slurp(page));
+  ASSERT_GT(frames.size(), 5U) << "noise of 16 bits is 8 bytes a point in base64: about 30 frames fit";
+  ASSERT_LT(frames.size(), 40U);
+  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], frames[1] * static_cast<std::int64_t>(i));
+  EXPECT_LT(slurp(page).size(), 1'000'000U + 200'000U) << "meshes, and the page around them";
+  EXPECT_NE(some.out.find(fmt::format("{} of 40 frames (one in {})", frames.size(), frames[1])), std::string::npos)
+      << some.out;
+}
+
+TEST(ViewPage, UsageAndInputErrorsAreNamed) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh, two_faces(1));
+  EXPECT_EQ(run_program(folder, {"view", mesh}).exit_code, 2);
+  EXPECT_EQ(run_program(folder, {"view", mesh, "-o", folder.path() / "p.html", "--max-mb", "0"}).exit_code, 2);
+  EXPECT_EQ(run_program(folder, {"view", folder.path() / "none.obj", "-o", folder.path() / "p.html"}).exit_code, 4);
+}
+
+}  // namespace selvage
