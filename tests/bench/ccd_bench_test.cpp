@@ -77,8 +77,7 @@ TEST(CcdBench, TheCrumpledSheetHasContactsAndIsAlwaysTheSame) {
     EXPECT_EQ(method(report, name).false_positives_beyond_gap, 0) << name;
   }
   const std::int64_t candidates = report.vf_candidates + report.ee_candidates;
-  EXPECT_GE(method(report, "kernel").searched, method(report, "kernel").alarms);
-  EXPECT_LT(method(report, "kernel").searched, candidates / 10);
+  EXPECT_LT(method(report, "kernel").searched, candidates / 1000);
 }
 
 TEST(CcdBench, JsonCarriesItsSchema) {
