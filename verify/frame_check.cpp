@@ -3,7 +3,7 @@
 #include "verify/check.h"
 #include "verify/distance_check.h"
 #include "verify/exact_overlap.h"
-#include "verify/face_slabs.h"
+#include "verify/face_tree.h"
 #include "verify/part_trees.h"
 #include "verify/predicates.h"
 #include "verify/violation.h"
@@ -20,20 +20,10 @@ class FrameCheck {
 
   CheckResult run() {
     if (!V_.empty()) {
-      const Lattice lattice = Lattice::over(bounding_box(V_));
-      const FaceSlabs slabs(topology_.triangles, V_);
-      const PartTrees faces(topology_.faces, lattice, [&](std::int32_t f) { return bounding_box(corners(f)); });
-      faces.tally_within(options_.check_bodies, options_.max_violations, tally_,
-                         [&](std::int32_t f, std::int32_t g, Tally& tally) {
-                           const std::vector<Label>& labels = topology_.face_labels;
-                           if (tally.is_exempt(topology_, labels, f, labels, g)) return;
-                           ++tally.pairs.overlap;
-                           if (!slabs.triage_apart(f, g)) {
-                             check_pair(f, g, tally);
-                           } else if (asks_again(options_.second_opinion, true, false)) {
-                             ask_again(std::min(f, g), std::max(f, g), false, tally);
-                           }
-                         });
+      const FloatFrame frame = FloatFrame::over(bounding_box(V_));
+      const PartTrees<FaceTree> faces(topology_.faces, topology_.triangles, V_, frame);
+      const bool each = !topology_.exemptions.empty() || options_.second_opinion == SecondOpinionScope::kAll;
+      faces.tally_within(options_.check_bodies, options_.max_violations, tally_, FoundPairs{*this}, each);
     }
     check_areas(topology_.faces.cloth);
     if (options_.check_bodies) check_areas(topology_.faces.body);
@@ -46,6 +36,22 @@ class FrameCheck {
     const auto& [a, b, c] = topology_.triangles[at(face)];
     return {V_[at(a)], V_[at(b)], V_[at(c)]};
   }
+
+  /// What the trees find: pairs that are apart, by number or one by one, and pairs that nothing is known about.
+  struct FoundPairs {
+    const FrameCheck& check;
+    void operator()(Tally& tally, std::int64_t apart_count) const { tally.pairs.overlap += apart_count; }
+    void operator()(Tally& tally, std::int32_t f, std::int32_t g, bool apart) const {
+      const Topology& topology = check.topology_;
+      if (tally.is_exempt(topology, topology.face_labels, f, topology.face_labels, g)) return;
+      ++tally.pairs.overlap;
+      if (!apart) {
+        check.check_pair(f, g, tally);
+      } else if (asks_again(check.options_.second_opinion, true, false)) {
+        check.ask_again(std::min(f, g), std::max(f, g), false, tally);
+      }
+    }
+  };
 
   void check_pair(std::int32_t f, std::int32_t g, Tally& tally) const {
     if (g < f) std::swap(f, g);

@@ -98,10 +98,10 @@ class MotionCheck {
     const Box bounds_t0 = bounding_box(V_t0_), bounds_t1 = bounding_box(V_t1_);
     const Lattice lattice =
         Lattice::over(bounding_box(std::array{bounds_t0.min, bounds_t0.max, bounds_t1.min, bounds_t1.max}));
-    const PartTrees edges(topology_.edge_parts, lattice,
-                          [&](std::int32_t e) { return swept_box(topology_.edges[at(e)]); });
+    const PartTrees<ElementTree> edges(topology_.edge_parts, lattice,
+                                       [&](std::int32_t e) { return swept_box(topology_.edges[at(e)]); });
     edges.tally_within(options_.check_bodies, options_.max_violations, tally_,
-                       [&](std::int32_t e, std::int32_t f, Tally& tally) {
+                       [&](Tally& tally, std::int32_t e, std::int32_t f) {
                          if (f < e) std::swap(e, f);
                          const auto [a, b, c, d] = ee_vertices(e, f);
                          if (a == c || a == d || b == c || b == d) return;
@@ -110,11 +110,12 @@ class MotionCheck {
                          ++tally.pairs.ee;
                          decide(EventKind::kEe, e, f, tally);
                        });
-    const PartTrees vertices(topology_.vertices, lattice, [&](std::int32_t v) { return swept_box(Vertices<1>{v}); });
-    const PartTrees faces(topology_.faces, lattice,
-                          [&](std::int32_t f) { return swept_box(topology_.triangles[at(f)]); });
+    const PartTrees<ElementTree> vertices(topology_.vertices, lattice,
+                                          [&](std::int32_t v) { return swept_box(Vertices<1>{v}); });
+    const PartTrees<ElementTree> faces(topology_.faces, lattice,
+                                       [&](std::int32_t f) { return swept_box(topology_.triangles[at(f)]); });
     vertices.tally_between(faces, options_.check_bodies, options_.max_violations, tally_,
-                           [&](std::int32_t v, std::int32_t f, Tally& tally) {
+                           [&](Tally& tally, std::int32_t v, std::int32_t f) {
                              const auto& [a, b, c] = topology_.triangles[at(f)];
                              if (v == a || v == b || v == c) return;
                              if (tally.is_exempt(topology_, topology_.vertex_labels, v, topology_.face_labels, f)) {

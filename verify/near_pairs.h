@@ -19,22 +19,24 @@ void visit_near_pairs(const Topology& topology, std::span<const Point> V, double
   const auto edge = [&](std::int32_t e) { return topology.edges[static_cast<std::size_t>(e)]; };
   const Lattice lattice = Lattice::over(bounding_box(V));
   const double half = 0.5 * distance;  // each of two boxes grows by half
-  const PartTrees vertices(topology.vertices, lattice, [&](std::int32_t v) { return grown({at(v), at(v)}, half); });
-  const PartTrees faces(topology.faces, lattice, [&](std::int32_t f) {
+  const PartTrees<ElementTree> vertices(topology.vertices, lattice, [&](std::int32_t v) {
+    return grown({at(v), at(v)}, half);
+  });
+  const PartTrees<ElementTree> faces(topology.faces, lattice, [&](std::int32_t f) {
     const auto [a, b, c] = face(f);
     return grown(bounding_box(std::array{at(a), at(b), at(c)}), half);
   });
-  const PartTrees edges(topology.edge_parts, lattice, [&](std::int32_t e) {
+  const PartTrees<ElementTree> edges(topology.edge_parts, lattice, [&](std::int32_t e) {
     const auto [a, b] = edge(e);
     return grown(bounding_box(std::array{at(a), at(b)}), half);
   });
-  vertices.tally_between(faces, check_bodies, limit, tally, [&](std::int32_t v, std::int32_t f, Tally& chunk) {
+  vertices.tally_between(faces, check_bodies, limit, tally, [&](Tally& chunk, std::int32_t v, std::int32_t f) {
     const auto [a, b, c] = face(f);
     if (v == a || v == b || v == c) return;
     if (chunk.is_exempt(topology, topology.vertex_labels, v, topology.face_labels, f)) return;
     visit(EventKind::kVf, v, f, std::array<Point, 4>{at(v), at(a), at(b), at(c)}, chunk);
   });
-  edges.tally_within(check_bodies, limit, tally, [&](std::int32_t e, std::int32_t f, Tally& chunk) {
+  edges.tally_within(check_bodies, limit, tally, [&](Tally& chunk, std::int32_t e, std::int32_t f) {
     if (f < e) std::swap(e, f);
     const auto [a, b] = edge(e);
     const auto [c, d] = edge(f);

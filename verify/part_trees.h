@@ -9,21 +9,56 @@
 
 namespace selvage::verify {
 
+/// A box tree over some elements of a mesh, which are named by their own numbers.
+class ElementTree {
+ public:
+  /// box(element) for every element, all within the lattice's bounds. `elements` must outlive it.
+  template <class BoxOf>
+  ElementTree(const std::vector<std::int32_t>& elements, const Lattice& lattice, const BoxOf& box)
+      : elements_(&elements), tree_(boxes(elements, box), lattice) {}
+
+  [[nodiscard]] std::size_t block_count() const { return tree_.block_count(); }
+  template <class Visit>
+  void visit_pairs_within(std::size_t block, const Visit& visit) const {
+    tree_.visit_pairs_within(block, [&](std::int32_t i, std::int32_t j) { visit(element(i), element(j)); });
+  }
+  template <class Visit>
+  void visit_pairs_between(std::size_t block, const ElementTree& other, const Visit& visit) const {
+    tree_.visit_pairs_between(block, other.tree_,
+                              [&](std::int32_t i, std::int32_t j) { visit(element(i), other.element(j)); });
+  }
+
+ private:
+  template <class BoxOf>
+  static std::vector<Box> boxes(const std::vector<std::int32_t>& elements, const BoxOf& box) {
+    std::vector<Box> result(elements.size());
+    for (std::size_t i = 0; i < elements.size(); ++i) result[i] = box(elements[i]);
+    return result;
+  }
+  [[nodiscard]] std::int32_t element(std::int32_t i) const { return (*elements_)[static_cast<std::size_t>(i)]; }
+
+  const std::vector<std::int32_t>* elements_;
+  BoxTree tree_;
+};
+
+/// Tree: ElementTree or FaceTree, whose visits these are: work(tally, what the tree's visit gets).
+template <class Tree>
 class PartTrees {
  public:
-  /// box(element) for every element of both parts; all within the lattice's bounds.
-  template <class BoxOf>
-  PartTrees(const Parts& parts, const Lattice& lattice, const BoxOf& box)
-      : cloth_(tree(parts.cloth, lattice, box)), body_(tree(parts.body, lattice, box)) {}
+  /// Trees made of (elements of the part, arguments...).
+  template <class... Arguments>
+  explicit PartTrees(const Parts& parts, const Arguments&... arguments)
+      : cloth_(parts.cloth, arguments...), body_(parts.body, arguments...) {}
 
-  /// work(i, j, tally) for all overlapping pairs of different elements; those of two body elements only if asked.
-  template <class Work>
-  void tally_within(bool bodies, std::size_t limit, Tally& tally, const Work& work) const {
-    within(cloth_, limit, tally, work);
-    between(cloth_, body_, limit, tally, work);
-    if (bodies) within(body_, limit, tally, work);
+  /// All overlapping pairs of different elements; those of two body elements only if asked. `options`: those of the
+  /// tree's visits.
+  template <class Work, class... Options>
+  void tally_within(bool bodies, std::size_t limit, Tally& tally, const Work& work, Options... options) const {
+    within(cloth_, limit, tally, work, options...);
+    between(cloth_, body_, limit, tally, work, options...);
+    if (bodies) within(body_, limit, tally, work, options...);
   }
-  /// work(i, j, tally) for all overlapping pairs of an element here and one of `other`.
+  /// All overlapping pairs of an element here and one of `other`.
   template <class Work>
   void tally_between(const PartTrees& other, bool bodies, std::size_t limit, Tally& tally, const Work& work) const {
     between(cloth_, other.cloth_, limit, tally, work);
@@ -33,37 +68,21 @@ class PartTrees {
   }
 
  private:
-  struct Part {
-    const std::vector<std::int32_t>* elements;
-    BoxTree tree;
-  };
-
-  template <class BoxOf>
-  static Part tree(const std::vector<std::int32_t>& elements, const Lattice& lattice, const BoxOf& box) {
-    std::vector<Box> boxes(elements.size());
-    for (std::size_t i = 0; i < elements.size(); ++i) boxes[i] = box(elements[i]);
-    return {&elements, BoxTree(boxes, lattice)};
-  }
-
-  template <class Work>
-  static void within(const Part& part, std::size_t limit, Tally& tally, const Work& work) {
-    tally_in_parallel(part.tree.block_count(), limit, tally, [&](std::size_t block, Tally& chunk) {
-      part.tree.visit_pairs_within(
-          block, [&](std::int32_t i, std::int32_t j) { work(element(part, i), element(part, j), chunk); });
+  template <class Work, class... Options>
+  static void within(const Tree& tree, std::size_t limit, Tally& tally, const Work& work, Options... options) {
+    tally_in_parallel(tree.block_count(), limit, tally, [&](std::size_t block, Tally& chunk) {
+      tree.visit_pairs_within(block, options..., [&](auto... found) { work(chunk, found...); });
     });
   }
-  template <class Work>
-  static void between(const Part& a, const Part& b, std::size_t limit, Tally& tally, const Work& work) {
-    tally_in_parallel(a.tree.block_count(), limit, tally, [&](std::size_t block, Tally& chunk) {
-      a.tree.visit_pairs_between(block, b.tree,
-                                 [&](std::int32_t i, std::int32_t j) { work(element(a, i), element(b, j), chunk); });
+  template <class Work, class... Options>
+  static void between(const Tree& a, const Tree& b, std::size_t limit, Tally& tally, const Work& work,
+                      Options... options) {
+    tally_in_parallel(a.block_count(), limit, tally, [&](std::size_t block, Tally& chunk) {
+      a.visit_pairs_between(block, b, options..., [&](auto... found) { work(chunk, found...); });
     });
   }
-  static std::int32_t element(const Part& part, std::int32_t i) {
-    return (*part.elements)[static_cast<std::size_t>(i)];
-  }
 
-  Part cloth_, body_;
+  Tree cloth_, body_;
 };
 
 }  // namespace selvage::verify

@@ -79,12 +79,14 @@ class Tally {
 /// Adds to `tally` what work(i, its own tally) counts for all i < count.
 template <class Work>
 void tally_in_parallel(std::size_t count, std::size_t limit, Tally& tally, const Work& work) {
-  // Fixed chunks, so that what a chunk counts does not depend on the scheduler.
-  constexpr std::size_t kChunk = 16;
-  std::vector<Tally> chunks((count + kChunk - 1) / kChunk, Tally(limit));
+  // Chunks are fixed by the count, so that what a chunk counts does not depend on the scheduler; and so many at most
+  // that their memory is no matter.
+  constexpr std::size_t kLeast = 16, kMostChunks = 4096;
+  const std::size_t size = std::max(kLeast, (count + kMostChunks - 1) / kMostChunks);
+  std::vector<Tally> chunks((count + size - 1) / size, Tally(limit));
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     const FpGuard guard;
-    for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, count); ++i) work(i, chunks[c]);
+    for (std::size_t i = c * size; i < std::min((c + 1) * size, count); ++i) work(i, chunks[c]);
   });
   for (const Tally& chunk : chunks) tally.add(chunk);
 }

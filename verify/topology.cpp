@@ -12,6 +12,8 @@ enum class Owner : std::uint8_t { kNone, kBody, kCloth };
 
 Parts parts(const std::vector<Owner>& owners) {
   Parts result;
+  result.cloth.reserve(static_cast<std::size_t>(std::count(owners.begin(), owners.end(), Owner::kCloth)));
+  result.body.reserve(static_cast<std::size_t>(std::count(owners.begin(), owners.end(), Owner::kBody)));
   for (std::size_t i = 0; i < owners.size(); ++i) {
     if (owners[i] == Owner::kCloth) result.cloth.push_back(static_cast<std::int32_t>(i));
     if (owners[i] == Owner::kBody) result.body.push_back(static_cast<std::int32_t>(i));
@@ -105,6 +107,7 @@ Topology make_topology(const Surface& surface, std::size_t vertex_count) {
     }
     edge_owners.back() = std::max(edge_owners.back(), side.owner);
   }
+  topology.edges.shrink_to_fit();
   topology.faces = parts(face_owners);
   topology.edge_parts = parts(edge_owners);
   topology.vertices = parts(vertex_owners);
