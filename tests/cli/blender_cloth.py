@@ -1,8 +1,8 @@
 """Inside Blender: a curtain, self-collision on, and a ball that is pushed through it; written as Blender computes it.
 
 usage: blender -b --factory-startup -noaudio -P blender_cloth.py -- OUT SIDE FRAMES
-Settings of the cloth are Blender's own. Writes OUT.obj, the mesh at the start with a group for each thing, and OUT.pc2, the vertices of frames 1 to FRAMES:
-Blender's own float32 numbers.
+Settings of the cloth are Blender's defaults, but for self-collision. Writes OUT.obj, the mesh at the start with a group
+for each thing, and OUT.pc2, the vertices of frames 1 to FRAMES: Blender's own float32 numbers.
 """
 import math
 import struct

@@ -3,6 +3,7 @@
 usage: foreign_readers.py numpy|vtk|blender PROGRAM
 Exit code 77 (skipped) where the reader is not installed.
 """
+import collections
 import importlib.util
 import json
 import os
@@ -13,6 +14,7 @@ import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
+from fractions import Fraction
 
 reader, program = sys.argv[1:3]
 if reader == "blender" and shutil.which("blender") is None:
@@ -49,6 +51,25 @@ def hard_floats(shape):
     values[~np.isfinite(values)] = -0.0
     values.flat[:2] = [1e-45, 3.4028235e38]
     return values
+
+
+def side(p, triangle):
+    """Six times the volume of p and the triangle."""
+    a, b, c = ([x - y for x, y in zip(corner, p)] for corner in triangle)
+    return sum(a[i] * (b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3]) for i in range(3))
+
+
+def pierce(first, second):
+    """Whether an edge of one triangle passes through the other, its boundary included, out of its plane."""
+    for a, b in ((first, second), (second, first)):
+        for i in range(3):
+            p, q = a[i], a[(i + 1) % 3]
+            if side(p, b) * side(q, b) >= 0:
+                continue
+            turns = [side(p, (q, b[k], b[(k + 1) % 3])) for k in range(3)]
+            if min(turns) >= 0 or max(turns) <= 0:
+                return True
+    return False
 
 
 class Case(unittest.TestCase):
@@ -184,6 +205,31 @@ class Blender(Case):
             convert(self.path(name), "--base", self.path("cloth.obj"), "-o", self.path(name + ".npz"))
             with np.load(self.path(name + ".npz")) as played:
                 self.assertTrue(same_bits(played["V"], rounded), name)
+
+
+    def test_cloth_that_blender_simulates_is_checked(self):
+        """A fast ball goes through Blender's curtain: whatever is reported is confirmed in Python's rationals."""
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "blender_cloth.py")
+        command = ["blender", "-b", "--factory-startup", "-noaudio", "-P", script, "--", self.path("sweep"), "30", "30"]
+        subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        command = [program, "verify", self.path("sweep.pc2"), "--json", self.path("r.json"), "--max-violations", "100000"]
+        self.assertEqual(subprocess.run(command, stdout=subprocess.PIPE).returncode, 1)
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertEqual(report["frames"]["checked"], 30)
+        self.assertEqual(report["surface"]["precision"], "float32")
+        with open(self.path("sweep.pc2"), "rb") as file:
+            vertices = struct.unpack("<12siiffi", file.read(32))[2]
+            positions = np.frombuffer(file.read(), dtype="<f4").reshape(30, vertices, 3)
+        counts = collections.Counter()
+        for violation in report["violations"]:
+            self.assertEqual((violation["event"], violation["kind"]), ("overlap", "cross"))
+            corners = [[Fraction(float(x)) for x in positions[violation["frame"], v]] for v in violation["vertices"]]
+            self.assertTrue(pierce(corners[:3], corners[3:]), violation)
+            counts[violation["frame"]] += 1
+        self.assertEqual(sum(counts.values()), report["violations_total"]["overlap"])
+        self.assertNotIn(0, counts)
+        print("intersecting pairs by frame:", dict(sorted(counts.items())))
 
 
 if __name__ == "__main__":
