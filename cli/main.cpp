@@ -15,6 +15,7 @@
 #include "cli/render_command.h"
 #include "cli/replay_command.h"
 #include "cli/sim_command.h"
+#include "cli/subdivide_command.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
 #include "cli/view_command.h"
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
   add_render_command(program, job);
   add_replay_command(program, job);
   add_sim_command(program, job);
+  add_subdivide_command(program, job);
   add_verify_command(program, job);
   add_view_command(program, job);
 

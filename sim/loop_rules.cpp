@@ -1,0 +1,177 @@
+#include "sim/loop_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "kernel/assert.h"
+#include "sim/parallel.h"
+
+namespace selvage::sim {
+namespace {
+
+/// What is around a vertex.
+struct Ring {
+  enum class Kind { kInner, kBoundary, kOther } kind = Kind::kOther;
+  std::vector<VertexId> neighbours;  ///< kInner: in order around the vertex; kBoundary: its two along the boundary
+};
+
+// The faces at a vertex as arrows from neighbour to neighbour; one closed chain is an inner vertex, one open chain a
+// boundary.
+Ring ring_of(VertexId vertex, const std::vector<std::array<VertexId, 3>>& faces_at) {
+  std::map<VertexId, VertexId> next, previous;
+  for (const auto& f : faces_at) {
+    const std::size_t k = f[0] == vertex ? 0 : (f[1] == vertex ? 1 : 2);
+    const VertexId from = f[(k + 1) % 3], to = f[(k + 2) % 3];
+    if (!next.emplace(from, to).second || !previous.emplace(to, from).second) return {};
+  }
+  if (faces_at.empty()) return {};
+  VertexId start = next.begin()->first;
+  bool open = false;
+  for (const auto& [from, to] : next) {
+    if (previous.contains(from)) continue;
+    if (open) return {};
+    open = true;
+    start = from;
+  }
+  Ring ring;
+  ring.neighbours.push_back(start);
+  for (auto step = next.find(start); step != next.end() && step->second != start; step = next.find(step->second)) {
+    ring.neighbours.push_back(step->second);
+  }
+  if (ring.neighbours.size() != faces_at.size() + (open ? 1 : 0)) return {};  // several chains
+  ring.kind = open ? Ring::Kind::kBoundary : Ring::Kind::kInner;
+  if (open) ring.neighbours = {ring.neighbours.front(), ring.neighbours.back()};
+  return ring;
+}
+
+void add(std::vector<RuleTerm>& row, VertexId vertex, double weight) {
+  if (weight == 0) return;
+  const auto found = std::find_if(row.begin(), row.end(), [&](const RuleTerm& t) { return t.vertex == vertex; });
+  if (found == row.end()) {
+    row.push_back({vertex, weight});
+  } else {
+    found->weight += weight;
+  }
+}
+
+// The new point of the edge from an inner vertex to `other`, by that vertex' rule.
+void add_ring_rule(std::vector<RuleTerm>& row, VertexId vertex, const Ring& ring, VertexId other, double share) {
+  const auto n = static_cast<std::int32_t>(ring.neighbours.size());
+  const RingWeights weights = ring_weights(n);
+  const auto at = std::find(ring.neighbours.begin(), ring.neighbours.end(), other) - ring.neighbours.begin();
+  add(row, vertex, share * weights.alpha);
+  for (std::int32_t j = 0; j < n; ++j) {
+    const auto place = static_cast<std::size_t>((static_cast<std::int32_t>(at) + j) % n);
+    add(row, ring.neighbours[place], share * weights.ring[static_cast<std::size_t>(j)]);
+  }
+}
+
+std::vector<RuleTerm> vertex_rule(VertexId vertex, const Ring& ring) {
+  std::vector<RuleTerm> row;
+  if (ring.kind == Ring::Kind::kBoundary) {
+    row = {{vertex, 0.75}, {ring.neighbours[0], 0.125}, {ring.neighbours[1], 0.125}};
+  } else if (ring.kind == Ring::Kind::kInner) {
+    const double beta = ring_weights(static_cast<std::int32_t>(ring.neighbours.size())).beta;
+    row.push_back({vertex, 1 - beta});
+    for (const VertexId neighbour : ring.neighbours) {
+      row.push_back({neighbour, beta / double(ring.neighbours.size())});
+    }
+  }
+  return row;
+}
+
+bool is_extraordinary(const Ring& ring) { return ring.kind == Ring::Kind::kInner && ring.neighbours.size() != 6; }
+
+// `opposite`: the third vertices of the edge's faces.
+std::vector<RuleTerm> edge_rule(const std::array<VertexId, 2>& edge, const std::vector<VertexId>& opposite,
+                                const std::vector<Ring>& rings) {
+  std::vector<RuleTerm> row;
+  if (opposite.size() != 2) return row;  // a boundary: its B-spline has the midpoint
+  const double extraordinary = int(is_extraordinary(rings[static_cast<std::size_t>(edge[0])])) +
+                               int(is_extraordinary(rings[static_cast<std::size_t>(edge[1])]));
+  if (extraordinary == 0) {
+    return {{edge[0], 0.375}, {edge[1], 0.375}, {opposite[0], 0.125}, {opposite[1], 0.125}};
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Ring& ring = rings[static_cast<std::size_t>(edge[k])];
+    if (is_extraordinary(ring)) add_ring_rule(row, edge[k], ring, edge[1 - k], 1 / extraordinary);
+  }
+  return row;
+}
+
+}  // namespace
+
+RingWeights ring_weights(std::int32_t n) {
+  SELVAGE_ASSERT(n >= 3);
+  RingWeights weights;
+  std::vector<double> wave(static_cast<std::size_t>(n));
+  for (std::int32_t j = 0; j < n; ++j) {
+    for (std::int32_t k = 1; k < n; ++k) {
+      // j k modulo n first: the cosine of a large multiple would lose digits.
+      const double angle = 2 * std::numbers::pi * double((std::int64_t{j} * k) % n) / n;
+      wave[static_cast<std::size_t>(j)] += std::ldexp(std::cos(angle), -std::min(k, n - k));
+    }
+  }
+  const double least = *std::min_element(wave.begin(), wave.end());
+  const double mode_0 = std::max(0.625, -least);
+  weights.alpha = 1 - mode_0;
+  weights.beta = 0.75 - weights.alpha;
+  for (const double value : wave) weights.ring.push_back(std::max(0.0, (mode_0 + value) / n));
+  return weights;
+}
+
+LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
+    : edges_(coarse.edges), coarse_count_(coarse.vertex_count) {
+  const auto vertex_count = static_cast<std::size_t>(coarse_count_);
+  std::vector<std::vector<std::array<VertexId, 3>>> faces_at(vertex_count);
+  std::vector<std::uint8_t> stays(vertex_count, 0);
+  std::vector<std::vector<VertexId>> opposite(edges_.size());
+  for (std::size_t f = 0; f < coarse.faces.size(); ++f) {
+    const auto& face = coarse.faces[f];
+    std::array<VertexId, 3> middle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      faces_at[static_cast<std::size_t>(face[k])].push_back(face);
+      if (!rigid.empty() && rigid[f] != 0) stays[static_cast<std::size_t>(face[k])] = 1;
+      opposite[static_cast<std::size_t>(coarse.face_edges[f][k])].push_back(face[k]);
+      middle[k] = coarse_count_ + coarse.face_edges[f][k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) triangles_.push_back({face[k], middle[(k + 2) % 3], middle[(k + 1) % 3]});
+    triangles_.push_back(middle);
+  }
+  std::vector<Ring> rings;
+  for (std::size_t v = 0; v < vertex_count; ++v) rings.push_back(ring_of(static_cast<VertexId>(v), faces_at[v]));
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    rows_.push_back(stays[v] != 0 ? std::vector<RuleTerm>{} : vertex_rule(static_cast<VertexId>(v), rings[v]));
+  }
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const bool fixed = stays[static_cast<std::size_t>(edges_[e][0])] != 0;
+    rows_.push_back(fixed ? std::vector<RuleTerm>{} : edge_rule(edges_[e], opposite[e], rings));
+  }
+  for (const auto& row : rows_) moves_.push_back(row.empty() ? 0 : 1);
+}
+
+Positions LoopRules::midpoints(const PositionsRef& V) const {
+  Positions fine(coarse_count_ + static_cast<Eigen::Index>(edges_.size()), 3);
+  fine.topRows(coarse_count_) = V;
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    fine.row(coarse_count_ + static_cast<Eigen::Index>(e)) = 0.5 * V.row(edges_[e][0]) + 0.5 * V.row(edges_[e][1]);
+  }
+  return fine;
+}
+
+Positions LoopRules::smooth(const PositionsRef& V) const {
+  Positions fine = midpoints(V);
+  parallel_each(fine.rows(), [&](Eigen::Index i) {
+    const std::vector<RuleTerm>& row = rows_[static_cast<std::size_t>(i)];
+    if (row.empty()) return;
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (const RuleTerm& term : row) sum += term.weight * V.row(term.vertex);
+    fine.row(i) = sum;
+  });
+  return fine;
+}
+
+}  // namespace selvage::sim
