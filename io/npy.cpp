@@ -5,6 +5,7 @@
 
 #include "io/byte_order.h"
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/polygon.h"
 
 namespace selvage::io {
@@ -64,6 +65,7 @@ const char* item_at(const NpyHeader& header, const char* data, std::size_t row, 
 }  // namespace
 
 Points decode_npy_points(const NpyHeader& header, std::string_view data, const std::string& name) {
+  const FpGuard guard;
   NpyHeader rows = header;
   rows.shape = {data.size() / (3 * header.item_size), 3};
   Points points(rows.shape[0]);

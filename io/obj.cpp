@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/mesh_reader.h"
 #include "io/polygon.h"
 #include "io/text.h"
@@ -149,6 +150,9 @@ class ObjParser {
 
 }  // namespace
 
-MeshData parse_obj(std::string_view bytes, const std::string& name) { return ObjParser(bytes, name).parse(); }
+MeshData parse_obj(std::string_view bytes, const std::string& name) {
+  const FpGuard guard;
+  return ObjParser(bytes, name).parse();
+}
 
 }  // namespace selvage::io

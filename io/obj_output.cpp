@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/sequence_outputs.h"
 #include "io/text.h"
 
@@ -75,6 +76,7 @@ class ObjOutput final : public SequenceOutput {
 }  // namespace
 
 std::string obj_bytes(const MeshData& mesh, const std::string& name) {
+  const FpGuard guard;  // to_chars takes a subnormal number for zero where they are flushed
   const std::vector<Group> groups = cover(mesh.groups, mesh.triangles.size(), name);
   std::string text;
   for (const auto& point : mesh.points) {

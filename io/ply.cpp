@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/mesh_reader.h"
 #include "io/ply_header.h"
 #include "io/ply_records.h"
@@ -145,6 +146,7 @@ MeshData read_elements(Records records, const PlyHeader& header, const PlyLayout
 }  // namespace
 
 MeshData parse_ply(std::string_view bytes, const std::string& name) {
+  const FpGuard guard;
   LineReader lines(bytes, name);
   const PlyHeader header = parse_ply_header(lines);
   const PlyLayout layout = find_layout(lines, header);

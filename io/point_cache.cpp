@@ -6,6 +6,7 @@
 #include "io/byte_order.h"
 #include "io/extension.h"
 #include "io/fail.h"
+#include "io/fp_guard.h"
 
 namespace selvage::io {
 namespace {
@@ -110,6 +111,7 @@ PointCacheFormat point_cache_format(const std::filesystem::path& file) {
 }
 
 PointCacheHeader read_point_cache_header(const ByteSource& source, PointCacheFormat format, const std::string& name) {
+  const FpGuard guard;
   return format == PointCacheFormat::kPc2 ? read_pc2(source, name) : read_mdd(source, name);
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/byte_order.h"
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/mesh_reader.h"
 #include "io/sequence_readers.h"
 
@@ -36,6 +37,7 @@ class PointCacheSequence final : public SequenceReader {
   bool same_faces_as_previous(std::size_t) const override { return true; }
 
   MeshData frame(std::size_t frame) const override {
+    const FpGuard guard;
     if (frame >= header_.frame_count) throw std::out_of_range(frame_name(frame));
     const std::uint64_t offset = header_.data_offset + frame * header_.frame_size();
     const std::string data = source_->read(offset, header_.frame_size());

@@ -6,6 +6,7 @@
 
 #include "io/byte_order.h"
 #include "io/fail.h"
+#include "io/fp_guard.h"
 
 namespace selvage::io {
 namespace {
@@ -28,6 +29,7 @@ void append_as(std::string& bytes, const Points& points) {
 }  // namespace
 
 void append_points(std::string& bytes, const Points& points, Precision precision, const std::string& name) {
+  const FpGuard guard;
   if (precision == Precision::kFloat64) return append_as<double>(bytes, points);
   for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
     for (const double x : points[vertex]) {
@@ -39,6 +41,7 @@ void append_points(std::string& bytes, const Points& points, Precision precision
 }
 
 void round_to_float32(Points& points, Rounding& rounding, const std::string& name) {
+  const FpGuard guard;
   for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
     for (double& x : points[vertex]) {
       if (overflows(x)) {

@@ -5,6 +5,7 @@
 
 #include "io/byte_order.h"
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/points.h"
 #include "io/sequence_outputs.h"
 #include "io/text.h"
@@ -61,6 +62,7 @@ class PvdOutput final : public SequenceOutput {
     for (std::size_t i = 0; i < header_.frame_count; ++i) require_absent(frame_path(target_, i, ".vtp"));
   }
   void append(double time_s, const MeshData& mesh) override {
+    const FpGuard guard;
     const fs::path file = frame_path(target_, frames_++, ".vtp");
     written_.write(file, vtp_bytes(mesh));
     char digits[32];

@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.h"
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/rational.h"
 #include "io/text.h"
 
@@ -44,6 +45,7 @@ std::optional<bool> parse_truth(const LineReader& lines, const std::vector<std::
 }  // namespace
 
 std::vector<CcdQuery> parse_query_csv(std::string_view bytes, const std::string& name) {
+  const FpGuard guard;
   std::vector<CcdQuery> queries;
   std::size_t row = 0, column_count = 0;
   LineReader lines(bytes, name);

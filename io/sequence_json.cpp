@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/fail.h"
+#include "io/fp_guard.h"
 #include "io/text.h"
 
 namespace selvage::io {
@@ -148,6 +149,7 @@ FrameRecord parse_frame(std::string_view line, const Source& source, std::size_t
 }  // namespace
 
 std::string to_json(const SequenceDescription& description) {
+  const FpGuard guard;
   Json groups = Json::array();
   for (const Group& group : description.groups) {
     groups.push_back({{"name", group.name},
@@ -169,12 +171,14 @@ std::string to_json(const SequenceDescription& description) {
 }
 
 std::string to_json(const FrameRecord& frame) {
+  const FpGuard guard;
   Json object = {{"file", frame.file}, {"time", frame.time_s}};
   if (frame.crc32) object["crc32"] = crc32_text(*frame.crc32);
   return object.dump() + "\n";
 }
 
 SequenceDescription parse_sequence_json(std::string_view bytes, const std::string& name) {
+  const FpGuard guard;
   const Source source = {name};
   if (bytes.size() > kLargestHeader) source.fail("larger than a header may be; is this a sequence?");
   const Json object = parse_json(bytes, source);
@@ -202,6 +206,7 @@ SequenceDescription parse_sequence_json(std::string_view bytes, const std::strin
 }
 
 std::vector<FrameRecord> parse_frame_list(std::string_view bytes, const std::string& name) {
+  const FpGuard guard;
   std::vector<FrameRecord> frames;
   LineReader lines(bytes, name);
   while (const std::optional<std::string_view> line = lines.next()) {
