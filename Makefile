@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers asan tsan clang coverage docs same-bits fuzz bench format tidy clean
+.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz bench format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -18,8 +18,9 @@ demo: build  ## simulate a curtain over a moving ball, check every frame and ste
 	rm -rf $(DEMO)
 	$(SELVAGE) sim sim/scenes/demo.toml -o $(DEMO)/curtain --record steps
 	$(SELVAGE) render $(DEMO)/curtain -o $(DEMO)/sheet.png
-	$(SELVAGE) verify $(DEMO)/curtain --json $(DEMO)/report.json
-	@echo "The report is $(DEMO)/report.json, the picture is $(DEMO)/sheet.png."
+	$(SELVAGE) verify $(DEMO)/curtain --json $(DEMO)/report.json --html $(DEMO)/report.html
+	$(SELVAGE) view $(DEMO)/curtain -o $(DEMO)/curtain.html
+	@echo "The report is $(DEMO)/report.html, the picture is $(DEMO)/sheet.png, $(DEMO)/curtain.html plays in a browser."
 
 test: build  ## run all tests
 	ctest --preset release
@@ -27,6 +28,10 @@ test: build  ## run all tests
 readers: build  ## open what Selvage writes with NumPy, VTK and Blender
 	@cmake/setup packages-readers.txt
 	ctest --preset release -R 'ForeignReaders|NumPy'
+
+pages: build  ## open the pages of verify and view in Chromium
+	@cmake/setup packages-browser.txt
+	ctest --preset release -R Pages.InABrowser
 
 asan: setup  ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset asan-ubsan --log-level=WARNING

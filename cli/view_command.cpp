@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/page/player_page.h"
+#include "cli/page/report_words.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
 #include "io/atomic_file.h"
@@ -24,8 +25,7 @@ struct ViewArguments {
 
 ExitCode view_sequence(const ViewArguments& arguments) {
   const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
-  std::string title;
-  for (const auto& source : arguments.sequence.sources) title += (title.empty() ? "" : " ") + source.string();
+  const std::string title = source_names({arguments.sequence.sources.begin(), arguments.sequence.sources.end()});
   ProgressBar bar("packing");
   const PlayerPage made =
       player_page(title, *sequence, arguments.up, static_cast<std::size_t>(arguments.max_mb) * 1000 * 1000,

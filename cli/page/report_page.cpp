@@ -20,12 +20,6 @@ namespace {
 
 Html code(const std::string& plain) { return element("code", {}, text(plain)); }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
-  return all;
-}
-
 Html header(const verify::SequenceReport& report, const verify::ReportContext& context) {
   const char* mark = report.verdict == verify::Verdict::kClean      ? "\u2713"
                      : report.verdict == verify::Verdict::kViolated ? "\u2715"
@@ -33,7 +27,8 @@ Html header(const verify::SequenceReport& report, const verify::ReportContext& c
   std::string verdict = verify::name_of(report.verdict);
   const Html title = element("span", {{"class", "mark"}, {"aria-hidden", "true"}}, element("span", {}, text(mark))) +
                      element("h1", {{"id", "verdict"}}, text(verdict));
-  Html all = element("p", {{"class", "kicker"}}, text(context.program + " verify ") + code(joined(context.sources)));
+  Html all =
+      element("p", {{"class", "kicker"}}, text(context.program + " verify ") + code(source_names(context.sources)));
   all += element("div", {{"class", "verdict " + verdict}}, title);
   all += element("p", {{"class", "lead"}}, text(verdict_sentence(report)));
   if (report.first_frame > 0 || report.end_frame < report.frame_count) {
@@ -188,7 +183,7 @@ std::string cases_json(const verify::SequenceReport& report, double min_distance
 std::string report_page(const verify::SequenceReport& report, const verify::ReportContext& context,
                         const io::SequenceReader* sequence, const ReportPageOptions& options) {
   const ReportScene shown = report_scene(report, sequence, options.scene_bytes);
-  page::Page page(fmt::format("{}: {}", verify::name_of(report.verdict), joined(context.sources)));
+  page::Page page(fmt::format("{}: {}", verify::name_of(report.verdict), source_names(context.sources)));
   page.add_header(header(report, context));
   page.add_header(element("div", {{"id", "left-out"}}, left_out(report)));
   page.add_section("Timeline", report_timeline(report), "frames");

@@ -63,17 +63,16 @@ std::vector<Bar> bars_of(const verify::SequenceReport& report) {
 Html button_of(const Bar& bar, std::int64_t most) {
   const std::string frames = bar.end - bar.begin == 1 ? fmt::format("Frame {}", bar.begin)
                                                       : fmt::format("Frames {} to {}", bar.begin, bar.end - 1);
-  std::string state = "clean", words = bar.what.empty() ? "no violation" : bar.what;
+  std::string state = "clean", title = bar.what.empty() ? frames + ": no violation" : bar.what;
   double height = 0.12;  // so that a frame without violations can be seen and hit
   if (bar.violations > 0) {
     state = "violated";
     height = 0.3 + 0.7 * std::log1p(static_cast<double>(bar.violations)) / std::log1p(static_cast<double>(most));
   } else if (!bar.is_checked) {
     state = "unknown";
-    words = "not checked";
+    title = frames + ": not checked";
     height = 0.3;
   }
-  const std::string title = frames + " - " + words;
   return element("button",
                  {{"type", "button"},
                   {"class", state},

@@ -41,6 +41,16 @@ std::string counted(std::int64_t count, const std::string& singular) {
   return grouped(count) + " " + singular + (count == 1 ? "" : "s");
 }
 
+std::string source_names(const std::vector<std::string>& sources) {
+  constexpr std::size_t kMostNamed = 3;
+  if (sources.size() > kMostNamed) {
+    return fmt::format("{} ... {} ({} files)", sources.front(), sources.back(), sources.size());
+  }
+  std::string all;
+  for (const std::string& source : sources) all += (all.empty() ? "" : " ") + source;
+  return all;
+}
+
 std::string verdict_sentence(const verify::SequenceReport& report) {
   switch (report.verdict) {
     case verify::Verdict::kClean:

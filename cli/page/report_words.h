@@ -1,7 +1,9 @@
 // What a report says, in the words of its page.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "page/html.h"
 #include "verify/report.h"
@@ -12,6 +14,9 @@ namespace selvage::cli {
 [[nodiscard]] std::string grouped(std::int64_t count);
 /// "1 frame", "2 frames".
 [[nodiscard]] std::string counted(std::int64_t count, const std::string& singular);
+
+/// The files; the first and the last where there are many.
+[[nodiscard]] std::string source_names(const std::vector<std::string>& sources);
 
 [[nodiscard]] std::string verdict_sentence(const verify::SequenceReport& report);
 /// The counts of work and of what was found.

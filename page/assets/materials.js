@@ -32,10 +32,10 @@ void main() {
   float length_squared = dot(viewNormal, viewNormal);
   vec3 n = length_squared > 1e-12 ? viewNormal * inversesqrt(length_squared) : normalize(flat_normal);
   if (dot(n, viewPosition) > 0.0) n = -n;
-  float sun = max(dot(n, vec3(-0.40, 0.56, 0.73)), 0.0);
+  float sun = max(dot(n, vec3(-0.56, 0.60, 0.57)), 0.0);
   float sky = 0.5 + 0.5 * n.y;
   float rim = 1.0 - abs(dot(n, normalize(viewPosition)));
-  vec3 light = (gl_FrontFacing ? front : back) * (0.22 + 0.30 * sky + 0.85 * sun) + 0.05 * rim * rim;
+  vec3 light = (gl_FrontFacing ? front : back) * (0.10 + 0.22 * sky + 0.85 * sun) + 0.05 * rim * rim;
   colour = vec4(pow(light, vec3(1.0 / 2.2)), opacity * fade(viewPosition, focus));
 }`;
 /* A segment as a strip some pixels wide: every vertex knows both ends and its side. Lifted a little towards the viewer. */

@@ -1,5 +1,5 @@
 "use strict";
-/* Two features and their motion, drawn on top of the cloth and, paler, through it. */
+/* Two features and their motion, drawn on top of the cloth; each hides the other where it lies in front of it. */
 const kPairColours = { light: ["#d55e00", "#0072b2"], dark: ["#ff8f4a", "#56b4e9"] };
 
 /* Positions of strips (materials.line) along the segments, which are pairs of points. */
@@ -35,18 +35,21 @@ function triangleOf(corners) {
 }
 
 class PairView {
-  /* ends: the vertices at t = 0 and at t = 1, in view units; features: two lists of indices into them. */
-  constructor({ ends, features }, isDark, pixelRatio) {
+  /* ends: the vertices at t = 0 and at t = 1, in view units; features: two lists of indices into them; touch: when. */
+  constructor({ ends, features, touch }, isDark, pixelRatio) {
     this.ends = ends;
     this.features = features;
+    this.touch = touch;
+    this.middle = [0, 0, 0];
     this.colours = kPairColours[isDark ? "dark" : "light"].map(linear);
     this.quiet = linear(isDark ? "#a2aab5" : "#5c6470");
     this.pixelRatio = pixelRatio;
     this.object = new THREE.Group();
-    const all = [...ends[0], ...ends[1]];
-    this.middle = vector.times(1 / all.length, all.reduce(vector.add));
-    this.radius = Math.max(...all.map((p) => vector.length(vector.subtract(p, this.middle)))) || 1e-6;
-    this.moves = all.slice(0, ends[0].length).some((p, i) => vector.length(vector.subtract(p, ends[1][i])) > 0);
+    const points = this.at(touch);
+    this.middle = vector.times(1 / points.length, points.reduce(vector.add));
+    const reach = (list) => Math.max(...list.map((p) => vector.length(vector.subtract(p, this.middle))));
+    this.radius = Math.max(reach(points), reach([...ends[0], ...ends[1]]) / 4) || 1e-6;  /* a long way may leave the picture */
+    this.moves = ends[0].some((p, i) => vector.length(vector.subtract(p, ends[1][i])) > 0);
     this.object.position.set(...this.middle);  /* so that single precision is about the pair, not about the scene */
   }
 
@@ -72,11 +75,10 @@ class PairView {
       if (corners.length > 1) {
         const ring = corners.length === 2 ? [corners] : corners.map((p, i) => [p, corners[(i + 1) % 3]]);
         const width = (corners.length === 2 ? 6 : 3) * scale;
-        add(THREE.Mesh, strips(ring), materials.line(colour, width, 1), 6);
-        add(THREE.Mesh, strips(ring), materials.line(colour, width, 0.35, through), 7);
+        add(THREE.Mesh, strips(ring), materials.line(colour, width, 1), 7);
+        add(THREE.Mesh, strips(ring), materials.line(colour, width, 0.35, through), 6);
       } else {
-        add(THREE.Points, pointsOf(corners), materials.point(colour, 15 * scale, 1), 6);
-        add(THREE.Points, pointsOf(corners), materials.point(colour, 15 * scale, 0.5, through), 7);
+        add(THREE.Points, pointsOf(corners), materials.point(colour, 15 * scale, 1, through), 8);
       }
     });
     if (!this.moves) return;
@@ -86,7 +88,7 @@ class PairView {
 
   /* From where both features are seen best: across the first, above the second. */
   direction() {
-    const points = this.at(0.5);
+    const points = this.at(this.touch);
     const normals = this.features.filter((feature) => feature.length === 3)
       .map(([a, b, c]) => vector.unit(vector.cross(vector.subtract(points[b], points[a]), vector.subtract(points[c], points[a])), null))
       .filter((normal) => normal);

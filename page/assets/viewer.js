@@ -17,7 +17,7 @@ class Viewer {
     this.showsEdges = false;
     this.wanted = false;
     this.dark = matchMedia("(prefers-color-scheme: dark)");
-    this.dark.addEventListener("change", () => this.showPair(this.pair && { ends: this.pair.ends, features: this.pair.features }));
+    this.dark.addEventListener("change", () => this.showPair(this.pair));
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     this.bindBar();
   }
@@ -78,7 +78,7 @@ class Viewer {
     this.geometry = geometry;
   }
 
-  /* {ends, features} as PairView takes them, or null. */
+  /* {ends, features, touch} as PairView takes them, or null. */
   showPair(pair) {
     if (this.pair) {
       this.pair.dispose();
@@ -91,7 +91,7 @@ class Viewer {
 
   flyToPair() {
     const direction = this.pair.direction();
-    this.camera.flyTo(this.pair.middle, this.pair.radius * 2.2, direction);
+    this.camera.flyTo(this.pair.middle, this.pair.radius * 1.8, direction);
   }
 
   setTime(t) {

@@ -95,14 +95,15 @@ class ReportView {
     const end = violation.bits_t1?.map((point) => point.map(hexFloat)) ?? start;
     const features = violation.kind === "degenerate" ? [[0], [0, 1, 2]] : kFeatures[violation.event];
     this.title.textContent = `Witness ${i + 1} of ${this.rows.length}: ${this.rows[i].dataset.title}`;
+    const touch = violation.t?.lower_number ?? 0;
     const scrub = this.scrub.box;
     scrub.hidden = !violation.bits_t1;
-    if (violation.t) scrub.style.setProperty("--touch", violation.t.lower_number);
+    scrub.style.setProperty("--touch", touch);
     await this.showMeshes(violation.frame, violation.bits_t1 ? violation.frame + 1 : null, () => {
       const toView = (point) => this.source.toView(point);
-      this.viewer.showPair({ ends: [start.map(toView), end.map(toView)], features });
+      this.viewer.showPair({ ends: [start.map(toView), end.map(toView)], features, touch });
       this.scrub.stop();
-      this.scrub.set(violation.t?.lower_number ?? 0);
+      this.scrub.set(touch);
       this.viewer.flyToPair();
     });
   }

@@ -1,9 +1,14 @@
-"""Chromium without a window, driven through its DevTools pipe: enough to open a page and ask it."""
+"""Chromium without a window, driven through its DevTools pipe: enough to open a page and ask it.
+
+usage: browser.py PAGE.html "#witness=3" PICTURE.png    a screenshot of a page of `selvage verify --html` or `view`
+"""
 import base64
 import json
 import os
+import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -13,12 +18,12 @@ class Browser:
 
     ARGUMENTS = (
         "--headless=new --no-sandbox --remote-debugging-pipe --use-angle=swiftshader --enable-unsafe-swiftshader "
-        "--force-device-scale-factor=1 --force-prefers-reduced-motion --no-first-run --disable-extensions "
+        "--force-prefers-reduced-motion --no-first-run --disable-extensions "
         "--disable-background-networking --hide-scrollbars"
     ).split()
 
     def __init__(self, program, width=1400, height=1000):
-        self.problems = []
+        self.problems, self.size = [], (width, height)
         self.profile = tempfile.mkdtemp()
         commands_out, self.commands = os.pipe()
         self.answers, answers_in = os.pipe()
@@ -28,7 +33,7 @@ class Browser:
             os.dup2(moved[0], 3), os.dup2(moved[1], 4)
 
         self.process = subprocess.Popen(
-            [program, *self.ARGUMENTS, f"--window-size={width},{height}", "--user-data-dir=" + self.profile, "about:blank"],
+            [program, *self.ARGUMENTS, "--user-data-dir=" + self.profile, "about:blank"],
             preexec_fn=hand_over, close_fds=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             env={**os.environ, "HOME": self.profile},
         )
@@ -38,6 +43,7 @@ class Browser:
         self.session = self.call("Target.attachToTarget", targetId=target["targetId"], flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log"):
             self.call(domain + ".enable")
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def close(self):
         self.process.kill()
@@ -106,12 +112,23 @@ class Browser:
             text = {"text": key} if len(key) == 1 and kind == "keyDown" else {}
             self.call("Input.dispatchKeyEvent", type=kind, key=key, **text)
 
-    def picture(self, file, clip=None):
-        """A screenshot as PNG; clip: the CSS selector of an element."""
-        options = {}
+    def picture(self, file, clip=None, scale=1):
+        """A screenshot as PNG; clip: the CSS selector of an element, or all that the window shows."""
+        options = {"clip": {"x": 0, "y": 0, "width": self.size[0], "height": self.size[1], "scale": scale}}
         if clip:
             box = self.ask(f"(() => {{ const b = document.querySelector({json.dumps(clip)}).getBoundingClientRect();"
                            " return {x: b.x + scrollX, y: b.y + scrollY, width: b.width, height: b.height}; })()")
-            options = {"clip": {**box, "scale": 1}, "captureBeyondViewport": True}
+            options = {"clip": {**box, "scale": scale}, "captureBeyondViewport": True}
         with open(file, "wb") as out:
             out.write(base64.b64decode(self.call("Page.captureScreenshot", format="png", **options)["data"]))
+
+
+if __name__ == "__main__":
+    page, place, picture = sys.argv[1:]
+    chromium = Browser("chromium", 1360, 980)
+    try:
+        chromium.open(pathlib.Path(page).resolve().as_uri() + place, place)
+        chromium.picture(picture, scale=0.7)
+    finally:
+        chromium.close()
+    sys.exit("\n".join(chromium.problems) or 0)
