@@ -19,9 +19,9 @@ Double3 approach_direction(const PairMotion<double>& motion, Tick tick) {
     const Tick earlier = tick > (Tick{1} << back) ? tick - (Tick{1} << back) : 0;
     const auto at = polygon_at_tick(motion, earlier);
     const auto closest = closest_point(motion.kind, at);
-    const double lower = distance_lower(motion, at, closest);
+    const auto [lower, direction] = supported_distance(motion, at, closest);
     const double upper = gap_upper(motion, earlier, at, closest.weights);
-    if (earlier == 0 || lower > kGoodBracket * upper) return closest.direction;
+    if (earlier == 0 || lower > kGoodBracket * upper) return direction;
   }
   return {};
 }
@@ -69,14 +69,14 @@ void answer_end(CcdResult& result, const PairMotion<double>& motion, double tole
   result.verdict = CcdVerdict::kSeparated;
   if (tolerance == 0) return;  // no touch at t = 1 is a distance above zero
   const auto closest = closest_point(motion.kind, motion.t1);
-  const double lower = distance_lower(motion, motion.t1, closest);
+  const auto [lower, direction] = supported_distance(motion, motion.t1, closest);
   // In the motion's own scale: at the caller's, a subnormal distance would be rounded, and the answer depend on scale.
   if (lower > times_power_upper(tolerance, -motion.exponent)) return;
   result.verdict = CcdVerdict::kCollides;
   result.cause = CcdCause::kEnd;
   result.gap_bound = times_power_upper(gap_upper(motion, kTicks, motion.t1, closest.weights), motion.exponent);
   result.weights = closest.weights;
-  result.normal = unit(closest.direction);
+  result.normal = unit(direction);
 }
 
 }  // namespace selvage::detail

@@ -37,7 +37,7 @@ Proximity proximity(PairKind kind, const std::array<Vec3, 4>& x) {
   const PairMotion<double> motion = make_pair_motion<double>(kind, points, points);
   const auto closest = closest_point(kind, motion.t0);
   const double upper = distance_upper(motion, motion.t0, false, closest.weights);
-  const double lower = distance_lower(motion, motion.t0, closest);
+  const auto [lower, direction] = supported_distance(motion, motion.t0, closest);
   // Two roots, because the product under one could underflow; under 8 roundings.
   const double error = std::sqrt(upper - lower) * std::sqrt(upper + lower) * (1 + 8 * kUnitRoundoff);
 
@@ -48,9 +48,7 @@ Proximity proximity(PairKind kind, const std::array<Vec3, 4>& x) {
                              result.distance_upper);
   result.point_error_bound = times_power_upper(error, motion.exponent);
   result.weights = restore_weights(order, closest.weights);
-  if (upper > 0 && !is_zero(closest.direction)) {
-    result.normal = restore_normal(order, scaled(1 / norm(closest.direction), closest.direction));
-  }
+  if (upper > 0 && !is_zero(direction)) result.normal = restore_normal(order, scaled(1 / norm(direction), direction));
   return result;
 }
 

@@ -41,7 +41,8 @@ constexpr double error_of(int differences, int products, int sums) {
   return differences * Rounding::kDifference + (products + 0.25) * Rounding::kProduct + sums * Rounding::kSum;
 }
 
-/// What underflow costs a bound: every lost product is at most 2^-1074, times factors below 2^12, at most 2^8 of them.
+/// What underflow costs a bound: every lost product is at most 2^-1074, times factors below 2^12, at most 2^8 of them;
+/// value by value at most 2^-1058 (kernel/proofs/underflow.gappa).
 inline constexpr double kUnderflowError = 0x1p-1000;
 
 /// x(t) = fl( fl((1-t) s0) + fl(t s1) ), with t and 1 - t exact: the subtraction that made s, the product, the sum.

@@ -146,15 +146,29 @@ template std::optional<Triple<DoubleDouble>> separating_direction(const PairMoti
                                                                   const DifferencePolygon<DoubleDouble>&,
                                                                   Triple<DoubleDouble>);
 
-double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
-                      const ClosestPoint<double>& closest) {
-  double lower = 0;
-  for (const Double3& n : {closest.direction, closest.plane_normal}) {
-    const double margin = support(motion, polygon, polygon, n).least - support_error(n, motion.extent);
+SupportedDistance supported_distance(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
+                                     const ClosestPoint<double>& closest) {
+  constexpr double kGoodShare = 1 - 0x1p-30;
+  SupportedDistance best = {0, closest.direction};
+  const auto consider = [&](const Double3& n) {
+    const Support<double> least = support(motion, polygon, polygon, n);
+    const double margin = least.least - support_error(n, motion.extent);
     // The difference, the norm, the quotient and this product: under 8 roundings.
-    if (margin > 0) lower = std::max(lower, margin / norm(n) * (1 - 8 * kUnitRoundoff));
+    const double lower = margin > 0 ? margin / norm(n) * (1 - 8 * kUnitRoundoff) : 0;
+    if (lower > best.lower) best = {lower, n};
+    return least.corner;
+  };
+  consider(closest.direction);
+  consider(closest.plane_normal);
+  const double good = kGoodShare * norm(closest.point);
+  Double3 point = closest.point;
+  for (int step = 0; step < kGilbertSteps && best.lower < good; ++step) {
+    const Double3 toward = *consider(normalize_exponent(point)) - point;
+    const double fraction = -dot(point, toward) / dot(toward, toward);
+    if (!(fraction > 0)) break;
+    point = point + scaled(std::min(fraction, 1.0), toward);
   }
-  return lower;
+  return best;
 }
 
 double distance_upper(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon, bool blended,

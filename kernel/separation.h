@@ -64,10 +64,17 @@ template <class Real>
                                                                const DifferencePolygon<Real>& begin,
                                                                const DifferencePolygon<Real>& end, Triple<Real> point);
 
-/// PROVED: the features are at least this far apart at the instant of `polygon`, scaled; 0 if no direction of `closest`
-/// separates them.
-[[nodiscard]] double distance_lower(const PairMotion<double>& motion, const DifferencePolygon<double>& polygon,
-                                    const ClosestPoint<double>& closest);
+/// How far apart a direction shows the features to be, scaled.
+struct SupportedDistance {
+  double lower = 0;   ///< PROVED: their distance is at least this; 0 if no direction was found that separates them
+  Double3 direction;  ///< what shows it: within the angle of cosine lower / distance of the exact one
+};
+/// At the instant of `polygon`: the best of the directions of `closest`, and of some steps of Gilbert's algorithm where
+/// these come short of the distance: where the exact closest point is within rounding of several features, or the
+/// features are so thin that their normals are noise.
+[[nodiscard]] SupportedDistance supported_distance(const PairMotion<double>& motion,
+                                                   const DifferencePolygon<double>& polygon,
+                                                   const ClosestPoint<double>& closest);
 
 /// PROVED: the features come within this distance, scaled, at the instant of `polygon`. `blended`: the instant is
 /// neither t = 0 nor t = 1. `weights` as in ClosestPoint.

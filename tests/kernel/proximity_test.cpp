@@ -74,6 +74,10 @@ void expect_bracket(PairKind kind, const Points& x, double sharpness) {
     EXPECT_EQ(answer.normal, Vec3::Zero());
   } else if (answer.distance_lower > 0) {
     EXPECT_NEAR(answer.normal.norm(), 1, 0x1p-50);
+    // The normal is the direction that shows distance_lower, which bounds its angle.
+    const Rational3 n = exact(detail::to_double3(answer.normal));
+    const Rational along = dot(n, real.point()), least = exact(answer.distance_lower * (1 - 0x1p-48));
+    EXPECT_TRUE(along > 0 && squared(along) >= squared(least) * dot(n, n));
   }
 }
 
@@ -168,6 +172,34 @@ TEST(Proximity, BracketsTheExactDistanceOfMixedExponents) {
     const int spread = random.integer(1, 1000);
     for (Vec3& p : x) p = detail::to_vec3(random.point(-spread, spread));
     expect_bracket(kKinds[i % 2], x, 0x1p-34);  // features 2^30 times as long as they are apart
+  }
+}
+
+/// The closest point was within rounding of a short edge and of a long one, of which the direction took no notice; or
+/// within rounding of a corner and of a triangle whose normal was noise. Then distance_lower was next to nothing, and
+/// the normal anything.
+TEST(Proximity, TiesBetweenFeaturesOfVeryDifferentSizesAreBracketed) {
+  expect_bracket(PairKind::kEe,
+                 {Vec3(-0x1p-116, 0x1p+419, 0x1p-22), Vec3(-0x1p+50, -0x1p-543, 0x1p-86), Vec3(-0x1p-449, 0x1p+536, 0),
+                  Vec3(0x1p+312, 0x1p-288, 0x1p+508)},
+                 kSharp);
+  expect_bracket(PairKind::kVf,
+                 {Vec3(0x1.88p+799, -0x1p+437, 0x1p-593), Vec3(-0x1p-252, 0x1p-170, 0x1p-462),
+                  Vec3(0x1p+78, -0x1p-634, 0x1.8p+556), Vec3(-0x1p-557, 0x1p-505, -0x1.6p+774)},
+                 kSharp);
+  expect_bracket(PairKind::kVf,
+                 {Vec3(-0x1p-604, 0x1p+711, -0x1p-227), Vec3(0x1p-903, 0x1p-803, 0x1.bp+916),
+                  Vec3(0x1.7cp+944, -0x1p+831, -0x1p-477), Vec3(0x1.cp+942, -0x1p-865, 0x1p+393)},
+                 kSharp);
+  // Widths alone need no rationals, so that many draws cost little.
+  Random random(30);
+  for (int i = 0; i < 40000; ++i) {
+    Points x;
+    const int spread = random.integer(1, 1000);
+    for (Vec3& p : x) p = detail::to_vec3(random.point(-spread, spread));
+    const PairKind kind = kKinds[i % 2];
+    const Proximity answer = proximity(kind, x);
+    EXPECT_LE(answer.distance_upper - answer.distance_lower, 0x1p-34 * largest_difference(kind, x));
   }
 }
 

@@ -212,6 +212,8 @@ static_assert(detail::kBlossomError<double> == 25 * 0x1p-55);
 static_assert(4 * detail::kWitnessError == 100 * 0x1p-55);
 static_assert(detail::kNormError == 11 * 0x1p-55);
 static_assert(3 * detail::kNearError > 30 * 0x1p-24F);
+static_assert(detail::RoundingOf<DoubleDouble>::kProduct == 7 * 0x1p-106);
+static_assert(detail::kUnderflowError > 0x1p-1058 && detail::kNearSlack > 0x1p-147F);
 
 }  // namespace
 

@@ -24,7 +24,7 @@ using Points = std::array<Vec3, 4>;
 
 namespace {
 
-constexpr std::uint64_t kGoldenHash = 0xb52b81a400d4fab3U;
+constexpr std::uint64_t kGoldenHash = 0x63362ca5a96a472dU;
 
 /// FNV-1a over the bits of the values.
 class Hash {
