@@ -48,10 +48,16 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // CLI11 numbers its errors from 100 up; --help and --version arrive here with 0.
-    return static_cast<int>(program.exit(error) == 0 ? ExitCode::kClean : ExitCode::kUsage);
+    const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    if (!is_extra || !program.get_subcommands().empty()) {
+      // CLI11 numbers its errors from 100 up; --help and --version arrive here with 0.
+      return static_cast<int>(program.exit(error) == 0 ? ExitCode::kClean : ExitCode::kUsage);
+    }
+    job = [name = std::string(argv[1])]() -> ExitCode {
+      throw UsageError("no subcommand '" + name + "'; run with --help for the list");
+    };
   }
-  if (program.get_subcommands().empty()) {
+  if (!job) {
     job = []() -> ExitCode { throw UsageError("a subcommand is required; run with --help for more information"); };
   }
   if (!program.got_subcommand("doctor")) {  // which reports instead

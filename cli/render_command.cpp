@@ -25,7 +25,6 @@ struct RenderArguments {
 };
 
 ExitCode render_sequence(const RenderArguments& arguments) {
-  require_not_read(arguments.sequence, arguments.picture);
   const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
   SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};
   if (options.frames.empty()) options.frames = spread_frames(*sequence, arguments.tiles);
@@ -49,7 +48,13 @@ void add_render_command(CLI::App& program, Job& job) {
                   "selvage render demo/curtain -o sheet.png");
   const auto arguments = std::make_shared<RenderArguments>();
   add_sequence_argument(command, arguments->sequence);
-  command.add_option("-o,--output", arguments->picture, "The PNG file")->required();
+  command.add_option("-o,--output", arguments->picture, "The PNG file")
+      ->required()
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            return std::string(name.ends_with(".png") ? "" : name + ": only PNG is drawn; let the name end in .png");
+          },
+          "", ""));
   CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")->delimiter(',');
   command.add_option("--tiles", arguments->tiles, "How many frames, spread evenly in time")
       ->check(CLI::Range(1, 1000))

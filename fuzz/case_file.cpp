@@ -43,7 +43,8 @@ std::int32_t parse_count(CaseLines& lines, std::string_view word) {
 
 PairKind parse_kind(CaseLines& lines, std::string_view word) {
   const auto* kind = std::find_if(kPairKinds.begin(), kPairKinds.end(), [&](PairKind k) { return name_of(k) == word; });
-  if (kind == kPairKinds.end()) lines.fail("the kind of pair is vf, ee or self, not '" + std::string(word) + "'");
+  if (kind == kPairKinds.end())
+    lines.fail("the kind of pair is vf, ee, self or overlap, not '" + std::string(word) + "'");
   return *kind;
 }
 

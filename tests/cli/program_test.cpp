@@ -31,6 +31,9 @@ TEST(Program, UnknownSubcommandIsUsage) {
   const auto result = run_program({"knit"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("knit"), std::string::npos) << result.err;
+  const auto with_options = run_program({"knit", "run", "-o", "x.npz"});
+  EXPECT_EQ(with_options.exit_code, 2);
+  EXPECT_NE(with_options.err.find("no subcommand 'knit'"), std::string::npos) << with_options.err;
 }
 
 }  // namespace selvage

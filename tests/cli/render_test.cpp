@@ -135,6 +135,16 @@ TEST(RenderCommand, WritesASheetOfTheFramesAskedFor) {
   EXPECT_EQ(static_cast<unsigned char>(png[19]), 200) << "width";
 }
 
+TEST(RenderCommand, OnlyPngIsDrawn) {
+  const testing::TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", picture = folder.path() / "a.jpg";
+  testing::spit(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto result = testing::run_program(folder, {"render", mesh, "-o", picture});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("only PNG"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
 TEST(RenderCommand, AFrameThatIsNotThereIsUsage) {
   const testing::TemporaryFolder folder;
   testing::spit(folder.path() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

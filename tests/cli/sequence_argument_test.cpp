@@ -69,7 +69,8 @@ TEST(SequenceArgument, WhatIsReadIsNotOverwritten) {
       {"verify", mesh, "--json", mesh},
       {"verify", mesh, "--json", folder.path() / "." / "a.obj"},
       {"verify", cloth, "--base", mesh, "--json", mesh},
-      {"render", cloth, "--base", mesh, "-o", cloth},
+      {"verify", mesh, "--html", mesh},
+      {"view", mesh, "-o", mesh},
       {"merge", report, "-o", report},
   };
   for (const auto& arguments : cases) {
