@@ -56,6 +56,7 @@ coverage: setup  ## every line and branch of the kernel is tested, but for those
 	cmake -DSOURCE=. -DBUILD=build/coverage -P cmake/coverage.cmake
 
 fuzz: build  ## a minute of fuzzing against the exact checker
+	rm -rf build/artifacts
 	$(SELVAGE) fuzz --time 60s --artifacts build/artifacts
 
 docs:  ## the reference of the kernel's public API, in build/docs/html

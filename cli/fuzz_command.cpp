@@ -1,191 +1,178 @@
 #include "cli/fuzz_command.h"
 
 #include <algorithm>
-#include <chrono>
-#include <map>
 #include <memory>
 #include <optional>
-#include <vector>
+#include <string>
+#include <thread>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/fuzz_table.h"
 #include "cli/interrupt.h"
+#include "cli/shard.h"
 #include "cli/terminal.h"
-#include "fuzz/campaign.h"
-#include "io/atomic_file.h"
+#include "fuzz/driver.h"
 
 namespace selvage::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 struct Arguments {
   std::vector<std::string> properties;
-  std::int64_t cases = 1000;
+  std::int64_t cases = 0;
   std::string time;
   std::uint64_t seed = 1;
-  std::string artifacts = "fuzz-artifacts";
+  int jobs = 0;
+  std::string artifacts = "fuzz-artifacts", shard = "1/1", only;
+  double case_time_s = 10;
+  bool resume = false, list = false;
 };
 
-/// Cases of each class in one round; a time limit ends a campaign between rounds, so that all classes get their share.
-constexpr std::int64_t kRound = 500;
-/// Kept cases a class and kind; all failures are counted.
-constexpr std::int64_t kKeptPerClass = 5;
-
-struct Row {
-  const fuzz::QueryClass* query_class = nullptr;
-  PairKind kind = PairKind::kVf;
-  fuzz::Tally tally;
-};
-
-std::optional<std::chrono::duration<double>> parse_time(const std::string& text) {
-  if (text.empty()) return std::nullopt;
+double parse_seconds(const std::string& text) {
   std::size_t used = 0;
   double amount = 0;
   try {
     amount = std::stod(text, &used);
   } catch (const std::logic_error&) {
-    throw UsageError("--time wants seconds, minutes or hours, as in 60s, 10m, 2h");
+    throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
   }
   const std::string unit = text.substr(used);
-  const double scale = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
-  if (!(amount > 0) || scale == 0) throw UsageError("--time wants seconds, minutes or hours, as in 60s, 10m, 2h");
-  return std::chrono::duration<double>(amount * scale);
+  const double scale = unit.empty() || unit == "s" ? 1
+                       : unit == "m"               ? 60
+                       : unit == "h"               ? 3600
+                       : unit == "d"               ? 86400
+                                                   : 0;
+  if (!(amount > 0) || scale == 0)
+    throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
+  return amount * scale;
 }
 
-std::vector<const fuzz::QueryProperty*> chosen_properties(const std::vector<std::string>& names) {
-  std::vector<const fuzz::QueryProperty*> chosen;
-  for (const fuzz::QueryProperty& property : fuzz::query_properties()) {
-    const bool named = std::find(names.begin(), names.end(), property.name) != names.end();
-    if (named || names.empty()) chosen.push_back(&property);
+fuzz::Properties chosen_properties(const std::vector<std::string>& names) {
+  fuzz::Properties all = fuzz::all_properties(), chosen;
+  for (const std::string& name : names) {
+    const auto known = [&](const auto& property) { return property && property->name() == name; };
+    if (std::ranges::none_of(all, known)) throw UsageError("there is no property '" + name + "'; see --list");
+  }
+  for (auto& property : all) {
+    if (names.empty() || std::ranges::find(names, property->name()) != names.end())
+      chosen.push_back(std::move(property));
   }
   return chosen;
 }
 
-std::string kept_name(const fuzz::Failure& failure, std::uint64_t seed) {
-  return fmt::format("{}-{}-{}-{}-{}.case", failure.property, failure.query_class,
-                     fuzz::name_of(failure.kept.query.kind), seed, failure.number);
+/// "STREAM:NUMBER" of the only property.
+ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
+  const std::size_t colon = arguments.only.rfind(':');
+  std::string name = arguments.only.substr(0, colon);
+  std::ranges::replace(name, '/', ' ');
+  if (properties.size() != 1 || colon == std::string::npos) {
+    throw UsageError("--only wants one property, and STREAM:NUMBER as the table prints it");
+  }
+  fuzz::Property& property = *properties.front();
+  const auto stream = std::ranges::find(property.streams(), name, &fuzz::Stream::name);
+  if (stream == property.streams().end())
+    throw UsageError("--only: " + property.name() + " has no stream '" + name + "'");
+  property.start();
+  const std::string failure =
+      fuzz::run_case(property, *stream, arguments.seed, std::stoll(arguments.only.substr(colon + 1)));
+  fmt::print("{}\n", failure.empty() ? "holds" : failure);
+  return failure.empty() ? ExitCode::kClean : ExitCode::kViolation;
 }
 
-/// One property over all classes, round by round. Writes each failure before anything else happens.
-class Campaign {
+/// One line that overwrites itself, where a person watches.
+class StatusLine {
  public:
-  Campaign(const fuzz::QueryProperty& property, const Arguments& arguments)
-      : property_(property), arguments_(arguments) {
-    for (const fuzz::Chunk& chunk : fuzz::make_chunks(0, std::int64_t{1} << 40)) {
-      rows_.push_back({chunk.query_class, chunk.kind, {}});
-    }
+  explicit StatusLine(const fuzz::Driver& driver) : driver_(driver), enabled_(is_terminal(2)) {}
+  ~StatusLine() {
+    if (enabled_) fmt::print(stderr, "\r\033[K");
   }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Runs until `cases` a class or the deadline. False: interrupted.
-  bool run(std::int64_t cases, const std::optional<Clock::time_point>& deadline) {
-    ProgressBar bar(std::string(property_.name));
-    for (std::int64_t first = 0; first < cases; first += kRound) {
-      const std::vector<fuzz::Chunk> chunks = fuzz::make_chunks(first, std::min(kRound, cases - first));
-      std::size_t done = 0;
-      for (const fuzz::Chunk& chunk : chunks) {
-        if (interrupted()) return false;
-        row_of(chunk).tally += fuzz::run_chunk(property_, fuzz::selvage_kernel, arguments_.seed, chunk,
-                                               [&](const fuzz::Failure& failure) { keep(failure, chunk); });
-        bar.update(++done, chunks.size());
-      }
-      if (deadline && Clock::now() >= *deadline) break;
-    }
-    return true;
-  }
-
-  /// The table; returns whether everything held.
-  bool report() const {
-    const bool bands_apply = property_.name == "ccd";
-    fmt::print("{}: {}\n", property_.name, property_.promise);
-    fmt::print("  {:<33} {:<4} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9} {:>8}\n", "class", "kind", "queries", "touches",
-               "hits", "alarms", "unresolved", "undecided", "failures");
-    fuzz::Tally total;
-    bool held = true;
-    for (const Row& row : rows_) {
-      const fuzz::Tally& tally = row.tally;
-      if (tally.cases == 0) continue;
-      total += tally;
-      const bool idle = fuzz::is_unresolved_too_often(row.kind, tally);
-      const bool dead = bands_apply && fuzz::is_out_of_band(*row.query_class, row.kind, tally);
-      fmt::print("  {:<33} {:<4} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9} {:>8}{}\n", row.query_class->name,
-                 fuzz::name_of(row.kind), tally.cases, tally.touches, tally.hits, tally.alarms, tally.unresolved,
-                 tally.undecided, tally.failures,
-                 dead   ? "  hits outside the declared band"
-                 : idle ? "  unresolved too often"
-                        : "");
-      held = held && !dead && !idle;
-    }
-    fmt::print("  {:<33} {:<4} {:>9} {:>9} {:>9} {:>9} {:>10} {:>9} {:>8}\n", "all", "", total.cases, total.touches,
-               total.hits, total.alarms, total.unresolved, total.undecided, total.failures);
-    return held && total.failures == 0;
+  void update(const fuzz::DriverStatus& status) const {
+    if (!enabled_) return;
+    std::int64_t findings = 0;
+    for (const auto& property : driver_.ledger().properties)
+      findings += static_cast<std::int64_t>(property.findings.size());
+    fmt::print(stderr, "\r\033[K{:.0f} s  {} cases  {:.0f} a second  {} kinds of failure", status.seconds, status.cases,
+               static_cast<double>(status.cases) / std::max(status.seconds, 0.1), findings);
   }
 
  private:
-  Row& row_of(const fuzz::Chunk& chunk) {
-    const auto same = [&](const Row& row) { return row.query_class == chunk.query_class && row.kind == chunk.kind; };
-    return *std::find_if(rows_.begin(), rows_.end(), same);
-  }
-
-  void keep(const fuzz::Failure& failure, const fuzz::Chunk& chunk) {
-    if (++kept_[{chunk.query_class, chunk.kind}] > kKeptPerClass) return;
-    const std::filesystem::path folder = arguments_.artifacts;
-    std::filesystem::create_directories(folder);
-    const std::filesystem::path file = folder / kept_name(failure, arguments_.seed);
-    io::write_atomically(file, fuzz::format_case(failure.kept));
-    fmt::print(stderr, "{}: {} {}, kept as {}\n", failure.property, failure.query_class, failure.what, file.string());
-  }
-
-  const fuzz::QueryProperty& property_;
-  const Arguments& arguments_;
-  std::vector<Row> rows_;
-  std::map<std::pair<const fuzz::QueryClass*, PairKind>, std::int64_t> kept_;
+  const fuzz::Driver& driver_;
+  bool enabled_;
 };
 
-ExitCode fuzz_queries(const Arguments& arguments) {
-  const auto limit = parse_time(arguments.time);
-  const auto properties = chosen_properties(arguments.properties);
-  bool held = true;
-  for (const fuzz::QueryProperty* property : properties) {
-    std::optional<Clock::time_point> deadline;
-    std::int64_t cases = arguments.cases;
-    if (limit) {
-      const auto share = std::chrono::duration_cast<Clock::duration>(*limit / static_cast<double>(properties.size()));
-      deadline = Clock::now() + share;
-      cases = std::int64_t{1} << 40;  // until then
-    }
-    Campaign campaign(*property, arguments);
-    const bool finished = campaign.run(cases, deadline);
-    held = campaign.report() && held;
-    if (!finished) return held ? ExitCode::kInterrupted : ExitCode::kViolation;
+fuzz::DriverOptions driver_options(const Arguments& arguments) {
+  fuzz::DriverOptions options;
+  options.cases = arguments.cases;
+  if (!arguments.time.empty()) options.seconds = parse_seconds(arguments.time);
+  if (arguments.time.empty() && arguments.cases == 0) options.seconds = 60;
+  options.seed = arguments.seed;
+  options.jobs =
+      arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.folder = arguments.artifacts;
+  const Shard shard = parse_shard(arguments.shard);
+  options.shard = static_cast<std::int64_t>(shard.index);
+  options.shards = static_cast<std::int64_t>(shard.count);
+  options.resume = arguments.resume;
+  options.case_seconds = arguments.case_time_s;
+  options.version = SELVAGE_VERSION;
+  return options;
+}
+
+ExitCode run(const Arguments& arguments) {
+  fuzz::Properties properties = chosen_properties(arguments.properties);
+  if (arguments.list) {
+    fmt::print("{}", fuzz_list(properties));
+    return ExitCode::kClean;
   }
-  return held ? ExitCode::kClean : ExitCode::kViolation;
+  if (!arguments.only.empty()) return run_only(arguments, properties);
+  fuzz::Driver driver(properties, driver_options(arguments));
+  bool finished = false;
+  {
+    const StatusLine line(driver);
+    finished = driver.run(interrupted, [&](const fuzz::DriverStatus& status) { line.update(status); });
+  }
+  const FuzzTable table = fuzz_table(driver.ledger(), properties, arguments.artifacts);
+  const fuzz::DriverStatus& status = driver.status();
+  fmt::print("{}{} cases in {:.1f} s, {:.1f} s of processor time: {:.0f} a second\n", table.text, status.cases,
+             status.seconds, status.processor_seconds,
+             static_cast<double>(status.cases) / std::max(status.seconds, 1e-3));
+  if (!table.held) return ExitCode::kViolation;
+  return finished ? ExitCode::kClean : ExitCode::kInterrupted;
 }
 
 }  // namespace
 
 void add_fuzz_command(CLI::App& program, Job& job) {
-  CLI::App& fuzz =
-      add_command(program, "fuzz",
-                  "Attacks the kernel with constructed queries and judges its answers by exact arithmetic. "
-                  "Exit code 1 if a promise broke or a class of queries has gone dead; failures are kept.",
-                  "selvage fuzz ccd --time 60s --seed 7");
+  CLI::App& fuzz = add_command(program, "fuzz",
+                               "Attacks what Selvage promises with constructed cases, judged by exact arithmetic, in "
+                               "worker processes. Exit code 1 if a promise broke or a class of cases has gone dead; "
+                               "failures are shrunk and kept. docs/fuzzing.md says more",
+                               "selvage fuzz ccd --time 60s --seed 7");
   const auto arguments = std::make_shared<Arguments>();
-  std::vector<std::string> names;
-  for (const fuzz::QueryProperty& property : fuzz::query_properties()) names.emplace_back(property.name);
   fuzz.add_option("PROPERTY", arguments->properties,
-                  "Which promises to attack: " + fmt::format("{}", fmt::join(names, ", ")) + "; all if none is named")
-      ->check(CLI::IsMember(names));
-  auto* cases = fuzz.add_option("--cases", arguments->cases, "Queries of each class and kind, for each property")
-                    ->check(CLI::PositiveNumber)
-                    ->capture_default_str();
-  fuzz.add_option("--time", arguments->time, "Instead of --cases: run this long in all, as in 60s, 10m, 2h")
+                  "Which promises to attack, as --list names them; all if none is named");
+  auto* cases = fuzz.add_option("--cases", arguments->cases, "Cases of each property, rounded up to whole work units")
+                    ->check(CLI::PositiveNumber);
+  fuzz.add_option("--time", arguments->time, "Or run this long in all, as in 60s (the default), 10m, 2h, 7d")
       ->excludes(cases);
   fuzz.add_option("--seed", arguments->seed, "Cases depend on it alone")->capture_default_str();
-  fuzz.add_option("--artifacts", arguments->artifacts, "Folder for kept failures; made when the first one is found")
+  fuzz.add_option("--jobs", arguments->jobs, "Worker processes; as many as there are processors if not given")
+      ->check(CLI::PositiveNumber);
+  fuzz.add_option("--artifacts", arguments->artifacts, "Folder for campaign.json, stats.jsonl and kept cases")
       ->capture_default_str();
-  fuzz.callback([arguments, &job] { job = [arguments] { return fuzz_queries(*arguments); }; });
+  fuzz.add_flag("--resume", arguments->resume, "Continue the campaign in that folder, where there is one");
+  fuzz.add_option("--shard", arguments->shard, "A part of the campaign, i/N or auto (Slurm); selvage merge joins them")
+      ->capture_default_str();
+  fuzz.add_option("--case-time", arguments->case_time_s, "Seconds of processor time after which a case is a hang")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  fuzz.add_option("--only", arguments->only, "Run one case again, STREAM:NUMBER as the table prints it");
+  fuzz.add_flag("--list", arguments->list, "Say what each property promises, and end");
+  fuzz.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }
 
 }  // namespace selvage::cli

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/exit_code.h"
+#include "cli/merge_campaigns.h"
 #include "cli/page/report_page.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
@@ -38,6 +39,8 @@ std::vector<fs::path> reports_in(const fs::path& folder, const fs::path& output)
 }
 
 ExitCode run(const Arguments& arguments) {
+  const std::vector<fs::path> sources(arguments.sources.begin(), arguments.sources.end());
+  if (are_campaigns(sources)) return merge_campaigns(sources, arguments.output);
   std::vector<fs::path> files;
   for (const std::string& source : arguments.sources) {
     if (fs::is_directory(source)) {
@@ -73,11 +76,17 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 void add_merge_command(CLI::App& program, Job& job) {
-  CLI::App& command = add_command(program, "merge", "Join the reports of shards: all of them, or it is an error",
-                                  "selvage merge shards/ -o report.json");
+  CLI::App& command = add_command(
+      program, "merge", "Join what shards of selvage verify or selvage fuzz have done: all of them, or it is an error",
+      "selvage merge shards/ -o report.json");
   const auto arguments = std::make_shared<Arguments>();
-  command.add_option("REPORT", arguments->sources, "Reports of selvage verify --shard, or folders of them")->required();
-  command.add_option("-o,--output", arguments->output, "The report on the whole sequence")
+  command
+      .add_option("REPORT", arguments->sources,
+                  "Reports of selvage verify --shard or folders of them; or folders of selvage fuzz --shard")
+      ->required();
+  command
+      .add_option("-o,--output", arguments->output,
+                  "The report on the whole sequence, or the folder of the whole campaign")
       ->type_name("FILE")
       ->required();
   command

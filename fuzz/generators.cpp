@@ -99,7 +99,7 @@ std::vector<QueryClass> make_classes() {
       {'G', 50, "mixed-coordinates", mixed_by(30), Bands{HitBand{0.131, 0.177}, HitBand{0.169, 0.229}, std::nullopt}},
       {'G', 1, "any-exponent", mixed_by(900), Bands{HitBand{0.05, 0.35}, HitBand{0.05, 0.35}, std::nullopt}, false, 64},
       {'I', 3700, "uniform", make::uniform, Bands{HitBand{0.059, 0.08}, HitBand{0.175, 0.236}, std::nullopt}},
-      {'J', 9000, "recorded", make::recorded, Bands{HitBand{0.012, 0.023}, HitBand{0.013, 0.025}, std::nullopt}},
+      {'J', 9000, "recorded", make::recorded, Bands{HitBand{0.005, 0.06}, HitBand{0.005, 0.06}, std::nullopt}},
   };
   classes.insert(classes.end(), others.begin(), others.end());
   return classes;

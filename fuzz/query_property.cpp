@@ -22,6 +22,8 @@ Observation check_ccd(const MotionQuery& query, CcdKernel kernel, ChoiceSource& 
   seen.touches = judgement.touches;
   seen.hit = judgement.hit;
   seen.undecided = judgement.gap_unknown;
+  seen.exact_used = judgement.exact_used;
+  seen.near_miss_bits = judgement.near_miss_bits;
   if (judgement.disagreement != Disagreement::kNone) seen.failure = name_of(judgement.disagreement);
   return seen;
 }

@@ -17,6 +17,8 @@ struct Observation {
   bool hit = false;         ///< touches or ends within tolerance: must not be answered `separated`
   bool alarm = false;       ///< answered `collides`
   bool unresolved = false;  ///< answered `unresolved` although the limit was the default one
+  bool exact_used = false;  ///< no filter of the checker decided whether they touch
+  int near_miss_bits = 0;   ///< as in Judgement
   bool undecided = false;   ///< the oracle could not decide within its own limit
 };
 

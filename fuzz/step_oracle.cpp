@@ -115,6 +115,8 @@ std::string_view name_of(StepDefect defect) {
       return "energy";
     case StepDefect::kInterferes:
       return "interferes";
+    case StepDefect::kNotRefused:
+      return "not-refused";
     case StepDefect::kOutsideDomain:
       break;
   }
@@ -153,8 +155,23 @@ StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Posit
   return has_scripted(world) ? StepDefect::kNone : check_balances(world, x_t0, candidate, result);
 }
 
+namespace {
+
+/// One candidate coordinate is no number: nothing may be done.
+bool refuses_nan(ChoiceSource& source, const StepWorld& world, const Positions& x, const StepFunction& step) {
+  Positions candidate = x;
+  const auto place = static_cast<Eigen::Index>(source.n(static_cast<std::uint32_t>(x.size())));
+  candidate.reshaped()[place] = source.coin() ? std::numeric_limits<double>::infinity() : std::nan("");
+  return step(world, x, candidate).report.status == sim::StepStatus::kInvalidInput;
+}
+
+}  // namespace
+
 StepObservation run_steps(ChoiceSource& source, const StepFunction& step) {
-  const StepWorld world = make_step_world(source);
+  return run_steps(source, make_step_world(source), step);
+}
+
+StepObservation run_steps(ChoiceSource& source, const StepWorld& world, const StepFunction& step) {
   StepObservation seen;
   seen.surface = world.surface;
   seen.x_t0 = world.x;
@@ -171,6 +188,7 @@ StepObservation run_steps(ChoiceSource& source, const StepFunction& step) {
     if (seen.defect != StepDefect::kNone) return seen;
     seen.x_t0 = result.x;
   }
+  if (source.one_in(8) && !refuses_nan(source, world, seen.x_t0, step)) seen.defect = StepDefect::kNotRefused;
   return seen;
 }
 

@@ -21,6 +21,7 @@ enum class StepDefect : std::uint8_t {
   kMomentum,       ///< S3: linear momentum changed, with nothing scripted and no fail-safe
   kEnergy,         ///< S3: kinetic energy grew by inelastic impulses
   kInterferes,     ///< no pair was near or collided, and yet the candidates were changed
+  kNotRefused,     ///< a candidate that is not a number was not called invalid
   kOutsideDomain,  ///< a coordinate beyond kMaxCoordinate, or a velocity that is not finite
 };
 [[nodiscard]] std::string_view name_of(StepDefect defect);
@@ -46,5 +47,6 @@ struct StepObservation {
 
 /// A world and one to four steps in a row, each from the positions that the last one returned, judged one by one.
 [[nodiscard]] StepObservation run_steps(ChoiceSource& source, const StepFunction& step);
+[[nodiscard]] StepObservation run_steps(ChoiceSource& source, const StepWorld& world, const StepFunction& step);
 
 }  // namespace selvage::fuzz

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "fuzz/surface_makers.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
@@ -123,7 +122,10 @@ std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult&
 
 StepWorld make_step_world(ChoiceSource& source) {
   const std::vector<SurfaceClass>& classes = surface_classes();
-  const SurfaceClass& surface = classes[source.n(static_cast<std::uint32_t>(classes.size()))];
+  return make_step_world(source, classes[source.n(static_cast<std::uint32_t>(classes.size()))]);
+}
+
+StepWorld make_step_world(ChoiceSource& source, const SurfaceClass& surface) {
   const SurfaceDraft draft = surface.make(source);
   Setting setting = choose_setting(source);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fuzz/choice_source.h"
+#include "fuzz/surface_makers.h"
 #include "sim/collision_step.h"
 #include "verify/check.h"
 
@@ -35,6 +36,8 @@ struct StepWorld {
 /// between bodies; with noise, offset 2^k, scale 2^k, masses, tolerances and thicknesses chosen from `source`.
 /// What rounding would make intersect is made again without noise and offset, so the state is always clean.
 [[nodiscard]] StepWorld make_step_world(ChoiceSource& source);
+/// The same with a surface of this class.
+[[nodiscard]] StepWorld make_step_world(ChoiceSource& source, const SurfaceClass& surface);
 
 /// Number and names of the ways to choose candidate positions.
 [[nodiscard]] const std::vector<std::string_view>& candidate_classes();

@@ -280,6 +280,8 @@ Scene parse_scene(std::string_view text, const std::string& name, Quality qualit
   } catch (const toml::parse_error& error) {
     throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}; correct the TOML syntax", name,
                                                           error.source().begin.line, error.description()));
+  } catch (const TomlConfusion& error) {
+    throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {}; correct the TOML syntax", name, error.what()));
   }
 }
 

@@ -8,11 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include <toml++/toml.h>
-
 #include "io/error.h"
 #include "kernel/types.h"
 #include "sim/scene.h"
+#include "sim/toml_parser.h"
 
 namespace selvage::sim {
 

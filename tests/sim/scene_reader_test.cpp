@@ -91,6 +91,13 @@ TEST(SceneReader, EveryErrorNamesItsLineAndARemedy) {
   }
 }
 
+// toml++ ends the program on these, by an assertion; found by `selvage fuzz files`.
+TEST(SceneReader, MalformedTomlIsAnErrorNotAnAbort) {
+  for (const char* text : {"[ = {nx = 2}\n", "[time]\nframes = 2\n[ = 1\n", "a = \n]\n"}) {
+    EXPECT_THROW((void)parse_scene(text, "bad.toml"), io::Error) << text;
+  }
+}
+
 TEST(SceneReader, DefaultsAreThePapers) {
   const Scene scene = parse_scene(kScene, "scene.toml");
   EXPECT_EQ(scene.collision.thickness_m, 1e-3);

@@ -1,0 +1,261 @@
+#include "fuzz/driver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <set>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <poll.h>
+
+#include "fuzz/campaign_stats.h"
+#include "io/atomic_file.h"
+#include "kernel/assert.h"
+
+namespace selvage::fuzz {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kTick_ms = 100;
+constexpr double kSaveEvery_s = 1;
+/// A stream that killed so many workers is not run any more in this run: each costs a process, a hang costs seconds.
+constexpr int kMaxCrashes = 20, kMaxHangs = 2;
+
+}  // namespace
+
+struct Driver::Team {
+  explicit Team(const WorkerSetting& setting) : worker(setting) {}
+  WorkerProcess worker;
+  std::vector<Event> failures;
+};
+
+struct Driver::Share {
+  double seconds = 0;       ///< spent, those in hand estimated
+  double unit_seconds = 0;  ///< of the last unit
+  std::set<std::int64_t> in_hand;
+  std::int64_t next = 0;  ///< lowest unit of the shard that may be open
+  std::vector<bool> is_skipped;
+  std::vector<int> deaths;
+  std::set<std::pair<std::string, std::string>> being_kept;
+};
+
+Driver::Driver(Properties& properties, DriverOptions options)
+    : properties_(properties),
+      options_(std::move(options)),
+      ledger_(make_ledger(properties)),
+      setting_{properties, options_.seed, options_.folder} {
+  ledger_.version = options_.version;
+  ledger_.target = options_.target;
+  ledger_.seed = options_.seed;
+  ledger_.cases = options_.cases;
+  ledger_.shard = options_.shard;
+  ledger_.shards = options_.shards;
+  const std::filesystem::path file = options_.folder / kLedgerFile;
+  if (std::filesystem::exists(file)) {
+    if (!options_.resume) {
+      throw io::Error(
+          io::ErrorKind::kBadInput,
+          file.string() + ": there is a campaign already; continue it with --resume or name another folder");
+    }
+    Ledger known = parse_ledger(io::read_file(file), file.string());
+    known.cases = ledger_.cases;  // more may be asked for than the last time
+    Ledger blank = known;
+    for (PropertyLedger& property : blank.properties) {
+      property.units = {};
+      property.findings.clear();
+      for (Counts& row : property.rows) row = {};
+    }
+    if (blank != ledger_) {
+      throw io::Error(io::ErrorKind::kBadInput,
+                      file.string() + ": is of another campaign: seed, shard, properties, target or version differ");
+    }
+    ledger_ = std::move(known);
+  }
+  for (const auto& property : properties_) {
+    Share share;
+    share.next = options_.shard - 1;
+    share.is_skipped.resize(property->streams().size());
+    share.deaths.resize(property->streams().size());
+    SELVAGE_ASSERT(property->streams().size() <= Progress::kMaxStreams);
+    shares_.push_back(std::move(share));
+  }
+}
+
+Driver::~Driver() = default;
+
+bool Driver::run(const std::function<bool()>& stop, const std::function<void(const DriverStatus&)>& watch) {
+  std::signal(SIGPIPE, SIG_IGN);  // a worker that died shows at its other pipe
+  std::filesystem::create_directories(options_.folder);
+  save();
+  for (int i = 0; i < options_.jobs; ++i) teams_.push_back(std::make_unique<Team>(setting_));
+  const auto start = Clock::now();
+  auto last_save = start;
+  bool stopped = false;
+  while (true) {
+    status_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    stopped = stopped || stop();
+    const bool stopping = stopped || (options_.seconds && status_.seconds >= *options_.seconds);
+    std::vector<pollfd> waits;
+    std::vector<Team*> busy;
+    for (const auto& team : teams_) {
+      if (!team->worker.job() && !assign(*team, stopping)) continue;
+      waits.push_back({team->worker.events(), POLLIN, 0});
+      busy.push_back(team.get());
+    }
+    if (busy.empty()) break;
+    if (poll(waits.data(), waits.size(), kTick_ms) < 0 && errno != EINTR) throw std::runtime_error("poll failed");
+    for (std::size_t i = 0; i < busy.size(); ++i) {
+      if (waits[i].revents != 0) hear(*busy[i]);
+      busy[i]->worker.watch(options_.case_seconds);
+    }
+    watch(status_);
+    if (is_dirty_ && std::chrono::duration<double>(Clock::now() - last_save).count() >= kSaveEvery_s) {
+      save();
+      last_save = Clock::now();
+    }
+  }
+  save();
+  teams_.clear();
+  return !stopped;
+}
+
+bool Driver::assign(Team& team, bool stopping) {
+  const std::optional<Job> job = next_job(stopping);
+  if (!job) return false;
+  team.failures.clear();
+  team.worker.give(*job, shares_[static_cast<std::size_t>(job->property)].is_skipped);
+  return true;
+}
+
+std::optional<Job> Driver::next_job(bool stopping) {
+  for (std::size_t p = 0; p < shares_.size(); ++p) {
+    for (const auto& [key, finding] : ledger_.properties[p].findings) {
+      if (!finding.file.empty() || shares_[p].being_kept.contains(key)) continue;
+      Job job;
+      job.kind = Job::Kind::kKeep;
+      job.property = static_cast<std::int32_t>(p);
+      const auto& streams = ledger_.properties[p].streams;
+      job.stream = static_cast<std::int32_t>(std::ranges::find(streams, key.first) - streams.begin());
+      job.number = finding.number;
+      key.second.copy(job.failure, kFailureWord - 1);
+      const bool survives = !key.second.starts_with("crashed") && key.second != "hung" && key.second != "exited";
+      job.shrunk = survives && key.second != "threw" ? 1 : 0;
+      shares_[p].being_kept.insert(key);
+      return job;
+    }
+  }
+  if (stopping) return std::nullopt;
+  std::optional<std::size_t> chosen;
+  for (std::size_t p = 0; p < shares_.size(); ++p) {
+    Share& share = shares_[p];
+    while (ledger_.properties[p].units.contains(share.next) || share.in_hand.contains(share.next)) {
+      share.next += options_.shards;
+    }
+    const auto end = unit_count(*properties_[p], options_.cases);
+    if (end && share.next >= *end) continue;
+    const auto cost = [&](std::size_t i) { return shares_[i].seconds / properties_[i]->weight(); };
+    if (!chosen || cost(p) < cost(*chosen)) chosen = p;
+  }
+  if (!chosen) return std::nullopt;
+  Share& share = shares_[*chosen];
+  share.in_hand.insert(share.next);
+  share.seconds += share.unit_seconds;
+  Job job;
+  job.property = static_cast<std::int32_t>(*chosen);
+  job.number = share.next;
+  return job;
+}
+
+void Driver::hear(Team& team) {
+  const std::optional<Event> event = team.worker.receive_event();
+  if (!event) {
+    take_death(team);
+  } else if (event->kind == Event::Kind::kFailure) {
+    team.failures.push_back(*event);
+  } else {
+    take_done(team, *event);
+  }
+}
+
+void Driver::take_done(Team& team, const Event& done) {
+  const Job job = *team.worker.job();
+  team.worker.finish();
+  status_.processor_seconds += done.seconds;
+  is_dirty_ = true;
+  const auto p = static_cast<std::size_t>(job.property);
+  PropertyLedger& property = ledger_.properties[p];
+  Share& share = shares_[p];
+  if (job.kind == Job::Kind::kKeep) {
+    const std::pair<std::string, std::string> key{property.streams[static_cast<std::size_t>(job.stream)], job.failure};
+    share.being_kept.erase(key);
+    Finding& finding = property.findings.at(key);
+    // A lower case may have failed meanwhile: then that one is kept instead.
+    const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
+    if (finding.number == job.number) finding.file = kept_name(*properties_[p], stream, job.failure);
+    return;
+  }
+  share.seconds += done.seconds - share.unit_seconds;
+  share.unit_seconds = done.seconds;
+  share.in_hand.erase(job.number);
+  property.units.insert(job.number);
+  for (std::size_t i = 0; i < property.rows.size(); ++i) {
+    property.rows[i] += team.worker.progress().rows[i];
+    status_.cases += team.worker.progress().rows[i].cases;
+  }
+  for (const Event& failure : team.failures) {
+    const auto stream = static_cast<std::size_t>(failure.stream);
+    const std::pair<std::string, std::string> key{property.streams.at(stream), failure.failure};
+    auto [place, is_new] = property.findings.try_emplace(key, Finding{0, failure.number, {}});
+    ++place->second.count;
+    if (failure.number < place->second.number) place->second = {place->second.count, failure.number, {}};
+  }
+}
+
+void Driver::take_death(Team& team) {
+  const Death death = team.worker.bury();
+  SELVAGE_ASSERT(team.worker.job().has_value());
+  const Job job = *team.worker.job();
+  if (death.at_start) throw std::runtime_error("a worker " + death.failure + " before it could run a case");
+  const auto p = static_cast<std::size_t>(job.property);
+  Share& share = shares_[p];
+  if (job.kind == Job::Kind::kKeep) {
+    if (death.failure == "exited") throw std::runtime_error("a worker could not keep a case");
+    // Shrinking ran into a case that kills: what was written first stays.
+    team.worker.revive();
+    Event done;
+    PropertyLedger& property = ledger_.properties[p];
+    const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
+    property.findings.at({stream.name, job.failure}).file = kept_name(*properties_[p], stream, job.failure);
+    share.being_kept.erase({stream.name, job.failure});
+    is_dirty_ = true;
+    return;
+  }
+  Progress& progress = team.worker.progress();
+  const auto stream = static_cast<std::size_t>(progress.stream);
+  Event failure;
+  failure.kind = Event::Kind::kFailure;
+  failure.stream = progress.stream;
+  failure.number = job.number * properties_[p]->streams()[stream].per_unit + progress.number;
+  death.failure.copy(failure.failure, kFailureWord - 1);
+  team.failures.push_back(failure);
+  progress.rows[stream] += {1, 1, {}, 0};
+  ++progress.number;
+  const int limit = death.failure == "hung" ? kMaxHangs : kMaxCrashes;
+  if (++share.deaths[stream] >= limit) share.is_skipped[stream] = progress.is_skipped[stream] = true;
+  team.worker.revive();
+}
+
+void Driver::save() {
+  io::write_atomically(options_.folder / kLedgerFile, to_json(ledger_));
+  append_stats();
+  is_dirty_ = false;
+}
+
+void Driver::append_stats() const {
+  const io::PosixFile file(options_.folder / kStatsFile, O_WRONLY | O_CREAT | O_APPEND);
+  file.write(stats_line(ledger_, status_));
+}
+
+}  // namespace selvage::fuzz

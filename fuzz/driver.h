@@ -1,0 +1,69 @@
+// Runs a campaign: gives work units to worker processes, joins what they find, and writes down what is done.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "fuzz/ledger.h"
+#include "fuzz/worker_process.h"
+
+namespace selvage::fuzz {
+
+struct DriverOptions {
+  std::optional<double> seconds;  ///< none: until `cases`
+  std::int64_t cases = 0;         ///< of each property, rounded up to work units; 0: without end
+  std::uint64_t seed = 1;
+  int jobs = 1;                  ///< worker processes
+  std::filesystem::path folder;  ///< campaign.json, stats.jsonl and kept cases
+  std::int64_t shard = 1, shards = 1;
+  bool resume = false;
+  double case_seconds = 10;  ///< longest a case may take
+  std::string version, target = "selvage";
+};
+
+struct DriverStatus {
+  double seconds = 0, processor_seconds = 0;  ///< of this run
+  std::int64_t cases = 0;                     ///< of this run
+};
+
+/// The names of the files in a campaign's folder.
+inline constexpr const char* kLedgerFile = "campaign.json";
+inline constexpr const char* kStatsFile = "stats.jsonl";
+
+class Driver {
+ public:
+  /// Throws io::Error: a folder that holds another campaign, or one that is not to be resumed.
+  Driver(Properties& properties, DriverOptions options);
+  ~Driver();
+
+  /// Until all is done, the time is over, or `stop` says so: what is in hand is finished and written. `watch` is called
+  /// several times a second. False: stopped. What campaign.json says is done stays done, whatever happens.
+  bool run(const std::function<bool()>& stop, const std::function<void(const DriverStatus&)>& watch);
+
+  [[nodiscard]] const Ledger& ledger() const { return ledger_; }
+  [[nodiscard]] const DriverStatus& status() const { return status_; }
+
+ private:
+  struct Team;   // a worker and what it has reported about its job
+  struct Share;  // of a property: what is given out, and what it cost
+
+  bool assign(Team& team, bool stopping);
+  [[nodiscard]] std::optional<Job> next_job(bool stopping);
+  void hear(Team& team);
+  void take_done(Team& team, const Event& done);
+  void take_death(Team& team);
+  void save();
+  void append_stats() const;
+
+  Properties& properties_;
+  DriverOptions options_;
+  Ledger ledger_;
+  DriverStatus status_;
+  WorkerSetting setting_;
+  std::vector<Share> shares_;
+  std::vector<std::unique_ptr<Team>> teams_;
+  bool is_dirty_ = false;
+};
+
+}  // namespace selvage::fuzz

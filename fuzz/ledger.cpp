@@ -1,0 +1,84 @@
+#include "fuzz/ledger.h"
+
+#include <algorithm>
+#include <set>
+
+namespace selvage::fuzz {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why) { throw io::Error(io::ErrorKind::kBadInput, "merge: " + why); }
+
+bool is_same_campaign(const Ledger& a, const Ledger& b) {
+  const auto same = [](const PropertyLedger& p, const PropertyLedger& q) {
+    return p.name == q.name && p.streams == q.streams && p.counters == q.counters;
+  };
+  return a.version == b.version && a.target == b.target && a.seed == b.seed && a.cases == b.cases &&
+         a.shards == b.shards && std::ranges::equal(a.properties, b.properties, same);
+}
+
+void add(PropertyLedger& to, const PropertyLedger& from) {
+  for (const auto& [begin, end] : from.units.ranges()) {
+    if (!to.units.insert(begin, end)) refuse("two shards hold the same work unit of " + to.name);
+  }
+  for (std::size_t i = 0; i < to.rows.size(); ++i) to.rows[i] += from.rows[i];
+  for (const auto& [key, finding] : from.findings) {
+    const auto [place, is_new] = to.findings.try_emplace(key, finding);
+    if (is_new) continue;
+    const std::int64_t count = place->second.count + finding.count;
+    if (finding.number < place->second.number) place->second = finding;
+    place->second.count = count;
+  }
+}
+
+}  // namespace
+
+Counts PropertyLedger::total() const {
+  Counts sum;
+  for (const Counts& row : rows) sum += row;
+  return sum;
+}
+
+std::int64_t unit_size(const Property& property) {
+  std::int64_t size = 0;
+  for (const Stream& stream : property.streams()) size += stream.per_unit;
+  return size;
+}
+
+std::optional<std::int64_t> unit_count(const Property& property, std::int64_t cases) {
+  if (cases == 0) return std::nullopt;
+  const std::int64_t size = unit_size(property);
+  return (cases + size - 1) / size;
+}
+
+Ledger make_ledger(const Properties& properties) {
+  Ledger ledger;
+  for (const auto& property : properties) {
+    PropertyLedger one{property->name(), {}, {}, property->counters(), {}, {}};
+    for (const Stream& stream : property->streams()) one.streams.push_back(stream.name);
+    one.rows.resize(one.streams.size());
+    ledger.properties.push_back(std::move(one));
+  }
+  return ledger;
+}
+
+Ledger merge(const std::vector<Ledger>& parts) {
+  if (parts.empty()) refuse("there is no shard");
+  Ledger merged = parts.front();
+  merged.shard = merged.shards = 1;
+  std::set<std::int64_t> shards{parts.front().shard};
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (!is_same_campaign(parts.front(), parts[i])) {
+      refuse("the shards differ in seed, number of cases, properties, number of shards or version");
+    }
+    if (!shards.insert(parts[i].shard).second) refuse("shard " + std::to_string(parts[i].shard) + " is there twice");
+    for (std::size_t p = 0; p < merged.properties.size(); ++p) add(merged.properties[p], parts[i].properties[p]);
+  }
+  for (std::int64_t shard = 1; shard <= parts.front().shards; ++shard) {
+    if (!shards.contains(shard)) {
+      refuse("shard " + std::to_string(shard) + "/" + std::to_string(parts.front().shards) + " is missing");
+    }
+  }
+  return merged;
+}
+
+}  // namespace selvage::fuzz

@@ -1,0 +1,100 @@
+#include <nlohmann/json.hpp>
+
+#include "fuzz/ledger.h"
+
+namespace selvage::fuzz {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr const char* kSchema = "selvage.fuzz/1";
+
+Json json_of(const PropertyLedger& property) {
+  Json json;
+  json["name"] = property.name;
+  json["units"] = property.units.ranges();
+  json["counters"] = property.counters;
+  Json streams = Json::array();
+  for (std::size_t i = 0; i < property.rows.size(); ++i) {
+    const Counts& row = property.rows[i];
+    const auto used = static_cast<std::ptrdiff_t>(property.counters.size());
+    streams.push_back({{"name", property.streams[i]},
+                       {"cases", row.cases},
+                       {"failures", row.failures},
+                       {"counts", std::vector<std::int64_t>(row.of.begin(), row.of.begin() + used)},
+                       {"nearest_bits", row.nearest_bits}});
+  }
+  json["streams"] = std::move(streams);
+  Json findings = Json::array();
+  for (const auto& [key, finding] : property.findings) {
+    findings.push_back({{"stream", key.first},
+                        {"failure", key.second},
+                        {"count", finding.count},
+                        {"case", finding.number},
+                        {"file", finding.file}});
+  }
+  json["findings"] = std::move(findings);
+  return json;
+}
+
+PropertyLedger property_of(const Json& json) {
+  PropertyLedger property;
+  property.name = json.at("name").get<std::string>();
+  for (const auto& [begin, end] : json.at("units").get<RangeSet::Ranges>()) {
+    if (begin >= end || !property.units.insert(begin, end)) throw std::invalid_argument("units overlap");
+  }
+  property.counters = json.at("counters").get<std::vector<std::string>>();
+  for (const Json& stream : json.at("streams")) {
+    property.streams.push_back(stream.at("name").get<std::string>());
+    Counts row;
+    row.cases = stream.at("cases").get<std::int64_t>();
+    row.failures = stream.at("failures").get<std::int64_t>();
+    row.nearest_bits = stream.at("nearest_bits").get<std::int64_t>();
+    const auto counts = stream.at("counts").get<std::vector<std::int64_t>>();
+    if (counts.size() != property.counters.size() || counts.size() > Counts::kCounters) {
+      throw std::invalid_argument("a stream has not as many counts as there are counters");
+    }
+    std::copy(counts.begin(), counts.end(), row.of.begin());
+    property.rows.push_back(row);
+  }
+  for (const Json& finding : json.at("findings")) {
+    property.findings[{finding.at("stream").get<std::string>(), finding.at("failure").get<std::string>()}] = {
+        finding.at("count").get<std::int64_t>(), finding.at("case").get<std::int64_t>(),
+        finding.at("file").get<std::string>()};
+  }
+  return property;
+}
+
+}  // namespace
+
+std::string to_json(const Ledger& ledger) {
+  Json json;
+  json["schema"] = kSchema;
+  json["version"] = ledger.version;
+  json["target"] = ledger.target;
+  json["seed"] = ledger.seed;
+  json["cases"] = ledger.cases;
+  json["shard"] = {ledger.shard, ledger.shards};
+  json["properties"] = Json::array();
+  for (const PropertyLedger& property : ledger.properties) json["properties"].push_back(json_of(property));
+  return json.dump(1) + "\n";
+}
+
+Ledger parse_ledger(const std::string& text, const std::string& name) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("schema") != kSchema) throw std::invalid_argument("not a " + std::string(kSchema));
+    Ledger ledger;
+    ledger.version = json.at("version").get<std::string>();
+    ledger.target = json.at("target").get<std::string>();
+    ledger.seed = json.at("seed").get<std::uint64_t>();
+    ledger.cases = json.at("cases").get<std::int64_t>();
+    ledger.shard = json.at("shard").at(0).get<std::int64_t>();
+    ledger.shards = json.at("shard").at(1).get<std::int64_t>();
+    for (const Json& property : json.at("properties")) ledger.properties.push_back(property_of(property));
+    return ledger;
+  } catch (const std::exception& error) {  // of nlohmann, or ours
+    throw io::Error(io::ErrorKind::kBadInput, name + ": no ledger of a campaign: " + error.what());
+  }
+}
+
+}  // namespace selvage::fuzz

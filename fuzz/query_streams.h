@@ -1,0 +1,22 @@
+// The query properties as parts of a campaign: a stream for every class and kind.
+#pragma once
+
+#include "fuzz/generators.h"
+#include "fuzz/property.h"
+#include "fuzz/query_property.h"
+
+namespace selvage::fuzz {
+
+/// The class and the kind of a stream "CLASS KIND".
+struct QueryStream {
+  const QueryClass* query_class = nullptr;
+  PairKind kind = PairKind::kVf;
+};
+
+/// Streams for the kinds `kinds`, and what each stands for; per_unit is the class's, divided by `divisor`.
+[[nodiscard]] std::vector<Stream> query_streams(std::span<const PairKind> kinds, std::int64_t divisor);
+[[nodiscard]] QueryStream query_stream(const Stream& stream);
+
+[[nodiscard]] std::unique_ptr<Property> make_query_campaign(const QueryProperty& property);
+
+}  // namespace selvage::fuzz

@@ -1,0 +1,58 @@
+// A worker as its driver sees it: a child process, two pipes, shared progress, and a watch on its time.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "fuzz/worker.h"
+
+namespace selvage::fuzz {
+
+/// How a worker died, for the report: "hung", "exited", or "crashed-SIGSEGV" and the like.
+struct Death {
+  std::string failure;
+  bool at_start = false;  ///< before it ran a case
+};
+
+class WorkerProcess {
+ public:
+  /// Forks. REQUIRES a process without threads of its own.
+  explicit WorkerProcess(const WorkerSetting& setting);
+  ~WorkerProcess();  ///< kills it
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+  /// From the beginning; REQUIRES that it is idle.
+  void give(const Job& job, const std::vector<bool>& is_skipped);
+  [[nodiscard]] const std::optional<Job>& job() const { return job_; }
+  [[nodiscard]] int events() const { return events_; }
+  /// Reads one event. Nothing where the worker has died: then bury() and revive().
+  [[nodiscard]] std::optional<Event> receive_event();
+  /// The job is done: the worker is idle.
+  void finish() { job_.reset(); }
+
+  [[nodiscard]] Death bury();
+  /// Another process takes over: the unit goes on behind the case that killed the last one; a kept case is given up.
+  void revive();
+  /// Kills it if the case in hand has taken more than so much processor time, or five times as much by the clock.
+  void watch(double case_seconds);
+
+  [[nodiscard]] Progress& progress() { return *progress_; }
+
+ private:
+  void start();
+  [[nodiscard]] double processor_seconds() const;
+
+  const WorkerSetting& setting_;
+  Progress* progress_ = nullptr;
+  pid_t pid_ = -1;
+  int jobs_ = -1, events_ = -1;
+  std::optional<Job> job_;
+  bool was_hung_ = false;
+  std::int64_t beat_at_start_ = 0, last_beat_ = -1;
+  double seconds_at_beat_ = 0;
+  std::chrono::steady_clock::time_point clock_at_beat_;
+};
+
+}  // namespace selvage::fuzz
