@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz bench format tidy clean
+.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz agreement cluster bench format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -68,6 +68,15 @@ same-bits: setup  ## one hash of all answers for two compilers and their flags, 
 	@cmake/setup packages-clang.txt
 	legs=$$(for c in g++ clang++-14; do for f in $(SAME_BITS_FLAGS); do printf '%s %s;' $$c "$$f"; done; done); \
 	  cmake -DSOURCE=. -DWORK=build/same_bits "-DLEGS=$$legs" -P tests/house/same_bits.cmake
+
+agreement: build  ## the two exact deciders of motions, ten million times: an hour on one core
+	build/release/tests/verify/agreement_campaign 1000 59 2000 > build/agreement.jsonl
+
+cluster: build  ## the manual's Slurm script on a Slurm of this machine, with a node killed in the middle (as root)
+	@cmake/setup packages-cluster.txt
+	rm -rf build/cluster && mkdir -p build/cluster
+	$(SELVAGE) sim sim/scenes/demo.toml -o build/cluster/run --frames 5 --record steps
+	cd build/cluster && ../../tests/cluster/slurm_kill ../../$(SELVAGE) run --second-opinion-all
 
 format:  ## rewrite the sources in the house style
 	@cmake/setup packages-clang.txt

@@ -1,7 +1,6 @@
 #include "tests/verify/agreement.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <functional>
 #include <optional>
@@ -186,13 +185,14 @@ class Comparison {
     require(base.second.touches == (first.second.touches || second.second.touches), question, motion, "halves, second");
     if (!base.second.touches || !base.first.touches) return;
     const double offset = first.second.touches ? 0 : 1;
-    const auto& [_, a] = first.first.touches ? first : second;
-    const auto& b = (first.first.touches ? first : second).first.first;
-    require(overlap(2 * base.second.first_lower - offset, 2 * base.second.first_upper - offset, a.first_lower,
-                    a.first_upper) &&
-                overlap(2 * base.first.first.lower_approx - offset, 2 * base.first.first.upper_approx - offset,
-                        b.lower_approx, b.upper_approx),
-            question, motion, "time in a half");
+    const Answers& touching = first.second.touches ? first : second;
+    const ExactTime &whole = base.first.first, &part = touching.first.first;
+    require(
+        overlap(2 * whole.lower_approx - offset, 2 * whole.upper_approx - offset, part.lower_approx, part.upper_approx),
+        question, motion, "time in a half");
+    require(overlap(2 * base.second.first_lower - offset, 2 * base.second.first_upper - offset,
+                    touching.second.first_lower, touching.second.first_upper),
+            question, motion, "time in a half, second");
   }
 
   Answers both(Question question, const MotionCase& motion, std::int64_t& count, const char* what) {
