@@ -1,57 +1,19 @@
-// No parser allocates much more than the file is long, whatever the file says. This program counts every allocation of
-// C++, so it stands alone.
-#include <cstdlib>
-#include <new>
+// No parser allocates much more than the file is long, whatever the file says.
 #include <numeric>
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include "io/error.h"
+#include "tests/io/allocations.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/parsers.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/io/zip_writer.h"
 
-namespace {
-
-std::size_t allocated = 0, peak = 0;
-
-void* counted_allocation(std::size_t size) {
-  void* const block = std::malloc(size == 0 ? 1 : size);
-  if (block == nullptr) throw std::bad_alloc();
-  allocated += ::malloc_usable_size(block);
-  if (allocated > peak) peak = allocated;
-  return block;
-}
-
-void counted_release(void* block) noexcept {
-  allocated -= ::malloc_usable_size(block);
-  std::free(block);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted_allocation(size); }
-void operator delete(void* block) noexcept { counted_release(block); }
-void operator delete(void* block, std::size_t) noexcept { counted_release(block); }
-
 namespace selvage::io {
 namespace {
 
 using testing::parser_named;
-
-/// Most bytes in use at once during a parse, beyond those before it.
-std::size_t peak_of(const std::string& parser, const std::string& bytes) {
-  const std::size_t before = allocated;
-  peak = allocated;
-  try {
-    parser_named(parser).parse(bytes);
-  } catch (const Error&) {
-    // refused files are bounded too
-  }
-  return peak - before;
-}
 
 std::string repeated(const std::string& text, std::size_t size) {
   std::string bytes;
@@ -61,7 +23,7 @@ std::string repeated(const std::string& text, std::size_t size) {
 
 struct Dense {
   std::string name, parser, bytes;
-  std::size_t most = 12;  ///< bytes of memory a byte of the file; measured: 2 to 10
+  std::size_t most = testing::kMostMemory;  ///< bytes of memory a byte of the file
   friend void PrintTo(const Dense& file, std::ostream* out) { *out << file.name; }
 };
 
@@ -105,12 +67,13 @@ std::vector<Dense> dense_files() {
                       .deflate = true,
                       .size_error = 1000 - 50'000'000}})},
       {"npz_members", "npz", testing::zip(std::vector<testing::ZipEntry>(20'000))},
-      {"pc2", "pc2", testing::pc2(4, 20'000), 10},
-      {"pc2_liar", "pc2", testing::pc2(4, 20'000, 0x7fffffff), 10},
-      {"mdd", "mdd", testing::mdd(4, many_times), 10},
-      {"mdd_liar", "mdd", testing::mdd(4, many_times, 0x7fffffff), 10},
+      {"pc2", "pc2", testing::pc2(4, 20'000)},
+      {"pc2_liar", "pc2", testing::pc2(4, 20'000, 0x7fffffff)},
+      {"mdd", "mdd", testing::mdd(4, many_times)},
+      {"mdd_liar", "mdd", testing::mdd(4, many_times, 0x7fffffff)},
       {"query_csv", "query_csv", repeated("1,1,1,1,1,1\n", 12 * 8 * 20'000)},
-      {"sequence_json", "sequence_json", "[" + repeated("0,", 1'000'000) + "0]", 18},  // of a file of at most 1 MiB
+      {"sequence_json", "sequence_json", "[" + repeated("0,", 1'000'000) + "0]",
+       18},  // the tree of JSON values; of a file of at most 1 MiB
       {"frame_list", "frame_list", repeated("{\"file\":\"a\"}\n", kSize)},
       {"frame_list_line", "frame_list", repeated("[", kSize)},
   };
@@ -120,9 +83,15 @@ class Memory : public ::testing::TestWithParam<Dense> {};
 
 TEST_P(Memory, IsBoundedByTheFile) {
   const Dense& file = GetParam();
-  const std::size_t used = peak_of(file.parser, file.bytes);
+  const std::size_t used = testing::peak_during([&] {
+    try {
+      parser_named(file.parser).parse(file.bytes);
+    } catch (const Error&) {
+      // refused files are bounded too
+    }
+  });
   RecordProperty("peak_per_byte", std::to_string(static_cast<double>(used) / static_cast<double>(file.bytes.size())));
-  EXPECT_LE(used, file.most * file.bytes.size() + (std::size_t{1} << 20))
+  EXPECT_LE(used, file.most * file.bytes.size() + testing::kMemoryConstant)
       << used / file.bytes.size() << " times the file";
 }
 

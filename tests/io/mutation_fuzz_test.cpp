@@ -1,11 +1,14 @@
-// Sound files, mutated at random but deterministically: every parser refuses with io::Error or accepts something sound.
-// SELVAGE_IO_FUZZ_CASES sets the number of inputs a parser (default 5000).
+// Sound files, mutated at random but deterministically: every parser refuses with io::Error or accepts something sound,
+// and never allocates more than a small multiple of the file. SELVAGE_IO_FUZZ_CASES sets the number of inputs a parser
+// (default 5000).
 #include <cstdlib>
+#include <exception>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "tests/io/allocations.h"
 #include "tests/io/parsers.h"
 
 namespace selvage::io {
@@ -149,8 +152,17 @@ TEST_P(MutationFuzz, RefusesOrAcceptsWhatIsSound) {
     std::string bytes = parser.sound_files[below(random, parser.sound_files.size())];
     const std::size_t mutations = 1 + below(random, 4);
     for (std::size_t k = 0; k < mutations; ++k) mutate(bytes, parser, random);
+    std::exception_ptr failure;
+    const std::size_t used = testing::peak_during([&] {
+      try {
+        parser.parse(bytes);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    });
+    ASSERT_LE(used, testing::kMostMemory * bytes.size() + testing::kMemoryConstant) << "case " << i;
     try {
-      parser.parse(bytes);
+      if (failure) std::rethrow_exception(failure);
       ++accepted;
     } catch (const Error& error) {
       ASSERT_EQ(error.kind(), ErrorKind::kBadInput) << error.what();
