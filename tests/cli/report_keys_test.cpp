@@ -71,6 +71,18 @@ TEST(ReportKeys, OfVerifyAreDocumented) {
   EXPECT_EQ(keys, documented("The report of `selvage verify --json`"));
 }
 
+TEST(ReportKeys, OfReplayAreDocumented) {
+  const TemporaryFolder folder;
+  const auto frame = folder.path() / "a.obj", cases = folder.path() / "cases", json = folder.path() / "report.json";
+  spit(frame, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 0\nv 2 1 0\nv 1 2 0\nf 4 5 6\n");
+  ASSERT_EQ(run_program(folder, {"verify", frame, "--cases", cases}).exit_code, 1);
+  const char* kept_cases = SELVAGE_SOURCE_DIR "/tests/fuzz/cases";  // motions of all kinds, some without a touch
+  ASSERT_EQ(run_program(folder, {"replay", cases, kept_cases, "--json", json}).exit_code, 0);
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  EXPECT_EQ(keys, documented("The report of `selvage replay --json`"));
+}
+
 TEST(ReportKeys, OfDoctorAreDocumented) {
   const TemporaryFolder folder;
   const auto json = folder.path() / "report.json";
