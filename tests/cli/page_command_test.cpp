@@ -68,7 +68,9 @@ TEST(VerifyPage, SaysWhatTheReportSays) {
   ASSERT_EQ(report["violations"].size(), 3U);
   EXPECT_EQ(occurrences(html, kRow), 3U);
   EXPECT_EQ(occurrences(html, kBar), 3U);
-  EXPECT_NE(html.find("title=\"motion 0 to 1: 3 vertex-face\""), html.npos);
+  EXPECT_NE(
+      html.find("title=\"motion 0 to 1: 3 vertex-face\" aria-label=\"motion 0 to 1: 3 vertex-face\" data-begin=\"0\""),
+      html.npos);
   EXPECT_EQ(frames_of(html), (std::vector<std::int64_t>{0, 1, 2})) << "those with witnesses first";
   EXPECT_NE(html.find("The meshes of 3 of 3 frames"), html.npos);
 

@@ -120,10 +120,28 @@ class Pages(unittest.TestCase):
     def camera(self):
         return self.browser.ask("document.querySelector('.view').dataset.camera")
 
+    def scrub(self, value):
+        self.browser.ask(f"(slider => {{ slider.value = {value}; slider.dispatchEvent(new Event('input')); }})"
+                         "(document.querySelector('#scrub input'))")
+        self.browser.settle()
+
     def go(self, hash):
         self.browser.ask(f"location.hash = {hash!r}")
         self.browser.wait_for(f"document.querySelector('.view').dataset.shown === {hash!r}")
         self.browser.settle()
+
+    def assert_meshes(self, bits):
+        """Every mesh of the page is the OBJ of its frame, within half a step of its grid."""
+        for frame, name in enumerate(self.sheets):
+            lines = [line.split() for line in pathlib.Path(name).read_text(encoding="ascii").splitlines()]
+            points = [[float(x) for x in line[1:]] for line in lines if line[0] == "v"]
+            faces = [int(k) - 1 for line in lines if line[0] == "f" for k in line[1:]]
+            shown = self.browser.ask(
+                f"(async () => {{ const source = new SceneSource(), mesh = await source.mesh({frame});"
+                f" const exact = {points}.map(p => source.toView(p)).flat();"
+                " return [[...mesh.triangles], Math.max(...mesh.positions.map((x, k) => Math.abs(x - exact[k])))]; })()")
+            self.assertEqual(shown[0], faces)
+            self.assertLessEqual(shown[1], 2.0 ** -(bits + 1) + 2.0**-24, "half a step, and single precision")
 
     def test_violated(self):
         page = self.page("violated.html", 1, "verify", "--motion", *self.sheets, "--html")
@@ -136,6 +154,7 @@ class Pages(unittest.TestCase):
         rows = self.count("#witnesses > tbody > tr")
         self.assertEqual(rows, browser.ask("JSON.parse(document.getElementById('report').textContent).violations.length"))
         self.assertGreater(rows, 3)
+        self.assert_meshes(20)
         self.assertEqual(browser.ask("performance.getEntriesByType('resource').length"), 0, "nothing is loaded")
 
         whole, camera = self.screenshot("frame.png"), self.camera()
@@ -152,8 +171,7 @@ class Pages(unittest.TestCase):
         for colour in PAIR_COLOURS:
             self.assertGreater(count_of(first, colour), 100, "both features are drawn")
 
-        browser.ask("const s = document.querySelector('#scrub input'); s.value = 1; s.dispatchEvent(new Event('input')); 1")
-        browser.settle()
+        self.scrub(1)
         self.assertEqual(self.text("#scrub output"), "t = 1.0000")
         self.assertNotEqual(self.screenshot("witness-end.png"), first, "the motion can be scrubbed")
 
@@ -191,10 +209,13 @@ class Pages(unittest.TestCase):
         picture = self.screenshot("pair.png")
         for colour in PAIR_COLOURS:
             self.assertGreater(count_of(picture, colour), 50)
+        self.scrub(self.browser.ask("Number(document.querySelector('#scrub input').value) + 0.1"))
+        self.assertNotEqual(self.screenshot("pair-later.png"), picture, "the pair moves")
 
     def test_player(self):
         page = self.page("player.html", 0, "view", *self.sheets, "-o")
         self.browser.open(page, "#frame=0")
+        self.assert_meshes(16)
         first = self.screenshot("player-0.png")
         self.go("#frame=2")
         self.assertIn("frame 2", self.text("#scrub output"))
