@@ -1,4 +1,5 @@
 // Reads a report back: a run that was killed continues from one, and parts of a sequence are joined.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -86,6 +87,10 @@ Violation violation(const Json& json) {
     const Json& t = json.at("t");
     result.t = {t.at("lower"), t.at("upper"), t.at("lower_number"), t.at("upper_number")};
   }
+  const std::size_t wanted = result.event == EventKind::kOverlap ? 6 : result.event == EventKind::kSelf ? 3 : 4;
+  for (const std::size_t size : {vertices.size(), result.at_touch.size(), result.x_t0.size(), result.x_t1.size()}) {
+    if (size != wanted) throw Fault{"a violation has not as many vertices and positions as its event"};
+  }
   if (json.contains("case")) result.case_file = json.at("case");
   return result;
 }
@@ -102,6 +107,15 @@ void parse_allowances(const Json& json, SequenceReport& report) {
   if (!weld.is_null()) report.welded = {weld.at("vertices"), weld.at("collapsed_faces")};
 }
 
+constexpr std::int64_t kMostFrames = std::int64_t{1} << 53;  // so that a product with a small number is no overflow
+
+/// The frames that violations are in, also of a motion that leads to the first.
+void require_frame(const SequenceReport& report, std::int64_t frame) {
+  if (frame < std::max<std::int64_t>(report.first_frame - 1, 0) || frame >= report.end_frame) {
+    throw Fault{"a violation is in none of its frames"};
+  }
+}
+
 void parse_sequence(const Json& json, SequenceReport& report) {
   report.sequence = json.at("identity");
   report.frame_count = json.at("frames");
@@ -112,7 +126,7 @@ void parse_sequence(const Json& json, SequenceReport& report) {
   if (!before.is_null()) report.crc32_before = word(before);
   const auto count = static_cast<std::int64_t>(report.frame_crc32.size());
   if (report.first_frame < 0 || report.first_frame >= report.end_frame || report.end_frame > report.frame_count ||
-      count > report.end_frame - report.first_frame) {
+      count > report.end_frame - report.first_frame || report.frame_count > kMostFrames) {
     throw Fault{"the range of frames makes no sense"};
   }
 }
@@ -140,6 +154,7 @@ ParsedReport parse(const Json& json) {
   report.verdict = named<Verdict, 3>(
       json.at("verdict"),
       {{{"clean", Verdict::kClean}, {"violated", Verdict::kViolated}, {"unknown", Verdict::kUnknown}}});
+  parse_sequence(json.at("sequence"), report);
   report.frames = counted(json.at("frames"), report.frames_expected);
   report.motions = counted(json.at("motions"), report.motions_expected);
   const Json& pairs = json.at("pairs");
@@ -147,6 +162,7 @@ ParsedReport parse(const Json& json) {
   report.violations_total = violation_counts(json.at("violations_total"));
   for (const Json& entry : json.at("violated")) {
     report.violated.push_back({entry.at("frame"), is_motion(entry.at("unit")), violation_counts(entry)});
+    require_frame(report, report.violated.back().frame);
   }
   const Json& gap = json.at("gap");
   report.gap_searched = !gap.is_null();
@@ -168,14 +184,14 @@ ParsedReport parse(const Json& json) {
   for (const Json& entry : json.at("violations")) {
     report.violations.push_back(violation(entry));
     const std::int64_t frame = report.violations.back().frame;
-    if (frame < 0 || !entry.contains("frame_name")) continue;
+    require_frame(report, frame);
+    if (!entry.contains("frame_name")) continue;
     auto& names = parsed.context.frame_names;
     if (names.size() <= static_cast<std::size_t>(frame)) names.resize(static_cast<std::size_t>(frame) + 1);
     names[static_cast<std::size_t>(frame)] = entry.at("frame_name");
   }
   report.unchecked = json.at("unchecked").get<std::vector<std::string>>();
   parse_surface(json.at("surface"), report);
-  parse_sequence(json.at("sequence"), report);
   report.seconds = json.at("seconds");
   return parsed;
 }

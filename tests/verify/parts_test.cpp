@@ -81,7 +81,8 @@ TEST(Parts, WhatIsNoReportIsRefused) {
   for (const std::string& bad : {std::string("{}"), std::string("[]"), std::string("x"),
                                  good.substr(0, good.size() / 2), with("selvage.verify/1", "selvage.verify/2"),
                                  with("\"violated\"", "\"fine\""), with("\"end_frame\": 7", "\"end_frame\": 8"),
-                                 with("\"first_frame\": 0", "\"first_frame\": -1"), with("\"frames\"", "\"frame\"")}) {
+                                 with("\"first_frame\": 0", "\"first_frame\": -1"), with("\"frames\"", "\"frame\""),
+                                 with("\"frame\": 2", "\"frame\": 7"), with("\"vertices\": [", "\"vertices\": [7,")}) {
     EXPECT_THROW((void)parse_report(bad, "a"), io::Error) << bad.substr(0, 80);
   }
 }
