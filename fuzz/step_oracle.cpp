@@ -38,6 +38,24 @@ StepDefect check_scripts(const StepWorld& world, const Positions& x_t0, const Po
   return StepDefect::kNone;
 }
 
+/// Positions and velocities must tell of the same motion: x is V_t0 + dt velocity, rounded to its lattice.
+bool velocity_is_that_of_the_motion(const StepWorld& world, const Positions& x_t0,
+                                    const sim::CollisionStepResult& result) {
+  const bool float32 = world.options.precision == sim::CollisionOptions::Precision::kFloat32;
+  // One rounding to the lattice, half of its unit; in doubles a few, of sum, difference and quotient.
+  const double unit = float32 ? 0x1p-24 : 0x1p-50;
+  const double least = float32 ? 0x1p-149 : 0x1p-1070;
+  for (Eigen::Index i = 0; i < x_t0.rows(); ++i) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double moved = world.dt_s * result.velocity(i, axis);
+      const double off = std::abs((result.x(i, axis) - x_t0(i, axis)) - moved);
+      const double size = std::abs(result.x(i, axis)) + std::abs(x_t0(i, axis)) + std::abs(moved);
+      if (size < kBalanceLimit && off > unit * size + least) return false;
+    }
+  }
+  return true;
+}
+
 /// Every pair that the exact check finds nearer than the tolerance at the end must be in the report.
 bool all_near_pairs_are_named(const StepWorld& world, const sim::CollisionStepResult& result) {
   verify::CheckOptions options;
@@ -109,6 +127,8 @@ std::string_view name_of(StepDefect defect) {
       return "off-script";
     case StepDefect::kOffLattice:
       return "off-lattice";
+    case StepDefect::kBadVelocity:
+      return "bad-velocity";
     case StepDefect::kMomentum:
       return "momentum";
     case StepDefect::kEnergy:
@@ -152,7 +172,10 @@ StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Posit
     return off_script;
   }
   if (is_undisturbed(report) && result.x != undisturbed(world, candidate)) return StepDefect::kInterferes;
-  return has_scripted(world) ? StepDefect::kNone : check_balances(world, x_t0, candidate, result);
+  const StepDefect unbalanced =
+      has_scripted(world) ? StepDefect::kNone : check_balances(world, x_t0, candidate, result);
+  if (unbalanced != StepDefect::kNone) return unbalanced;
+  return velocity_is_that_of_the_motion(world, x_t0, result) ? StepDefect::kNone : StepDefect::kBadVelocity;
 }
 
 namespace {

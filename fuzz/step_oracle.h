@@ -18,6 +18,7 @@ enum class StepDefect : std::uint8_t {
   kUnnamedNear,    ///< S2: a pair ends nearer than the tolerance and the report does not name it
   kOffScript,      ///< S4: a scripted vertex is neither at its candidate nor waiting
   kOffLattice,     ///< float32 was asked for
+  kBadVelocity,    ///< velocity dt is not the displacement, up to the rounding of x
   kMomentum,       ///< S3: linear momentum changed, with nothing scripted and no fail-safe
   kEnergy,         ///< S3: kinetic energy grew by inelastic impulses
   kInterferes,     ///< no pair was near or collided, and yet the candidates were changed

@@ -15,7 +15,8 @@ double to_lattice(double x, CollisionOptions::Precision precision) {
 
 void StepMotion::start(const PositionsRef& V_t0, const PositionsRef& V_t1, Precision precision) {
   V_t0_ = V_t0;
-  displacement_ = V_t1 - V_t0;
+  const double limit = to_lattice(std::numeric_limits<double>::max(), precision);
+  displacement_ = V_t1.cwiseMax(-limit).cwiseMin(limit) - V_t0;
   precision_ = precision;
   x_ = V_t1.unaryExpr([precision](double value) { return to_lattice(value, precision); });
   changed_.assign(static_cast<std::size_t>(V_t0.rows()), 0);

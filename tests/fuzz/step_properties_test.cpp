@@ -114,6 +114,11 @@ sim::CollisionStepResult off_lattice(const StepWorld& world, const Positions& x_
   other.options.precision = sim::CollisionOptions::Precision::kFloat64;
   return selvage_step(other, x_t0, candidate);
 }
+sim::CollisionStepResult reports_the_wish(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
+  sim::CollisionStepResult result = selvage_step(world, x_t0, candidate);
+  result.velocity = nothing_done(world, x_t0, candidate).velocity;
+  return result;
+}
 sim::CollisionStepResult loses_momentum(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
   sim::CollisionStepResult result = selvage_step(world, x_t0, candidate);
   result.velocity.row(0) *= 1 - 0x1p-20;
@@ -149,6 +154,7 @@ TEST(StepPromises, EveryCheckFindsItsBadStep) {
       {"always stops", always_stops, StepDefect::kStoppedFreely, 20},
       {"hides near pairs", hides_near_pairs, StepDefect::kUnnamedNear, 60},
       {"off lattice", off_lattice, StepDefect::kOffLattice, 60},
+      {"reports the wish", reports_the_wish, StepDefect::kBadVelocity, 60},
       {"loses momentum", loses_momentum, StepDefect::kMomentum, 60},
       {"gains energy", gains_energy, StepDefect::kEnergy, 150},
       {"holds scripts", holds_scripts, StepDefect::kOffScript, 150},
