@@ -2,6 +2,7 @@
 
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
+#include "tests/sim/response_properties.h"
 
 namespace selvage::sim::testing {
 namespace {
@@ -16,16 +17,6 @@ struct VertexOnFloor {
   Interaction interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.5, 0.25, 0.25}, inverse_mass);
   PairVectors x_t0{Vec3(0, 0, kGap), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 3, 0)};
 };
-
-/// As random_pair(false), but `gap` apart along the z axis, which becomes the normal.
-RandomPair random_contact(double gap) {
-  RandomPair pair = random_pair(false);
-  for (Vec3& x : pair.x_t0) x.z() = 0;
-  const Vec3 miss = relative(pair.interaction, pair.x_t0);
-  const std::size_t first = pair.interaction.weights[1] > 0 ? 2 : 1;  // vertices of the first feature
-  for (std::size_t i = 0; i < first; ++i) pair.x_t0[i] -= miss - gap * Vec3::UnitZ();
-  return pair;
-}
 
 double slip(const PairVectors& displacement) { return displacement[0].head<2>().norm(); }
 
@@ -75,30 +66,7 @@ TEST(Friction, IsThePapersFormulaWhereThePointsMeet) {
 }
 
 TEST(Friction, KeepsBothMomentaAddsNoEnergyAndStaysInTheCone) {
-  check_property(500, 32, [] {
-    const RandomPair pair = random_contact(number_between(0, 0.2));
-    const double normal_change = number_between(0, 1);
-    const double on_static = number_between(0, 2);
-    const FrictionCoefficients friction{on_static, number_between(0, on_static)};
-    const auto change =
-        friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), normal_change, friction);
-    RC_PRE(change.has_value());
-    const PairVectors after = sum(pair.displacement, *change);
-    const Mechanics m0 = mechanics(pair.x_t0, pair.displacement, pair.inverse_mass);
-    const Mechanics m1 = mechanics(pair.x_t0, after, pair.inverse_mass);
-    RC_ASSERT((m1.linear - m0.linear).norm() <= 1e-12 * m0.linear_scale);
-    RC_ASSERT((m1.angular - m0.angular).norm() <= 1e-12 * m0.angular_scale);
-    RC_ASSERT(m1.energy <= m0.energy * (1 + 1e-13));
-    // Together with the normal impulse of a full stop it adds no energy either.
-    const double approach = relative(pair.interaction, pair.displacement).z();
-    if (approach < 0) {
-      const PairVectors both = sum(after, distribute(pair.interaction, -approach * Vec3::UnitZ()));
-      RC_ASSERT(mechanics(pair.x_t0, both, pair.inverse_mass).energy <= m0.energy * (1 + 1e-13));
-    }
-    // The slip it takes away is at most mu_s times the normal change.
-    const Vec3 slowed = relative(pair.interaction, *change);
-    RC_ASSERT(slowed.norm() <= on_static * normal_change * (1 + 1e-12));
-  });
+  check_property(500, 32, prop_friction_keeps_momenta_and_the_cone);
 }
 
 TEST(Friction, DoesNotBrakeARigidRotation) {

@@ -71,6 +71,16 @@ inline RandomPair random_pair(bool with_scripted) {
   return pair;
 }
 
+/// As random_pair(false), but `gap` apart along the z axis, which becomes the normal.
+inline RandomPair random_contact(double gap) {
+  RandomPair pair = random_pair(false);
+  for (Vec3& x : pair.x_t0) x.z() = 0;
+  const Vec3 miss = relative(pair.interaction, pair.x_t0);
+  const std::size_t first = pair.interaction.weights[1] > 0 ? 2 : 1;  // vertices of the first feature
+  for (std::size_t i = 0; i < first; ++i) pair.x_t0[i] -= miss - gap * Vec3::UnitZ();
+  return pair;
+}
+
 inline PairVectors sum(const PairVectors& a, const PairVectors& b, double factor = 1) {
   PairVectors result;
   for (std::size_t i = 0; i < 4; ++i) result[i] = a[i] + factor * b[i];

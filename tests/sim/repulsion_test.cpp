@@ -2,6 +2,7 @@
 
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
+#include "tests/sim/response_properties.h"
 
 namespace selvage::sim::testing {
 
@@ -41,6 +42,10 @@ TEST(Repulsion, NeverLeavesTheOverlapFasterThanItsFraction) {
     RC_ASSERT(after >= 0);
     RC_ASSERT(after <= std::max(displacement, 0.1 * overlap) + 1e-18);
   });
+}
+
+TEST(Repulsion, EndsTheApproachOfAnyContact) {
+  selvage::testing::check_property(200, 22, prop_repulsion_ends_the_approach);
 }
 
 }  // namespace selvage::sim::testing

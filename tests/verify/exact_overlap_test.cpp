@@ -8,19 +8,18 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/verify/overlap_families.h"
 #include "tests/verify/overlap_reference.h"
 #include "verify/separation.h"
 
 namespace selvage::verify {
 namespace {
 
-using Face = std::array<std::int32_t, 3>;
-using Triangle = std::array<Point, 3>;
-
-struct TwoTriangles {
-  Face face_a, face_b;
-  Triangle a, b;
-};
+using testing::draw;
+using testing::from_points;
+using testing::kOverlapFamilies;
+using testing::OverlapFamily;
+using testing::TwoTriangles;
 
 OverlapKind decide(const TwoTriangles& c) { return exact_overlap(c.face_a, c.a, c.face_b, c.b).kind; }
 OverlapKind refer(const TwoTriangles& c) { return reference::overlap(c.face_a, c.a, c.face_b, c.b); }
@@ -37,57 +36,6 @@ std::string text(const TwoTriangles& c) {
   }
   return s;
 }
-
-/// Points 0-5, of which the faces name three each: (0,1,2) and, with the first `shared` of these, further ones.
-TwoTriangles from_points(const std::array<Point, 6>& x, int shared) {
-  TwoTriangles c{{0, 1, 2}, {}, {x[0], x[1], x[2]}, {}};
-  for (int j = 0; j < 3; ++j) {
-    const int name = j < shared ? j : 3 + j;
-    c.face_b[static_cast<std::size_t>(j)] = name;
-    c.b[static_cast<std::size_t>(j)] = x[static_cast<std::size_t>(name)];
-  }
-  return c;
-}
-
-/// The classes of tests/verify: how the six points of a case are drawn from a small lattice.
-enum class Family { kAny, kCoplanar, kFlatFirst, kFlatBoth, kCollinear, kCoincident };
-
-std::array<Point, 6> draw(std::mt19937& random, Family family, int range) {
-  std::uniform_int_distribution<int> lattice(-range, range);
-  const auto coordinate = [&] { return static_cast<double>(lattice(random)); };
-  std::array<Point, 6> x;
-  for (Point& p : x) p = {coordinate(), coordinate(), coordinate()};
-  const auto put_on_line = [&](std::size_t target, std::size_t from, std::size_t to) {
-    const double s = coordinate();
-    for (std::size_t k = 0; k < 3; ++k) x[target][k] = x[from][k] + s * (x[to][k] - x[from][k]);
-  };
-  switch (family) {
-    case Family::kAny:
-      break;
-    case Family::kCoplanar: {
-      const double s = coordinate(), t = coordinate();
-      for (Point& p : x) p[2] = s * p[0] + t * p[1];
-      break;
-    }
-    case Family::kFlatFirst:
-      put_on_line(2, 0, 1);
-      break;
-    case Family::kFlatBoth:
-      put_on_line(2, 0, 1);
-      put_on_line(5, random() % 2 == 0 ? 3 : 0, 4);
-      break;
-    case Family::kCollinear:
-      for (std::size_t i = 2; i < 6; ++i) put_on_line(i, 0, 1);
-      break;
-    case Family::kCoincident:
-      x[3 + random() % 3] = x[random() % 3];
-      break;
-  }
-  return x;
-}
-
-constexpr Family kFamilies[] = {Family::kAny,      Family::kCoplanar,  Family::kFlatFirst,
-                                Family::kFlatBoth, Family::kCollinear, Family::kCoincident};
 
 }  // namespace
 
@@ -179,7 +127,7 @@ TEST(ExactOverlap, AgreesWithClippingOnSmallIntegers) {
   std::mt19937 random(2002);
   std::map<std::pair<int, OverlapKind>, int> seen;
   for (int shared = 0; shared <= 2; ++shared) {
-    for (const Family family : kFamilies) {
+    for (const OverlapFamily family : kOverlapFamilies) {
       for (int i = 0; i < 1500; ++i) {
         const TwoTriangles c = from_points(draw(random, family, 1 + i % 4), shared);
         const OverlapKind kind = decide(c);
@@ -211,7 +159,7 @@ TEST(ExactOverlap, AgreesWithClippingOneUlpFromDegenerate) {
   for (int i = 0; i < 6000; ++i) {
     // At the smaller scales products of two or of three differences are subnormal: what underflows is counted too.
     const double scale = std::array{1.0, 0x1p-537, 0x1p-358, 0x1p+300}[random() % 4];
-    std::array<Point, 6> x = draw(random, kFamilies[i % 6], 2);
+    std::array<Point, 6> x = draw(random, kOverlapFamilies[i % 6], 2);
     for (Point& p : x) {
       for (double& coordinate : p) coordinate = (coordinate / 3 + 100) * scale;
     }
@@ -232,7 +180,7 @@ TEST(ExactOverlap, IgnoresOrderOfCornersAndFaces) {
   std::mt19937 random(7);
   const std::size_t orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   for (int i = 0; i < 900; ++i) {
-    const TwoTriangles c = from_points(draw(random, kFamilies[i % 6], 2), i % 3);
+    const TwoTriangles c = from_points(draw(random, kOverlapFamilies[i % 6], 2), i % 3);
     const OverlapKind kind = decide(c);
     for (const auto& o : orders) {
       for (const auto& p : orders) {
@@ -250,7 +198,7 @@ TEST(ExactOverlap, IgnoresOrderOfCornersAndFaces) {
 TEST(ExactOverlap, FollowsExactScalingAndTranslationOverTheWholeRange) {
   std::mt19937 random(11);
   for (int i = 0; i < 3000; ++i) {
-    const std::array<Point, 6> x = draw(random, kFamilies[i % 6], 2);  // coordinates up to 10
+    const std::array<Point, 6> x = draw(random, kOverlapFamilies[i % 6], 2);  // coordinates up to 10
     const OverlapKind kind = decide(from_points(x, i % 3));
     const auto moved = [&](double scale, double shift) {
       std::array<Point, 6> y = x;
@@ -272,7 +220,7 @@ TEST(ExactOverlap, MixedMagnitudesAgreeWithClipping) {
   std::mt19937 random(13);
   const double scales[] = {0x1p-1070, 0x1p-500, 1, 0x1p+500, 0x1p+1000};
   for (int i = 0; i < 1200; ++i) {
-    std::array<Point, 6> x = draw(random, kFamilies[i % 6], 2);
+    std::array<Point, 6> x = draw(random, kOverlapFamilies[i % 6], 2);
     for (Point& p : x) {
       for (double& coordinate : p) coordinate *= scales[random() % 5];
     }
@@ -284,7 +232,7 @@ TEST(ExactOverlap, MixedMagnitudesAgreeWithClipping) {
 TEST(ExactOverlap, RepairsTheRoundingMode) {
   std::mt19937 random(17);
   for (int i = 0; i < 600; ++i) {
-    std::array<Point, 6> x = draw(random, kFamilies[i % 6], 2);
+    std::array<Point, 6> x = draw(random, kOverlapFamilies[i % 6], 2);
     for (Point& p : x) {
       for (double& coordinate : p) coordinate /= 3;
     }

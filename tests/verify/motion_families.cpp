@@ -159,6 +159,25 @@ MotionCase scaled(Draw& draw, int range) {
   return with_coordinates(any_lattice(draw, range), [exponent](double x) { return std::ldexp(x, exponent); });
 }
 
+/// Point 0 stays on the edge (1,2), or (2,3), exactly, in numbers so long that its distance from one end rounds:
+/// products that cancel exactly leave their roundings.
+MotionCase long_touch(Draw& draw, int /*range*/) {
+  MotionCase motion;
+  const bool is_last_edge = draw.chance(50);
+  for (auto* points : {&motion.x_t0, &motion.x_t1}) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      // An odd number e with 3 e > 2^53: the distance 3 e rounds, the ends s - 2 e and s + 2 e do not.
+      const double e = 0x1p+51 * 1.5 + static_cast<double>(2 * (draw.bits() >> 15) + 1);
+      const double sign = draw.chance(50) ? 1 : -1, s = 2.0 * draw.integer(-(1 << 20), 1 << 20);
+      (*points)[0][k] = s + sign * e;
+      (*points)[is_last_edge ? 2 : 1][k] = s - 2 * sign * e;
+      (*points)[is_last_edge ? 3 : 2][k] = s + 2 * sign * e;
+      (*points)[is_last_edge ? 1 : 3][k] = draw.integer(-(1 << 30), 1 << 30) * 0x1p+20;
+    }
+  }
+  return motion;
+}
+
 /// Any exponents side by side, subnormals with the largest.
 MotionCase whole_range(Draw& draw, int range) {
   return with_coordinates(any_lattice(draw, range),
@@ -168,7 +187,7 @@ MotionCase whole_range(Draw& draw, int range) {
 constexpr Family kWholeRange[] = {{"whole range", whole_range}};
 constexpr Family kDouble[] = {
     {"last bits", last_bits}, {"thirds + 1000", thirds}, {"mixed exponents", exponents},
-    {"offset", offset},       {"scaled", scaled},
+    {"offset", offset},       {"scaled", scaled},        {"long touch", long_touch},
 };
 
 /// Whole weights that sum to `total`; zeros are frequent.
