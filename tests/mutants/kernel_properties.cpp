@@ -1,0 +1,62 @@
+// Queries against exact arithmetic (K1 to K5), class after class; kept failures; what rounding uses of the bounds.
+#include "fuzz/campaign.h"
+#include "tests/kernel/bound_shares.h"
+#include "tests/mutants/properties.h"
+
+namespace selvage::mutants {
+namespace {
+
+/// One case of every class and kind, then the next one of each.
+template <std::size_t property>
+std::optional<Kill> falsify_query(std::uint64_t seed, long limit) {
+  long cases = 0;
+  for (std::int64_t round = 0;; ++round) {
+    for (const fuzz::Chunk& chunk : fuzz::make_chunks(round, 1)) {
+      if (cases == limit) return std::nullopt;
+      ++cases;
+      std::string what;
+      (void)fuzz::run_chunk(fuzz::query_properties()[property], fuzz::selvage_kernel, seed, chunk,
+                            [&](const fuzz::Failure& failure) { what = failure.what + ", " + failure.query_class; });
+      if (!what.empty()) return Kill{cases, what};
+    }
+  }
+}
+
+/// A case is a kept case; only what a property chooses besides it depends on the seed.
+std::optional<Kill> falsify_kept(std::uint64_t seed, long limit) {
+  long cases = 0;
+  for (const auto& file : fuzz::case_files(SELVAGE_SOURCE_DIR "/tests/fuzz/cases")) {
+    if (cases++ == limit) break;
+    for (const fuzz::QueryProperty& property : fuzz::query_properties()) {
+      fuzz::ChoiceSource source = fuzz::ChoiceSource::from_seed(seed);
+      const auto failure = property.check(fuzz::read_case(file).query, fuzz::selvage_kernel, source).failure;
+      if (!failure.empty()) return Kill{cases, std::string(failure) + ", " + file.stem().string()};
+    }
+  }
+  return std::nullopt;
+}
+
+/// A case is a climb of one bound.
+std::optional<Kill> falsify_bounds(std::uint64_t seed, long limit) {
+  testing::Random random(seed);
+  const auto bounds = testing::bounds();
+  for (long number = 0; number < limit; ++number) {
+    const testing::Bound& bound = bounds[static_cast<std::size_t>(number) % bounds.size()];
+    if (testing::climb(bound, random) > 1) return Kill{number + 1, std::string("exceeded: ") + bound.name};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Property> kernel_properties() {
+  const auto& queries = fuzz::query_properties();
+  return {{queries[0].name, queries[0].promise, falsify_query<0>},
+          {queries[1].name, queries[1].promise, falsify_query<1>},
+          {queries[2].name, queries[2].promise, falsify_query<2>},
+          {queries[3].name, queries[3].promise, falsify_query<3>},
+          {"kept-cases", "every case that once failed is answered right (F3)", falsify_kept},
+          {"bounds", "rounding never uses more than the whole of an error bound (K1 to K4)", falsify_bounds}};
+}
+
+}  // namespace selvage::mutants

@@ -1,0 +1,105 @@
+// selvage_mutants LISTS: runs every mutant of the lists under its property and three seeds, the base first. Exit code 0
+// if all are killed within their cases, or proven equivalent and not killed; else 1.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <set>
+
+#include <CLI/CLI.hpp>
+
+#include "io/atomic_file.h"
+#include "tests/mutants/mutant_report.h"
+
+namespace selvage::mutants {
+namespace {
+
+constexpr std::uint64_t kSeeds[] = {1, 2, 3};
+
+struct Arguments {
+  std::string lists, json, markdown;
+  std::vector<std::string> only;
+  int jobs = 2;
+  long class_cases = 0;
+};
+
+void print(const TaskResult& result) {
+  const char* endings[] = {"killed", "survives", "CRASHED", "TIMEOUT"};
+  std::printf("%-5s seed %llu  %-9s %-16s", result.task.name.c_str(), static_cast<unsigned long long>(result.task.seed),
+              endings[static_cast<int>(result.ending)], std::string(result.task.property->name).c_str());
+  if (result.ending == Ending::kKilled) std::printf(" case %ld: %s", result.kill.cases, result.kill.what.c_str());
+  std::printf("  %.2f s\n", result.seconds);
+  std::fflush(stdout);
+}
+
+/// Every property that kills, on unchanged code, for as many cases as any of its mutants may take.
+std::vector<Task> base_tasks(const std::vector<Mutant>& mutants) {
+  std::map<std::string, long> limits;
+  for (const Mutant& mutant : mutants) {
+    limits[mutant.killer] = std::max(limits[mutant.killer], mutant.within);
+  }
+  std::vector<Task> tasks;
+  for (const auto& [name, limit] : limits) {
+    for (const std::uint64_t seed : kSeeds) tasks.push_back({"base", 0, &property_named(name), seed, limit});
+  }
+  return tasks;
+}
+
+std::vector<Task> mutant_tasks(const std::vector<Mutant>& mutants) {
+  std::vector<Task> tasks;
+  for (const Mutant& mutant : mutants) {
+    for (const std::uint64_t seed : kSeeds) {
+      tasks.push_back({mutant.name, mutant.number, &property_named(mutant.killer), seed, mutant.within});
+    }
+  }
+  return tasks;
+}
+
+int run(const Arguments& arguments) {
+  std::vector<Mutant> mutants = read_lists(arguments.lists);
+  if (!arguments.only.empty()) {
+    std::erase_if(mutants, [&](const Mutant& m) { return std::ranges::count(arguments.only, m.name) == 0; });
+  }
+  const std::vector<TaskResult> base = run_tasks(base_tasks(mutants), arguments.jobs, print);
+  for (const TaskResult& result : base) {
+    if (result.ending != Ending::kSurvived) {
+      std::fprintf(stderr, "selvage_mutants: the base fails %s\n", std::string(result.task.property->name).c_str());
+      return 1;
+    }
+  }
+  const std::vector<TaskResult> results = run_tasks(mutant_tasks(mutants), arguments.jobs, print);
+  std::vector<MutantOutcome> outcomes;
+  for (std::size_t i = 0; i < mutants.size(); ++i) {
+    const auto first = results.begin() + static_cast<std::ptrdiff_t>(i * std::size(kSeeds));
+    outcomes.push_back({mutants[i], {first, first + std::ssize(kSeeds)}});
+  }
+  std::vector<ClassWorth> classes;
+  if (arguments.class_cases > 0) classes = rank_classes(mutants, arguments.class_cases, arguments.jobs);
+  const Report report{std::move(outcomes), base, std::move(classes)};
+  if (!arguments.json.empty()) io::write_atomically(arguments.json, json_report(report));
+  if (!arguments.markdown.empty()) io::write_atomically(arguments.markdown, markdown_report(report));
+  const auto open = std::ranges::count_if(report.outcomes, [](const MutantOutcome& o) { return !o.is_settled(); });
+  std::printf("%zu mutants, %td not settled\n", report.outcomes.size(), open);
+  return open == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace selvage::mutants
+
+int main(int argc, char** argv) {
+  selvage::mutants::Arguments arguments;
+  CLI::App program("Runs planted defects under the properties that must find them");
+  program.add_option("lists", arguments.lists, "folder of *.mutants")->required();
+  program.add_option("--only", arguments.only, "names of mutants")->delimiter(',');
+  program.add_option("--json", arguments.json, "report for programs");
+  program.add_option("--markdown", arguments.markdown, "report for people");
+  program.add_option("--classes", arguments.class_cases, "cases a class and mutant, for the ranking of generators");
+  program.add_option("--jobs", arguments.jobs, "processes at a time")->check(CLI::PositiveNumber);
+  CLI11_PARSE(program, argc, argv);
+  try {
+    return selvage::mutants::run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "selvage_mutants: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,172 @@
+// A whole simulation: every step exact (S1), scripts followed (S4), velocities true, and the same bits for any number
+// of threads, from a checkpoint, and in the files (K7, S5).
+#include <filesystem>
+
+#include <oneapi/tbb/task_arena.h>
+#include <unistd.h>
+
+#include "fuzz/step_world.h"
+#include "io/atomic_file.h"
+#include "io/sequence.h"
+#include "sim/recorder.h"
+#include "sim/scene_reader.h"
+#include "tests/mutants/properties.h"
+#include "verify/check.h"
+
+namespace selvage::mutants {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// A sheet that falls onto a turning ball, with random sizes, in steps that must be halved now and then.
+std::string scene_text(std::uint64_t seed) {
+  fuzz::ChoiceSource source = fuzz::ChoiceSource::from_seed(seed);
+  const auto number = [&](int first, int last, double unit) {
+    return std::to_string(source.range(first, last) * unit);
+  };
+  const std::string side = std::to_string(source.range(4, 7));
+  std::string text = "gravity_m_s2 = [0, 0, -9.81]\nstrain_limit = 0\nstrain_rate_limit = 0\n";
+  text += "[time]\nframes_per_s = 30\nmin_step_s = 0.004\nframes = 8\n[collision]\nthickness_m = 0.005\n";
+  text += "friction_static = " + number(0, 5, 0.1) + "\n";
+  if (source.coin()) text += "precision = \"float32\"\n";
+  text += "[[cloth]]\nsheet = {nx = " + side + ", ny = " + side + ", width_m = 0.4, height_m = 0.4}\n";
+  text += "position_m = [" + number(0, 8, 0.01) + ", " + number(0, 8, 0.01) + ", " + number(31, 36, 0.01) + "]\n";
+  text += "rotation_deg = [0, 0, " + number(0, 45, 1.0) + "]\nvelocity_m_s = [0, 0, " + number(-5, -1, 1.0) + "]\n";
+  text += "density_kg_m2 = 0.3\nstretch_n_m = 40\nshear_n_m = 20\ndamping_ratio = 0.1\n";
+  text += "[[body]]\nname = \"ball\"\nsphere = {radius_m = 0.15, subdivisions = 1}\n";
+  text +=
+      "[[body.key]]\ntime_s = 0\nposition_m = [0, 0, 0.15]\n[[body.key]]\ntime_s = 1\nposition_m = [0.3, 0, 0.15]\n";
+  return text + "rotation_deg = [0, 90, 0]\n";
+}
+
+sim::Simulation make_simulation(std::uint64_t seed) {
+  return sim::Simulation(sim::parse_scene(scene_text(seed), "drawn.toml"));
+}
+
+bool runs(const sim::Simulation& simulation) {
+  return simulation.clock().state().frame < simulation.scene().time.frame_count;
+}
+
+verify::Surface surface_of(const sim::World& world, std::vector<std::uint8_t>& is_body) {
+  is_body.assign(world.triangles.size(), 0);
+  for (const io::Group& group : world.groups) {
+    for (FaceId f = group.face_begin; f < group.face_end; ++f) {
+      is_body[static_cast<std::size_t>(f)] = group.role == io::Group::Role::kBody;
+    }
+  }
+  return {world.triangles, is_body};
+}
+
+/// Momentum of the cloth in kg m/s, for velocities or anything else that the masses weigh.
+Vec3 weighed(const sim::World& world, const Positions& v) {
+  Vec3 sum = Vec3::Zero();
+  for (Eigen::Index i = 0; i < world.cloth_vertex_count; ++i) {
+    sum += v.row(i).transpose() / world.inverse_mass[static_cast<std::size_t>(i)];
+  }
+  return sum;
+}
+
+std::string judge_step(const sim::Simulation& simulation, const sim::SimulationState& before,
+                       const sim::StepResult& step) {
+  const sim::World& world = simulation.world();
+  if (step.report.status != sim::StepStatus::kSafe) return "a step was not safe";
+  std::vector<std::uint8_t> is_body;
+  const verify::Surface surface = surface_of(world, is_body);
+  const auto points = fuzz::raw_points(simulation.x());
+  if (verify::check_motion(surface, fuzz::raw_points(before.x), points, {}).violations_total.total() != 0 ||
+      verify::check_frame(surface, points, {}).violations_total.total() != 0) {
+    return "a step touches";
+  }
+  const bool float32 = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
+  Positions scripted = simulation.x();
+  for (const sim::Collider& body : world.colliders) body.place_at(simulation.clock().time_s(), float32, scripted);
+  if (scripted != simulation.x()) return "off script";
+  // Springs keep the cloth's momentum: beyond the mean velocity of the step there is half a step of gravity (7.6).
+  const Positions moved = simulation.x() - before.x;
+  const double mass = weighed(world, Positions::Ones(moved.rows(), 3)).x();
+  const Vec3 mean = weighed(world, moved) / step.dt_s;
+  const Vec3 half_gravity(0, 0, -kGravity * step.dt_s / 2 * mass);
+  const Vec3 off = weighed(world, simulation.state().v) - mean - half_gravity;
+  const double rounding = float32 ? 1e-6 * mass / step.dt_s : 1e-6 * half_gravity.norm();
+  if (off.norm() > rounding) return "velocities are not those of the motion";
+  return simulation.state().clock.frame == 0 && simulation.state().clock.tick == 0 ? "the clock stands" : "";
+}
+
+std::string judge_simulation(std::uint64_t seed) {
+  sim::Simulation simulation = make_simulation(seed);
+  while (runs(simulation)) {
+    const sim::SimulationState before = simulation.state();
+    const sim::StepResult step = simulation.step();
+    if (std::string what = judge_step(simulation, before, step); !what.empty()) return what;
+  }
+  return "";
+}
+
+Positions end_with(std::uint64_t seed, int threads) {
+  return oneapi::tbb::task_arena(threads).execute([seed] {
+    sim::Simulation simulation = make_simulation(seed);
+    while (runs(simulation)) (void)simulation.step();
+    return simulation.x();
+  });
+}
+
+std::string compare_threads(std::uint64_t seed) { return end_with(seed, 1) == end_with(seed, 3) ? "" : "other bits"; }
+
+/// A folder of this process, gone at the end.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / ("selvage_mutant_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Records every step; half-way the run is dropped and a new process would go on from the checkpoint.
+std::string judge_recording(std::uint64_t seed) {
+  const Folder folder;
+  sim::Scene scene = sim::parse_scene(scene_text(seed), "drawn.toml");
+  scene.file = folder.path() / "drawn.toml";
+  io::write_atomically(scene.file, scene_text(seed));
+  std::vector<Positions> states;
+  {
+    sim::Simulation whole(scene);
+    states.push_back(whole.x());
+    while (runs(whole)) {
+      (void)whole.step();
+      states.push_back(whole.x());
+    }
+  }
+  for (const bool resume : {false, true}) {
+    sim::Simulation part(scene);
+    sim::Recorder recorder(folder.path() / "run", part, io::SequenceKind::kSteps, resume, "selvage");
+    const auto stop = resume ? scene.time.frame_count : scene.time.frame_count / 2 + 1;
+    while (part.clock().state().frame < stop) recorder.record(part.step());
+  }
+  const auto sequence = io::open_sequence({folder.path() / "run"}, {});
+  if (sequence->frame_count() != states.size()) return "steps were lost or repeated";
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (sequence->frame(i).points != fuzz::raw_points(states[i])) return "a recorded step has other bits";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Property> simulation_properties() {
+  return {{"simulation", "every step is exactly free, on script, with the velocities of its motion (S1, S3, S4)",
+           falsify<judge_simulation>},
+          {"simulation-threads", "a simulation gives the same bits for 1 and for 3 threads (K7)",
+           falsify<compare_threads>, true},
+          {"recording", "what is recorded and resumed has the bits of a run in one go (S5)", falsify<judge_recording>}};
+}
+
+}  // namespace selvage::mutants
