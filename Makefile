@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz agreement cluster bench format tidy clean
+.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz mutants agreement cluster bench format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -58,6 +58,11 @@ coverage: setup  ## every line and branch of the kernel is tested, but for those
 fuzz: build  ## a minute of fuzzing against the exact checker
 	rm -rf build/artifacts
 	$(SELVAGE) fuzz --time 60s --artifacts build/artifacts
+
+mutants: build  ## plant a hundred defects, one at a time: a property must find each of them (docs/mutants.md)
+	cmake --build --preset release --target selvage_mutants
+	build/release/tests/mutants/selvage_mutants tests/mutants/lists --classes 400 \
+	  --json build/mutants.json --markdown build/mutants.md
 
 docs:  ## the reference of the kernel's public API, in build/docs/html
 	@cmake/setup packages-docs.txt

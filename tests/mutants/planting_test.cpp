@@ -38,7 +38,7 @@ TEST(MutantLists, EveryMutantHasItsPlaceInTheSources) {
   }
   for (const std::string& file : files) {
     EXPECT_TRUE(file.ends_with(".cpp")) << file << ": a header's copy would have to be compiled everywhere";
-    EXPECT_NO_THROW((void)plant(read_text(root / file), file, mutants)) << refusal("", file);
+    EXPECT_NO_THROW((void)plant(read_text(root / file), file, mutants));
   }
   EXPECT_GE(mutants.size(), 60U);
 }
