@@ -56,7 +56,7 @@ TEST(VerifyPage, SaysWhatTheReportSays) {
   const TemporaryFolder folder;
   const auto page = folder.path() / "page.html", json = folder.path() / "report.json", kept = folder.path() / "a.case";
   std::vector<std::string> command = {"verify", "--motion", "--json", json, "--html", page};
-  for (const double height : {1.0, -3.0, -4.0}) {
+  for (const double height : {2.0, 1.0, -3.0}) {
     command.push_back(folder.path() / fmt::format("{}.obj", height));
     spit(command.back(), two_faces(height));
   }
@@ -69,9 +69,9 @@ TEST(VerifyPage, SaysWhatTheReportSays) {
   EXPECT_EQ(occurrences(html, kRow), 3U);
   EXPECT_EQ(occurrences(html, kBar), 3U);
   EXPECT_NE(
-      html.find("title=\"motion 0 to 1: 3 vertex-face\" aria-label=\"motion 0 to 1: 3 vertex-face\" data-begin=\"0\""),
+      html.find("title=\"motion 1 to 2: 3 vertex-face\" aria-label=\"motion 1 to 2: 3 vertex-face\" data-begin=\"1\""),
       html.npos);
-  EXPECT_EQ(frames_of(html), (std::vector<std::int64_t>{0, 1, 2})) << "those with witnesses first";
+  EXPECT_EQ(frames_of(html), (std::vector<std::int64_t>{1, 2, 0})) << "those with witnesses first";
   EXPECT_NE(html.find("The meshes of 3 of 3 frames"), html.npos);
 
   const auto cases = data_of(html, "cases");
