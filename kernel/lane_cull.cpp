@@ -5,7 +5,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernel/lane_cull.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -75,7 +74,6 @@ class Look {
   void LookAtAll(const LanePairs& pairs, PairNumbers& left) const {
     left.count = 0;
     for (std::size_t i = 0; i < pairs.count(); i += hn::Lanes(Near())) {
-      Prefetch(pairs, i + kAhead);
       PointMotion x;
       HWY_UNROLL(4)
       for (std::size_t k = 0; k < 4; ++k) {
@@ -114,8 +112,6 @@ class Look {
  private:
   /// On the cloth-ball frame the normal and the means leave 13 % of the pairs, these steps 6 %; 1.7 % touch.
   static constexpr int kSteps = 3;
-  /// Pairs between the one that is looked at and the one whose rows are fetched.
-  static constexpr std::size_t kAhead = 32;
 
   struct Projection {
     Vector n;
@@ -209,15 +205,6 @@ class Look {
     x.t0.point[k] = ReadColumns(rows_, vertices);
     x.t1.point[k] = ReadColumns(rows_ + 4, vertices);
   }
-  HWY_INLINE void Prefetch(const LanePairs& pairs, std::size_t i) const {
-    if (i >= pairs.count()) return;
-    for (std::size_t k = kKind == PairKind::kEe ? 2 : 1; k < 4; ++k) {
-      for (std::size_t lane = 0; lane < hn::Lanes(Near()); ++lane) {
-        hwy::Prefetch(rows_ + 8 * std::size_t{pairs.vertices(k)[i + lane]});
-      }
-    }
-  }
-
   static HWY_INLINE void Keep(Choice apart, std::size_t count, hn::Vec<Place> numbers, PairNumbers& left) {
     const Choice open = hn::AndNot(apart, hn::FirstN(Near(), count));
     left.count += hn::CompressStore(numbers, hn::RebindMask(Place(), open), Place(), left.place.data() + left.count);
