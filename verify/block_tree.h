@@ -35,8 +35,8 @@ class BlockTree {
   void visit(const LatticeBox& box, std::size_t first, Visit&& visit) const;
 
  private:
-  std::vector<std::vector<BoxBlock>>
-      levels_;  // levels_[0] block b place p bounds block 8 b + p; levels_[1] bounds levels_[0]
+  // levels_[0] block b place p bounds block 8 b + p; levels_[1] bounds levels_[0]
+  std::vector<std::vector<BoxBlock>> levels_;
 };
 
 template <class Visit>

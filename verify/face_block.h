@@ -42,9 +42,10 @@ struct alignas(32) FaceBlock {
 
   /// About one face and the eight: bit i is about the face at place i.
   struct Masks {
-    unsigned meet = 0;  ///< the stored boxes have a point in common: so do all whose exact boxes have
-    unsigned apart =
-        0;  ///< of these: the exact boxes have, and yet the faces have not, but for corners shared by index
+    /// The stored boxes have a point in common: so do all whose exact boxes have.
+    unsigned meet = 0;
+    /// Of these: proved that the exact boxes have, and that the faces have none but corners shared by index.
+    unsigned apart = 0;
   };
   /// masks[i], for all bits i of the result, is about face i of `query`; for the others no boxes meet. `min`, `max`: a
   /// box that holds all eight. The same on every processor.
