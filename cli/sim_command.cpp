@@ -26,7 +26,7 @@ struct SimArguments {
   std::optional<std::size_t> threads;
   io::SequenceKind record = io::SequenceKind::kFrames;
   sim::Quality quality = sim::Quality::kDraft;
-  bool resume = false;
+  bool resume = false, strict = false;
 };
 
 std::string part_of_face(const sim::World& world, std::int32_t face) {
@@ -139,7 +139,10 @@ ExitCode simulate(const SimArguments& arguments) {
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
   const ExitCode code = run(simulation, recorder);
   print_totals(recorder.totals());
-  return code;
+  const std::string shortfalls = recorder.totals().shortfalls();
+  if (!arguments.strict || code != ExitCode::kClean || shortfalls.empty()) return code;
+  fmt::print(stderr, "selvage: --strict: {}\n", shortfalls);
+  return ExitCode::kViolation;
 }
 
 }  // namespace
@@ -161,6 +164,8 @@ void add_sim_command(CLI::App& program, Job& job) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, sim::Quality>{{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}}));
   command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");
+  command.add_flag("--strict", arguments->strict,
+                   "Exit code 1 also where the fail-safe was needed, the tolerance was missed or a body waited");
   command.callback([arguments, &job] { job = [arguments] { return simulate(*arguments); }; });
 }
 

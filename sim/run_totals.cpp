@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace selvage::sim {
 
 void RunTotals::add(const StepResult& step) {
@@ -23,6 +25,17 @@ void RunTotals::add(const StepResult& step) {
   dynamics_s += step.seconds.dynamics;
   collision_s += step.seconds.collision;
   velocity_s += step.seconds.velocity;
+}
+
+std::string RunTotals::shortfalls() const {
+  std::string text;
+  const auto add_clause = [&](std::int64_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add_clause(fail_safe_vertices, "vertices were held back by the fail-safe");
+  add_clause(pairs_below_tolerance, "pairs ended a step nearer than the tolerance");
+  add_clause(waiting_bodies, "times a body waited");
+  return text;
 }
 
 }  // namespace selvage::sim

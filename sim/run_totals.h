@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "sim/step.h"
 
@@ -18,6 +19,10 @@ struct RunTotals {
   double dynamics_s = 0, collision_s = 0, velocity_s = 0, record_s = 0;
 
   void add(const StepResult& step);
+  /// One clause for each thing that went less well than the scene asked for, "" where nothing did: the fail-safe was
+  /// needed, pairs ended a step nearer than the tolerance, bodies waited. No intersection is among them: these end
+  /// runs.
+  [[nodiscard]] std::string shortfalls() const;
 };
 
 /// Calls visit(name, field) for every field, in the order above: one list for run.json and for checkpoints.

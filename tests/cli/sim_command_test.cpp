@@ -95,6 +95,12 @@ TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   std::filesystem::remove_all(path("out"));
   EXPECT_EQ(sim("squeeze = \"yield\"\n" + scene(6, 0.2, 0.34), {"--record", "steps"}).exit_code, 0);
   EXPECT_EQ(run_program(folder_, {"verify", path("out")}).exit_code, 0);
+
+  std::filesystem::remove_all(path("out"));
+  const auto strict = sim("squeeze = \"yield\"\n" + scene(6, 0.2, 0.34), {"--strict"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_NE(strict.err.find("a body waited"), std::string::npos) << strict.err;
+  EXPECT_NE(slurp(path("out") + "/run.json").find("\"end\": \"complete\""), std::string::npos) << "all was written";
 }
 
 TEST_F(SimCommand, AnInterruptedRunExits75AndResumesWithTheSameBits) {
