@@ -22,7 +22,7 @@ void CentralDifferences::find_forces(const Positions& x) {
 }
 
 void CentralDifferences::explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h) {
-  damping_impulses({springs_, inverse_mass, 0, damping_, {}, options_.stabilizers, 0, 1}, direction_, motion.v,
+  damping_impulses({springs_, inverse_mass, 0, damping_, options_.stabilizers, 0, 1}, direction_, motion.v,
                    damping_force_, scratch_);
   parallel_each(motion.v.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
@@ -40,13 +40,8 @@ void CentralDifferences::implicit_half_kick(Motion& motion, std::span<const doub
   for (std::size_t s = 0; s < damping_.size(); ++s) {
     along_[s] = h / 2 * damping_[s] + stiffness_s2 * springs_.springs()[s].stiffness_n_m;
   }
-  across_.clear();
-  if (stiffness_share > 0) {
-    springs_.tension_shares(motion.x, across_);
-    for (std::size_t s = 0; s < across_.size(); ++s) across_[s] *= stiffness_s2 * springs_.springs()[s].stiffness_n_m;
-  }
-  const VelocitySystem system{springs_, inverse_mass,         options_.drag_1_s, along_,
-                              across_,  options_.stabilizers, stiffness_s2,      h / 2};
+  const VelocitySystem system{springs_,     inverse_mass, options_.drag_1_s, along_, options_.stabilizers,
+                              stiffness_s2, h / 2};
   Positions rhs = motion.v;
   parallel_each(rhs.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
@@ -68,8 +63,7 @@ void CentralDifferences::march(const VelocitySystem& system, std::span<const dou
     const auto vertex = static_cast<std::size_t>(i);
     if (inverse_mass[vertex] == 0) continue;
     double row = 0;  // Gershgorin: twice the diagonal of the springs' part
-    springs_.for_each_at(static_cast<VertexId>(i),
-                         [&](std::uint32_t s, double) { row += 2 * (along_[s] + (across_.empty() ? 0 : across_[s])); });
+    springs_.for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double) { row += 2 * along_[s]; });
     if (system.stabilizers != nullptr) {
       row += system.stabilizers->row_sum(static_cast<VertexId>(i), system.stabilizer_stiffness_share,
                                          system.stabilizer_damping_share);

@@ -57,25 +57,13 @@ void SpringSystem::directions(const PositionsRef& x, Positions& direction) const
   });
 }
 
-void SpringSystem::tension_shares(const PositionsRef& x, std::vector<double>& share) const {
-  share.resize(springs_.size());
-  parallel_each(static_cast<Eigen::Index>(springs_.size()), [&](Eigen::Index s) {
-    const Spring& spring = springs_[static_cast<std::size_t>(s)];
-    const double length = (x.row(spring.b) - x.row(spring.a)).norm();
-    share[static_cast<std::size_t>(s)] = length > spring.rest_length_m ? 1 - spring.rest_length_m / length : 0;
-  });
-}
-
-void SpringSystem::apply(const Positions& direction, std::span<const double> coefficient,
-                         std::span<const double> across, const Positions& v, Positions& result,
-                         Positions& scratch) const {
+void SpringSystem::apply(const Positions& direction, std::span<const double> coefficient, const Positions& v,
+                         Positions& result, Positions& scratch) const {
   scratch.resize(direction.rows(), 3);
   parallel_each(direction.rows(), [&](Eigen::Index s) {
     const Spring& spring = springs_[static_cast<std::size_t>(s)];
-    const auto slot = static_cast<std::size_t>(s);
-    const double side = across.empty() ? 0 : across[slot];
-    const Eigen::RowVector3d d = v.row(spring.a) - v.row(spring.b);
-    scratch.row(s) = ((coefficient[slot] - side) * direction.row(s).dot(d)) * direction.row(s) + side * d;
+    const double rate = direction.row(s).dot(v.row(spring.a) - v.row(spring.b));
+    scratch.row(s) = (coefficient[static_cast<std::size_t>(s)] * rate) * direction.row(s);
   });
   result.resize(vertex_count(), 3);
   parallel_each(result.rows(), [&](Eigen::Index i) {

@@ -41,15 +41,11 @@ class SpringSystem {
   /// Unit vectors from a to b of every spring at x; zero for a spring of length 0.
   void directions(const PositionsRef& x, Positions& direction) const;
 
-  /// Per spring: 1 - rest length / length where it is stretched, else 0. Across its direction a spring in tension
-  /// resists with this share of its stiffness.
-  void tension_shares(const PositionsRef& x, std::vector<double>& share) const;
-
-  /// Row i of `result` becomes sum over the springs s at i of (coefficient[s] n_s n_s^T + across[s] (I - n_s n_s^T))
-  /// (v_i - v_other): the product with a symmetric positive semidefinite matrix whose rows sum to zero. With the
-  /// damping coefficients it is minus the damping force. `across` may be empty: zero. `scratch` is room to work in.
-  void apply(const Positions& direction, std::span<const double> coefficient, std::span<const double> across,
-             const Positions& v, Positions& result, Positions& scratch) const;
+  /// Row i of `result` becomes sum over the springs s at i of coefficient[s] n_s n_s^T (v_i - v_other): the product
+  /// with a symmetric positive semidefinite matrix whose rows sum to zero. With the damping coefficients it is minus
+  /// the damping force. `scratch` is room to work in.
+  void apply(const Positions& direction, std::span<const double> coefficient, const Positions& v, Positions& result,
+             Positions& scratch) const;
 
   /// Calls visit(spring index, other end, sign) for the springs at vertex i in a fixed order; sign is +1 where i is a.
   template <class Visit>

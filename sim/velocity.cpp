@@ -80,9 +80,7 @@ class ConjugateGradients {
       const double w = inverse_mass(i);
       Eigen::RowVector3d sum = Eigen::RowVector3d::Constant(w > 0 ? (1 + dt_s_ * system_.drag_1_s) / w : 1);
       system_.springs.for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double) {
-        const double side = system_.across_coefficient.empty() ? 0 : system_.across_coefficient[s];
-        sum += (system_.spring_coefficient[s] - side) * direction_.row(s).cwiseAbs2();
-        sum.array() += side;
+        sum += system_.spring_coefficient[s] * direction_.row(s).cwiseAbs2();
       });
       if (system_.stabilizers != nullptr) {
         sum.array() += system_.stabilizers->diagonal(static_cast<VertexId>(i), system_.stabilizer_stiffness_share,
@@ -107,7 +105,7 @@ class ConjugateGradients {
 
 void damping_impulses(const VelocitySystem& system, const Positions& direction, const Positions& v, Positions& result,
                       Positions& scratch) {
-  system.springs.apply(direction, system.spring_coefficient, system.across_coefficient, v, result, scratch);
+  system.springs.apply(direction, system.spring_coefficient, v, result, scratch);
   if (system.stabilizers == nullptr) return;
   system.stabilizers->add_forces(v, -system.stabilizer_stiffness_share, -system.stabilizer_damping_share, result);
 }

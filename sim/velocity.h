@@ -12,9 +12,8 @@ namespace selvage::sim {
 struct VelocitySystem {
   const SpringSystem& springs;
   std::span<const double> inverse_mass;
-  double drag_1_s = 0;                              ///< acceleration -drag v, on top of the springs
-  std::span<const double> spring_coefficient;       ///< per spring: impulse per rate of elongation, N s / (m/s)
-  std::span<const double> across_coefficient = {};  ///< per spring, the same across its direction; empty: 0
+  double drag_1_s = 0;                         ///< acceleration -drag v, on top of the springs
+  std::span<const double> spring_coefficient;  ///< per spring: impulse per rate of elongation, N s / (m/s)
   const StabilizerSystem* stabilizers = nullptr;
   double stabilizer_stiffness_share = 0, stabilizer_damping_share = 0;  ///< of their matrices, s^2 and s
 };

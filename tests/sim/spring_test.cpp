@@ -28,7 +28,7 @@ Positions damping_force(const testing::RandomCloth& cloth, const Positions& v) {
   std::vector<double> coefficient;
   for (const Spring& spring : cloth.springs.springs()) coefficient.push_back(spring.damping_n_s_m);
   cloth.springs.directions(cloth.x, direction);
-  cloth.springs.apply(direction, coefficient, {}, v, product, scratch);
+  cloth.springs.apply(direction, coefficient, v, product, scratch);
   return -product;
 }
 

@@ -79,17 +79,6 @@ TEST(Velocity, KeepsMomentaToRoundingWhateverConjugateGradientsLeave) {
   EXPECT_LE((angular_momentum(cloth, v) - angular_momentum(cloth, cloth.v)).norm(), 1e-14);
 }
 
-TEST(Velocity, AcrossTheDirectionSpringsResistWithTheirOwnCoefficient) {
-  const SpringSystem spring({Spring{0, 1, SpringKind::kStructural, 1, 10, 0}}, 2);
-  const std::vector<double> inverse_mass = {1, 0}, along = {0.5}, across = {0.25};
-  Positions direction(1, 3), rhs(2, 3), v = Positions::Zero(2, 3);
-  direction << 1, 0, 0;
-  rhs << 1, 1, 0, 0, 0, 0;
-  solve_velocity({spring, inverse_mass, 0, along, across}, direction, rhs, 0.01, v);
-  EXPECT_NEAR(v(0, 0), 1 / 1.5, 1e-12);
-  EXPECT_NEAR(v(0, 1), 1 / 1.25, 1e-12);
-}
-
 TEST(VelocityMarch, LinearDampingDecaysExponentiallyAtFirstOrder) {
   // a = -c v: exactly exp(-c t) v. Ten times the steps, a tenth of the error.
   const double c = 3, time_s = 0.7;
