@@ -220,7 +220,7 @@ class ListPassage {
         const ContactReader reader(found, touch, factor);
         ForEachLane(contact, [&](std::size_t k) { contacts_.push_back(reader.At(k, of_lane[k], motion_.exponent)); });
       }
-      ForEachLane(open, [&](std::size_t k) { split.add(of_lane[k]); });
+      if constexpr (kWhole) ForEachLane(open, [&](std::size_t k) { split.add(of_lane[k]); });
       ForEachLane(lanes & ~(contact | open | BitsOf(found.separated)), [&](std::size_t k) { unclear.add(of_lane[k]); });
     }
   }

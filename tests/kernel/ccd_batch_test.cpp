@@ -324,6 +324,12 @@ TEST(CcdBatch, PublicContactsAreFoundAndFewPairsAreSearched) {
   EXPECT_LT(static_cast<double>(ee.searched), 0.0003 * static_cast<double>(candidates.ee.size()));
 }
 
+TEST(CcdBatch, AMeshWithoutVerticesHasNoAnswers) {
+  const Positions V(0, 3);
+  const Mesh mesh = make_mesh(0, Faces(0, 3));
+  EXPECT_TRUE(CcdBatch(mesh, V, V, {}, 1).ask(std::span<const EeCandidate>{}).answers.empty());
+}
+
 /// An infinite tolerance is no tolerance: nothing is separated, as single queries say.
 TEST(CcdBatch, AnInfiniteToleranceIsAnsweredAsBySingleQueries) {
   Faces F(2, 3);
