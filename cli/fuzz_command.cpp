@@ -13,7 +13,9 @@
 #include "cli/interrupt.h"
 #include "cli/shard.h"
 #include "cli/terminal.h"
+#include "fuzz/conformance.h"
 #include "fuzz/driver.h"
+#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -24,7 +26,7 @@ struct Arguments {
   std::string time;
   std::uint64_t seed = 1;
   int jobs = 0;
-  std::string artifacts = "fuzz-artifacts", shard = "1/1", only;
+  std::string artifacts = "fuzz-artifacts", shard = "1/1", only, plugin;
   double case_time_s = 10;
   bool resume = false, list = false;
 };
@@ -122,7 +124,32 @@ fuzz::DriverOptions driver_options(const Arguments& arguments) {
   return options;
 }
 
+/// Someone else's code under the query level.
+ExitCode run_plugin(const Arguments& arguments) {
+  if (!arguments.properties.empty() || !arguments.only.empty()) {
+    throw UsageError("--plugin runs the conformance test and nothing else");
+  }
+  const fuzz::PluginInfo info = fuzz::probe_plugin(arguments.plugin);
+  fuzz::Properties properties;
+  properties.push_back(fuzz::make_conformance(arguments.plugin));
+  fuzz::DriverOptions options = driver_options(arguments);
+  options.target = std::string("plugin ") + info.name;
+  fuzz::Driver driver(properties, options);
+  bool finished = false;
+  {
+    const StatusLine line(driver);
+    finished = driver.run(interrupted, [&](const fuzz::DriverStatus& status) { line.update(status); });
+  }
+  io::write_atomically(options.folder / "conformance.json", fuzz::conformance_json(driver.ledger(), info));
+  const std::string text = fuzz::conformance_text(driver.ledger(), info, arguments.artifacts);
+  io::write_atomically(options.folder / "conformance.txt", text);
+  fmt::print("{}", text);
+  if (!driver.ledger().properties.front().findings.empty()) return ExitCode::kViolation;
+  return finished ? ExitCode::kClean : ExitCode::kInterrupted;
+}
+
 ExitCode run(const Arguments& arguments) {
+  if (!arguments.plugin.empty()) return run_plugin(arguments);
   fuzz::Properties properties = chosen_properties(arguments.properties);
   if (arguments.list) {
     fmt::print("{}", fuzz_list(properties));
@@ -171,6 +198,9 @@ void add_fuzz_command(CLI::App& program, Job& job) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   fuzz.add_option("--only", arguments->only, "Run one case again, STREAM:NUMBER as the table prints it");
+  fuzz.add_option("--plugin", arguments->plugin,
+                  "Test someone else's collision code instead: a library with the interface fuzz/selvage-plugin.h")
+      ->type_name("LIB.so");
   fuzz.add_flag("--list", arguments->list, "Say what each property promises, and end");
   fuzz.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <set>
 #include <stdexcept>
 
 #include <fcntl.h>
+#include <oneapi/tbb/global_control.h>
 #include <poll.h>
 
 #include "fuzz/campaign_stats.h"
@@ -20,8 +22,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTick_ms = 100;
 constexpr double kSaveEvery_s = 1;
-/// A stream that killed so many workers is not run any more in this run: each costs a process, a hang costs seconds.
-constexpr int kMaxCrashes = 20, kMaxHangs = 2;
+/// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is a
+/// property that hung so often, because a hang costs many seconds.
+constexpr int kMaxCrashes = 5, kMaxHangs = 3;
 
 }  // namespace
 
@@ -37,7 +40,8 @@ struct Driver::Share {
   std::set<std::int64_t> in_hand;
   std::int64_t next = 0;  ///< lowest unit of the shard that may be open
   std::vector<bool> is_skipped;
-  std::vector<int> deaths;
+  std::vector<int> crashes;  ///< a stream
+  int hangs = 0;
   std::set<std::pair<std::string, std::string>> being_kept;
 };
 
@@ -77,7 +81,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
     Share share;
     share.next = options_.shard - 1;
     share.is_skipped.resize(property->streams().size());
-    share.deaths.resize(property->streams().size());
+    share.crashes.resize(property->streams().size());
     SELVAGE_ASSERT(property->streams().size() <= Progress::kMaxStreams);
     shares_.push_back(std::move(share));
   }
@@ -89,6 +93,11 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
   std::signal(SIGPIPE, SIG_IGN);  // a worker that died shows at its other pipe
   std::filesystem::create_directories(options_.folder);
   save();
+  {
+    // Without threads: a fork takes only one along.
+    const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    for (const auto& property : properties_) property->prepare();
+  }
   for (int i = 0; i < options_.jobs; ++i) teams_.push_back(std::make_unique<Team>(setting_));
   const auto start = Clock::now();
   auto last_save = start;
@@ -155,6 +164,7 @@ std::optional<Job> Driver::next_job(bool stopping) {
     }
     const auto end = unit_count(*properties_[p], options_.cases);
     if (end && share.next >= *end) continue;
+    if (std::ranges::all_of(share.is_skipped, std::identity())) continue;
     const auto cost = [&](std::size_t i) { return shares_[i].seconds / properties_[i]->weight(); };
     if (!chosen || cost(p) < cost(*chosen)) chosen = p;
   }
@@ -242,8 +252,12 @@ void Driver::take_death(Team& team) {
   team.failures.push_back(failure);
   progress.rows[stream] += {1, 1, {}, 0};
   ++progress.number;
-  const int limit = death.failure == "hung" ? kMaxHangs : kMaxCrashes;
-  if (++share.deaths[stream] >= limit) share.is_skipped[stream] = progress.is_skipped[stream] = true;
+  if (death.failure == "hung") {
+    if (++share.hangs >= kMaxHangs) share.is_skipped.assign(share.is_skipped.size(), true);
+  } else if (++share.crashes[stream] >= kMaxCrashes) {
+    share.is_skipped[stream] = true;
+  }
+  for (std::size_t i = 0; i < share.is_skipped.size(); ++i) progress.is_skipped[i] = share.is_skipped[i];
   team.worker.revive();
 }
 

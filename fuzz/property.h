@@ -39,6 +39,8 @@ class Property {
   /// Share of a campaign's processor time, relative to the other properties.
   [[nodiscard]] int weight() const { return weight_; }
 
+  /// In the driver, before there are workers, which inherit what is made here. May not start threads.
+  virtual void prepare() {}
   /// In the process that will run cases, before the first.
   virtual void start() {}
   [[nodiscard]] virtual Outcome run(const Stream& stream, ChoiceSource source) = 0;

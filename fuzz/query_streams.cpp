@@ -26,6 +26,8 @@ class QueryCampaign final : public Property {
     counters_ = {"touches", "hits", "alarms", "unresolved", "undecided", "exact"};
   }
 
+  void prepare() override { prepare_queries(); }
+
   Outcome run(const Stream& stream, ChoiceSource source) override {
     const auto [query_class, kind] = query_stream(stream);
     const MotionQuery query = make_query(*query_class, kind, source);
@@ -71,6 +73,14 @@ std::vector<Stream> query_streams(std::span<const PairKind> kinds, std::int64_t 
     }
   }
   return streams;
+}
+
+void prepare_queries() {
+  for (const Stream& stream : query_streams(kPairKinds, 1)) {
+    const auto [query_class, kind] = query_stream(stream);
+    ChoiceSource simplest = ChoiceSource::from_words({});
+    static_cast<void>(make_query(*query_class, kind, simplest));
+  }
 }
 
 QueryStream query_stream(const Stream& stream) {

@@ -15,6 +15,8 @@ struct QueryStream {
 
 /// Streams for the kinds `kinds`, and what each stands for; per_unit is the class's, divided by `divisor`.
 [[nodiscard]] std::vector<Stream> query_streams(std::span<const PairKind> kinds, std::int64_t divisor);
+/// Makes one query of each class, so that what is made once (a recording) is not charged to a case.
+void prepare_queries();
 [[nodiscard]] QueryStream query_stream(const Stream& stream);
 
 [[nodiscard]] std::unique_ptr<Property> make_query_campaign(const QueryProperty& property);

@@ -35,7 +35,7 @@ class WorkerProcess {
   [[nodiscard]] Death bury();
   /// Another process takes over: the unit goes on behind the case that killed the last one; a kept case is given up.
   void revive();
-  /// Kills it if the case in hand has taken more than so much processor time, or five times as much by the clock.
+  /// Kills it if the case in hand has taken more than so much processor time, or 20 times as much by the clock.
   void watch(double case_seconds);
 
   [[nodiscard]] Progress& progress() { return *progress_; }

@@ -1,0 +1,23 @@
+// The query level as a conformance test for anyone's collision code: a plugin against exact arithmetic.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "fuzz/ledger.h"
+#include "fuzz/plugin.h"
+#include "fuzz/property.h"
+
+namespace selvage::fuzz {
+
+/// Streams for all classes, vf and ee. Failures: missed, late-time, alarm-too-far, and the misdeeds of Plugin::Answer.
+[[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library);
+
+/// The report on a campaign with the property above: a line for each class with queries, touches, misses, late times,
+/// alarms beyond the declared gap and time a query; then every finding with its smallest counterexample.
+[[nodiscard]] std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const std::string& folder);
+/// "selvage.conformance/1".
+[[nodiscard]] std::string conformance_json(const Ledger& ledger, const PluginInfo& info);
+
+}  // namespace selvage::fuzz

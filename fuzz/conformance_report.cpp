@@ -1,0 +1,73 @@
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "fuzz/conformance.h"
+
+namespace selvage::fuzz {
+namespace {
+
+std::string line(const std::string& name, const Counts& row) {
+  std::array<char, 200> text{};
+  const double nanoseconds = row.cases > 0 ? static_cast<double>(row.of[5]) / static_cast<double>(row.cases) : 0;
+  std::snprintf(text.data(), text.size(), "  %-38s %10lld %9lld %9lld %8lld %8lld %8lld %10.0f\n", name.c_str(),
+                static_cast<long long>(row.cases), static_cast<long long>(row.of[0]), static_cast<long long>(row.of[1]),
+                static_cast<long long>(row.of[2]), static_cast<long long>(row.of[3]), static_cast<long long>(row.of[4]),
+                nanoseconds);
+  return text.data();
+}
+
+}  // namespace
+
+std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const std::string& folder) {
+  const PropertyLedger& done = ledger.properties.front();
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), "%s, alarms within %.3g + %.3g of the size%s\n", info.name, info.tolerance,
+                info.relative_tolerance, info.has_toi ? "" : ", no times of impact");
+  std::string report = text.data();
+  std::snprintf(text.data(), text.size(), "  %-38s %10s %9s %9s %8s %8s %8s %10s\n", "class", "queries", "touches",
+                "alarms", "missed", "late", "too far", "ns a query");
+  report += text.data();
+  for (std::size_t i = 0; i < done.rows.size(); ++i) report += line(done.streams[i], done.rows[i]);
+  report += line("all", done.total());
+  for (const auto& [key, finding] : done.findings) {
+    report += "  " + key.second + ": " + key.first + ", " + std::to_string(finding.count) + " times, first in case " +
+              std::to_string(finding.number) + "; smallest: " + folder + "/" + finding.file + "\n";
+  }
+  return report + (done.findings.empty() ? "  nothing found\n" : "");
+}
+
+std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
+  const PropertyLedger& done = ledger.properties.front();
+  nlohmann::ordered_json json;
+  json["schema"] = "selvage.conformance/1";
+  json["plugin"] = {{"name", info.name},
+                    {"tolerance", info.tolerance},
+                    {"relative_tolerance", info.relative_tolerance},
+                    {"has_toi", info.has_toi},
+                    {"has_batch", info.has_batch}};
+  json["seed"] = ledger.seed;
+  for (std::size_t i = 0; i < done.rows.size(); ++i) {
+    const Counts& row = done.rows[i];
+    json["classes"].push_back({{"name", done.streams[i]},
+                               {"queries", row.cases},
+                               {"touches", row.of[0]},
+                               {"alarms", row.of[1]},
+                               {"missed", row.of[2]},
+                               {"late", row.of[3]},
+                               {"too_far", row.of[4]},
+                               {"nanoseconds", row.of[5]},
+                               {"failures", row.failures}});
+  }
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const auto& [key, finding] : done.findings) {
+    json["findings"].push_back({{"class", key.first},
+                                {"failure", key.second},
+                                {"count", finding.count},
+                                {"first_case", finding.number},
+                                {"smallest", finding.file}});
+  }
+  return json.dump(1) + "\n";
+}
+
+}  // namespace selvage::fuzz

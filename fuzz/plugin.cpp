@@ -1,0 +1,172 @@
+#include "fuzz/plugin.h"
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include <dlfcn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fuzz/wire.h"
+#include "io/error.h"
+#include "kernel/fp_env.h"
+
+namespace selvage::fuzz {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& library, const std::string& why) {
+  throw io::Error(io::ErrorKind::kBadInput, library.string() + ": " + why);
+}
+
+/// What somebody did to this thread's environment, by name; it is not repaired here.
+std::string fp_misdeed() {
+  const unsigned defects = fp_env_defects();
+  if ((defects & kFpRounding) != 0) return "changed-rounding-mode";
+  return (defects & (kFpFlush | kFpDenormals)) != 0 ? "set-flush-to-zero" : "";
+}
+
+/// Memory with a pattern on both sides, which nobody has a reason to change.
+template <class T, std::size_t N>
+class Fenced {
+ public:
+  Fenced() {
+    std::memset(before_, kPattern, sizeof before_);
+    std::memset(after_, kPattern, sizeof after_);
+  }
+  [[nodiscard]] bool is_whole() const {
+    const auto untouched = [](const unsigned char* bytes) {
+      for (std::size_t i = 0; i < kFence; ++i) {
+        if (bytes[i] != kPattern) return false;
+      }
+      return true;
+    };
+    return untouched(before_) && untouched(after_);
+  }
+  T* data() { return values_; }
+  T& operator[](std::size_t i) { return values_[i]; }
+
+ private:
+  static constexpr std::size_t kFence = 256;
+  static constexpr unsigned char kPattern = 0xa5;
+  alignas(64) unsigned char before_[kFence];
+  T values_[N] = {};
+  unsigned char after_[kFence];
+};
+
+selvage_query plain(const MotionQuery& query) {
+  selvage_query plain{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      plain.x_t0[i][axis] = query.x_t0[i][axis];
+      plain.x_t1[i][axis] = query.x_t1[i][axis];
+    }
+  }
+  return plain;
+}
+
+bool is_same(const selvage_query& a, const selvage_query& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// What nobody answers with: to be overwritten.
+constexpr selvage_answer kUnanswered{0x5a5a5a5a, -1};
+
+std::string judge_form(const selvage_answer& answer, bool has_toi) {
+  if (answer.verdict != SELVAGE_SEPARATED && answer.verdict != SELVAGE_COLLIDES) return "invalid-verdict";
+  const bool is_time = answer.toi >= 0 && answer.toi <= 1;
+  return has_toi && answer.verdict == SELVAGE_COLLIDES && !is_time ? "invalid-time" : "";
+}
+
+}  // namespace
+
+Plugin::Plugin(const std::filesystem::path& library) {
+  const FpEnvGuard guard;
+  const std::filesystem::path file = std::filesystem::absolute(library);  // dlopen searches for bare names
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) refuse(library, std::string("cannot be loaded: ") + dlerror());
+  load_misdeed_ = fp_misdeed();
+  const auto entry = std::bit_cast<selvage_plugin_entry_function>(dlsym(handle, "selvage_plugin_entry"));
+  if (entry == nullptr) refuse(library, "has no function selvage_plugin_entry");
+  plugin_ = entry();
+  if (plugin_ == nullptr) refuse(library, "selvage_plugin_entry returns nothing");
+  if (plugin_->version != SELVAGE_PLUGIN_VERSION) {
+    refuse(library, "is built for version " + std::to_string(plugin_->version) +
+                        " of selvage-plugin.h, this is version " + std::to_string(SELVAGE_PLUGIN_VERSION));
+  }
+  const bool are_lengths = plugin_->tolerance >= 0 && std::isfinite(plugin_->tolerance) &&
+                           plugin_->relative_tolerance >= 0 && std::isfinite(plugin_->relative_tolerance);
+  if (plugin_->answer == nullptr || plugin_->name == nullptr || !are_lengths) {
+    refuse(library, "declares no answer function, no name, or a tolerance that is none");
+  }
+  std::strncpy(info_.name, plugin_->name, sizeof info_.name - 1);
+  info_.tolerance = plugin_->tolerance;
+  info_.relative_tolerance = plugin_->relative_tolerance;
+  info_.has_toi = plugin_->has_toi != 0;
+  info_.has_batch = plugin_->answer_batch != nullptr;
+}
+
+Plugin::Answer Plugin::ask(const MotionQuery& query, bool in_batch) const {
+  const FpEnvGuard guard;  // asked in a clean environment, whatever it left behind the last time
+  const selvage_query original = plain(query);
+  const std::int32_t kind = query.kind == PairKind::kVf ? SELVAGE_VF : SELVAGE_EE;
+  Fenced<selvage_query, 1> asked;
+  Fenced<selvage_answer, 1> given;
+  asked[0] = original;
+  given[0] = kUnanswered;
+  Answer result;
+  const auto start = std::chrono::steady_clock::now();
+  plugin_->answer(kind, asked.data(), given.data());
+  result.nanoseconds = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+  result.answer = given[0];
+  result.misdeed = fp_misdeed();
+  if (result.misdeed.empty() && !(asked.is_whole() && given.is_whole())) result.misdeed = "wrote-out-of-bounds";
+  if (result.misdeed.empty() && !is_same(asked[0], original)) result.misdeed = "changed-the-query";
+  if (result.misdeed.empty()) result.misdeed = judge_form(result.answer, info_.has_toi);
+  if (!in_batch || !info_.has_batch || !result.misdeed.empty()) return result;
+
+  constexpr std::size_t kBatch = 3;
+  Fenced<selvage_query, kBatch> queries;
+  Fenced<selvage_answer, kBatch> answers;
+  for (std::size_t i = 0; i < kBatch; ++i) queries[i] = original, answers[i] = kUnanswered;
+  plugin_->answer_batch(kind, kBatch, queries.data(), answers.data());
+  result.misdeed = fp_misdeed();
+  if (result.misdeed.empty() && !(queries.is_whole() && answers.is_whole())) result.misdeed = "wrote-out-of-bounds";
+  for (std::size_t i = 0; i < kBatch && result.misdeed.empty(); ++i) {
+    const bool same_time =
+        !info_.has_toi || result.answer.verdict == SELVAGE_SEPARATED || answers[i].toi == result.answer.toi;
+    if (answers[i].verdict != result.answer.verdict || !same_time) result.misdeed = "batch-differs";
+  }
+  return result;
+}
+
+PluginInfo probe_plugin(const std::filesystem::path& library) {
+  struct Reply {
+    PluginInfo info;
+    char error[256] = {};
+  };
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  const pid_t child = fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child == 0) {
+    alarm(20);  // a library that never finishes loading
+    Reply reply;
+    try {
+      reply.info = Plugin(library).info();
+    } catch (const std::exception& error) {
+      std::strncpy(reply.error, error.what(), sizeof reply.error - 1);
+    }
+    send(ends[1], reply);
+    _exit(0);
+  }
+  close(ends[1]);
+  Reply reply;
+  const bool has_replied = receive(ends[0], reply);
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  if (!has_replied) refuse(library, "crashes or hangs when it is loaded");
+  if (reply.error[0] != '\0') throw io::Error(io::ErrorKind::kBadInput, reply.error);
+  return reply.info;
+}
+
+}  // namespace selvage::fuzz

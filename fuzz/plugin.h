@@ -1,0 +1,47 @@
+// A user's collision code in a shared library, called with care: what it does besides answering is seen and undone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "fuzz/motion_query.h"
+#include "fuzz/selvage-plugin.h"
+
+namespace selvage::fuzz {
+
+/// What a plugin says about itself.
+struct PluginInfo {
+  char name[64] = {};
+  double tolerance = 0, relative_tolerance = 0;
+  bool has_toi = false, has_batch = false;
+};
+
+/// Loads it in a child process, so that nothing it does on the way stays. Throws io::Error(kBadInput): no library, no
+/// entry, another version, or it does not survive.
+[[nodiscard]] PluginInfo probe_plugin(const std::filesystem::path& library);
+
+class Plugin {
+ public:
+  /// Throws io::Error(kBadInput).
+  explicit Plugin(const std::filesystem::path& library);
+  [[nodiscard]] const PluginInfo& info() const { return info_; }
+
+  struct Answer {
+    /// changed-rounding-mode, set-flush-to-zero, wrote-out-of-bounds, changed-the-query, invalid-verdict, invalid-time,
+    /// batch-differs; or nothing.
+    std::string misdeed;
+    selvage_answer answer{};
+    std::int64_t nanoseconds = 0;
+  };
+  /// REQUIRES vf or ee. Asks the batch as well where `in_batch`.
+  [[nodiscard]] Answer ask(const MotionQuery& query, bool in_batch) const;
+  /// What loading did to the floating-point environment: a misdeed, or nothing.
+  [[nodiscard]] const std::string& load_misdeed() const { return load_misdeed_; }
+
+ private:
+  const selvage_plugin* plugin_ = nullptr;  // stays loaded until the process ends
+  PluginInfo info_;
+  std::string load_misdeed_;
+};
+
+}  // namespace selvage::fuzz
