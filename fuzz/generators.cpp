@@ -13,8 +13,8 @@ constexpr HitBand kAlways{1, 1};
 constexpr Bands every_kind(HitBand band) { return {band, band, band}; }
 
 // Cases in a work unit follow from the time a case takes (kernel and oracle, measured): 25 ms for each group, but 50 ms
-// for uniform and 120 ms for recorded queries, which are what simulators ask. Recorded queries take 3 us, uniform ones 6,
-// constructed contacts 10 to 80.
+// for uniform and 120 ms for recorded queries, which are what simulators ask. Recorded queries take 3 us, uniform ones
+// 6, constructed contacts 10 to 80.
 constexpr std::int64_t kContactsPerUnit = 12;
 
 // Contacts that are exact by construction: one class for each time, place and grid.
