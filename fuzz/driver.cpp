@@ -234,7 +234,6 @@ void Driver::take_death(Team& team) {
     if (death.failure == "exited") throw std::runtime_error("a worker could not keep a case");
     // Shrinking ran into a case that kills: what was written first stays.
     team.worker.revive();
-    Event done;
     PropertyLedger& property = ledger_.properties[p];
     const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
     property.findings.at({stream.name, job.failure}).file = kept_name(*properties_[p], stream, job.failure);

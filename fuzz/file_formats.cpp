@@ -154,7 +154,7 @@ std::vector<FileFormat> make_formats() {
   const std::string faces = io::npy_bytes(io::Triangles{{0, 1, 2}});
   const std::string pc2 = io::pc2_header(3, 2) + bytes_of({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1});
   std::string mdd = big_endian(1) + big_endian(3) + big_endian(0);
-  for (int i = 0; i < 9; ++i) mdd += big_endian(0x3f800000U * (i % 2));
+  for (int i = 0; i < 9; ++i) mdd += big_endian(0x3f800000U * static_cast<std::uint32_t>(i % 2));
   std::string csv;
   for (int row = 0; row < 8; ++row) csv += std::to_string(row) + ",4,1,2,3,1," + "0\n";
   return {{"obj", {kObj}, parse_obj},
