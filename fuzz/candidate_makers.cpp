@@ -116,7 +116,11 @@ constexpr std::array<CandidateClass, 11> kClasses{{{"still", still},
                                                    {"wild-jolt", wild_jolt},
                                                    {"anywhere", anywhere}}};
 
-/// A body moves as a whole: with the candidate displacement of its first vertex. Pinned vertices stay.
+/// A script that leaves the domain would be refused, rightly.
+bool is_in_domain(const Eigen::RowVector3d& point) { return point.cwiseAbs().maxCoeff() <= kMaxCoordinate; }
+
+/// A body moves as a whole: with the candidate displacement of its first vertex, or not at all where that leaves the
+/// domain. Pinned vertices stay.
 void move_bodies_rigidly(const StepWorld& world, const Positions& x, Positions& candidate) {
   std::vector<Eigen::Index> first;  // vertex of each body
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
@@ -129,11 +133,12 @@ void move_bodies_rigidly(const StepWorld& world, const Positions& x, Positions& 
     if (first.size() <= place) first.resize(place + 1, -1);
     if (first[place] < 0) {
       first[place] = i;
+      if (!is_in_domain(candidate.row(i))) candidate.row(i) = x.row(i);
       continue;
     }
     const Eigen::Index leader = first[place];
     const Eigen::RowVector3d target = x.row(i) + (candidate.row(leader) - x.row(leader));
-    candidate.row(i) = target.allFinite() ? target : Eigen::RowVector3d(x.row(i));
+    candidate.row(i) = is_in_domain(target) ? target : Eigen::RowVector3d(x.row(i));
   }
 }
 

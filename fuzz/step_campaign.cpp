@@ -54,7 +54,9 @@ class StepCampaign final : public Property {
     }
     for (Eigen::Index row = 0; row < seen.x_t0.rows(); ++row) {  // before, candidate, answer
       text += "v";
-      for (const Positions* x : {&seen.x_t0, &seen.x_candidate, &seen.x_t1}) append_row(text, *x, row);
+      for (const Positions* x : {&seen.x_t0, &seen.x_candidate, &seen.x_t1}) {
+        if (row < x->rows()) append_row(text, *x, row);  // a refused step has no answer
+      }
       text += "\n";
     }
     return text;
