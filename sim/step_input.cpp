@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sim/step_motion.h"
 
@@ -31,6 +32,17 @@ InputError validate_masses(std::size_t vertex_count, const CollisionBodies& bodi
   return InputError::kNone;
 }
 
+/// Cloth may be sent to any finite place: StepMotion cuts its candidates at the edge of the domain. A script is
+/// followed exactly, so one that leaves the domain is refused.
+InputError validate_candidate(const PositionsRef& V_candidate, std::span<const double> inverse_mass) {
+  if (!V_candidate.allFinite()) return InputError::kNotFinite;
+  for (Eigen::Index v = 0; v < V_candidate.rows(); ++v) {
+    const bool is_scripted = inverse_mass[static_cast<std::size_t>(v)] == 0;
+    if (is_scripted && V_candidate.row(v).cwiseAbs().maxCoeff() > kMaxCoordinate) return InputError::kTooLarge;
+  }
+  return InputError::kNone;
+}
+
 }  // namespace
 
 InputError validate_options(const CollisionOptions& o) {
@@ -47,9 +59,13 @@ InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options
                                const PositionsRef& V_candidate, const CollisionBodies& bodies, double dt_s) {
   if (const InputError error = validate_options(options); error != InputError::kNone) return error;
   if (!(dt_s > 0) || !std::isfinite(dt_s)) return InputError::kBadTimeStep;
-  if (const InputError error = validate(mesh, V_t0, V_candidate); error != InputError::kNone) return error;
+  if (const InputError error = validate(mesh, V_t0, V_t0); error != InputError::kNone) return error;
+  if (V_candidate.rows() != V_t0.rows()) return InputError::kSizeMismatch;
   const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count);
   if (const InputError error = validate_masses(vertex_count, bodies); error != InputError::kNone) return error;
+  if (const InputError error = validate_candidate(V_candidate, bodies.inverse_mass); error != InputError::kNone) {
+    return error;
+  }
   return is_on_lattice(V_t0, options.precision) ? InputError::kNone : InputError::kOffLattice;
 }
 

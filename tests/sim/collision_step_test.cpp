@@ -69,6 +69,21 @@ TEST(CollisionStep, TwoSheetsThrownAtEachOtherStayApart) {
   }
 }
 
+TEST(CollisionStep, CandidatesBeyondTheDomainAreCutNotRefused) {
+  for (const double far : {0x1.8p+1000, 1e308}) {  // S1: any finite candidate
+    StepScene scene;
+    scene.add(sheet(3), Vec3(0, 0, 0));
+    const auto upper = scene.add(sheet(3), Vec3(0.003, 0.002, 5e-3));
+    scene.V_candidate.row(upper.begin) << far, -far, -far;
+    scene.V_candidate.row(upper.begin + 4) << 0, 0, -far;
+    const CollisionStepResult result = scene.step();
+    SCOPED_TRACE(far);
+    ASSERT_EQ(result.report.input_error, InputError::kNone);
+    EXPECT_EQ(exact_defect(scene, result), "");
+    EXPECT_LE(result.x.cwiseAbs().maxCoeff(), kMaxCoordinate);
+  }
+}
+
 TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRound) {
   // Paper, 7.4. The node is a corner of a small triangle that hangs between the two.
   StepScene scene;

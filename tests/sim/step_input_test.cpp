@@ -46,7 +46,8 @@ TEST(StepInput, NamesTheDefect) {
   EXPECT_EQ(error_after([](Input& i) { i.inverse_mass.pop_back(); }), InputError::kSizeMismatch);
   EXPECT_EQ(error_after([](Input& i) { i.body.pop_back(); }), InputError::kSizeMismatch);
   EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = kNan; }), InputError::kNotFinite);
-  EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = 0x1.8p+1000; }), InputError::kTooLarge);
+  EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = 0x1.8p+1000; }), InputError::kNone);  // cut by the step
+  EXPECT_EQ(error_after([](Input& i) { i.V_candidate(2, 1) = 0x1.8p+1000; }), InputError::kTooLarge);  // a script
   for (const double mass : {-1.0, kNan, kInfinity}) {
     EXPECT_EQ(error_after([=](Input& i) { i.inverse_mass[0] = mass; }), InputError::kBadMass);
   }
