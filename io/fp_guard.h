@@ -5,10 +5,10 @@
 
 namespace selvage::io {
 
-/// Sets the default environment of the calling thread for a scope and restores what it found. Stands at every public entry
-/// that computes with floating-point numbers. Without it every reader gets wrong numbers where the caller rounds otherwise
-/// or flushes subnormal numbers (a library linked with -ffast-math does, for the whole process): strtod and from_chars
-/// round as they are told, and so does the conversion from float32. About 50 ns.
+/// Sets the default environment of the calling thread for a scope and restores what it found. Stands at every public
+/// entry that computes with floating-point numbers. Without it every reader gets wrong numbers where the caller rounds
+/// otherwise or flushes subnormal numbers (a library linked with -ffast-math does, for the whole process): strtod and
+/// from_chars round as they are told, and so does the conversion from float32. About 50 ns.
 class FpGuard {
  public:
   FpGuard() noexcept {

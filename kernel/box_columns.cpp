@@ -37,8 +37,8 @@ class OverlapTest {
   std::array<double, 3> lower_, upper_;
 };
 
-std::size_t overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const Box& box,
-                     std::uint64_t first_key, std::uint64_t* out) {
+std::size_t overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const Box& box, std::uint64_t first_key,
+                     std::uint64_t* out) {
   const OverlapTest overlap(boxes, box);
   const auto last_excluded = hn::Set(Integer(), static_cast<std::int64_t>(first_key) - 1);
   std::uint64_t* out_end = out;

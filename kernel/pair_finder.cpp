@@ -89,8 +89,8 @@ class PairFinder {
   }
 
  private:
-  /// One level down: the nodes in `frontier` are replaced by their children. Keeps what overlaps `box`, and only what may
-  /// be active where `active_only` is set.
+  /// One level down: the nodes in `frontier` are replaced by their children. Keeps what overlaps `box`, and only what
+  /// may be active where `active_only` is set.
   void expand(const Words& frontier, const Box& box, bool active_only, RowRanges& ranges, Words& out) const {
     out.clear();
     ranges.clear();

@@ -11,10 +11,10 @@
 
 namespace selvage {
 
-using VertexId = std::int32_t;  ///< row of the positions
-using EdgeId = std::int32_t;    ///< place in Mesh::edges
-using FaceId = std::int32_t;    ///< row of the faces
-using Vec3 = Eigen::Vector3d;   ///< a point or a direction
+using VertexId = std::int32_t;                                                  ///< row of the positions
+using EdgeId = std::int32_t;                                                    ///< place in Mesh::edges
+using FaceId = std::int32_t;                                                    ///< row of the faces
+using Vec3 = Eigen::Vector3d;                                                   ///< a point or a direction
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< #V by 3
 using Faces = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< #F by 3
 using PositionsRef = Eigen::Ref<const Positions>;                               ///< #V by 3

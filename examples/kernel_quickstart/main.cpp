@@ -1,12 +1,13 @@
 // A triangle falls onto another one: which features collide, and until when is the motion certified free of touch?
 #include <cstdio>
+
 #include <selvage/kernel/kernel.h>
 
 int main() {
   selvage::Faces F(2, 3);
   F << 0, 1, 2, 3, 4, 5;
   selvage::Positions V_t0(6, 3), V_t1(6, 3);
-  V_t0 << 0, 0, 0, 1, 0, 0, 0, 1, 0,           // the floor
+  V_t0 << 0, 0, 0, 1, 0, 0, 0, 1, 0,            // the floor
       0.2, 0.2, 1, 0.4, 0.2, 1, 0.2, 0.4, 1.5;  // above it
   V_t1 = V_t0;
   V_t1.bottomRows(3).col(2).array() -= 2.0;  // falls through in one step
