@@ -227,10 +227,12 @@ double share_of_lane(const BoundCase& c) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Double3& x = c.x_t0[i];
     computed[i] = (n[0] * static_cast<float>(x.x) + n[1] * static_cast<float>(x.y)) + n[2] * static_cast<float>(x.z);
-    real[i] = dot(exact(Double3{n[0], n[1], n[2]}), exact(x));
+    const Double3 normal = {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
+    real[i] = dot(exact(normal), exact(x));
   }
   const float bound = detail::kNearError * (std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]));
-  return ratio(exact(double{computed[0] - computed[1]}) - (real[0] - real[1]), double{bound});
+  const auto difference = static_cast<double>(computed[0] - computed[1]);
+  return ratio(exact(difference) - (real[0] - real[1]), static_cast<double>(bound));
 }
 
 double share_of_norm(const BoundCase& c) {

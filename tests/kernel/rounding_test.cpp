@@ -246,10 +246,12 @@ TEST(NearError, HoldsAtEveryMagnitude) {
       const PairPoints& x = end == 0 ? s.x_t0 : s.x_t1;
       const float* const rows = motion.near_rows.front().data() + 4 * end;
       const float computed = project(rows + 8 * p) - project(rows + 8 * q);
-      const Rational3 exact_n = exact(Double3{n[0], n[1], n[2]});
+      const Rational3 exact_n =
+          exact(Double3{static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])});
       const Rational real = testing::scaled_exactly(dot(exact_n, exact(x[p]) - exact(x[q])), -motion.near_exponent);
       const float size = (std::fabs(n[0]) + std::fabs(n[1])) + std::fabs(n[2]);
-      sharpness.note(exact(double{computed}) - real, double{detail::kNearError * size + detail::kNearSlack});
+      const auto bound = static_cast<double>(detail::kNearError * size + detail::kNearSlack);
+      sharpness.note(exact(static_cast<double>(computed)) - real, bound);
     }
   }
   sharpness.expect_at_least(0.1);
