@@ -108,6 +108,8 @@ void work(const WorkerSetting& setting, Progress& progress, int jobs, int events
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing goes on behind a driver that was killed
   std::signal(SIGINT, SIG_IGN);      // the driver decides when to stop
   std::signal(SIGTERM, SIG_DFL);
+  // A crash ends the worker by its signal, which the driver names; a sanitizer's handler would make an exit of it.
+  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(crash, SIG_DFL);
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   int code = 0;
   try {

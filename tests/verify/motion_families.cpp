@@ -247,8 +247,8 @@ std::ostream& operator<<(std::ostream& out, const MotionCase& motion) {
 }
 
 int Draw::integer(int first, int last) {
-  const auto count = static_cast<std::uint64_t>(last - first) + 1;
-  return first + static_cast<int>(engine_() % count);
+  const std::int64_t count = std::int64_t{last} - first + 1;
+  return static_cast<int>(first + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(count)));
 }
 
 Point Draw::point(int range) {
