@@ -29,7 +29,7 @@ readers: build  ## open what Selvage writes with NumPy, VTK and Blender
 	@cmake/setup packages-readers.txt
 	ctest --preset release -R 'ForeignReaders|NumPy'
 
-pages: build  ## open the pages of verify and view in Chromium
+pages: build  ## open the pages of verify, view and fuzz --plugin in Chromium
 	@cmake/setup packages-browser.txt
 	ctest --preset release -R Pages.InABrowser
 

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/fuzz_table.h"
 #include "cli/interrupt.h"
+#include "cli/page/conformance_page.h"
 #include "cli/shard.h"
 #include "cli/terminal.h"
 #include "fuzz/conformance.h"
@@ -126,12 +127,11 @@ fuzz::DriverOptions driver_options(const Arguments& arguments) {
 
 /// Someone else's code under the query level.
 ExitCode run_plugin(const Arguments& arguments) {
-  if (!arguments.properties.empty() || !arguments.only.empty()) {
-    throw UsageError("--plugin runs the conformance test and nothing else");
-  }
+  if (!arguments.properties.empty()) throw UsageError("--plugin runs the conformance test and nothing else");
   const fuzz::PluginInfo info = fuzz::probe_plugin(arguments.plugin);
   fuzz::Properties properties;
   properties.push_back(fuzz::make_conformance(arguments.plugin));
+  if (!arguments.only.empty()) return run_only(arguments, properties);
   fuzz::DriverOptions options = driver_options(arguments);
   options.target = std::string("plugin ") + info.name;
   fuzz::Driver driver(properties, options);
@@ -140,11 +140,14 @@ ExitCode run_plugin(const Arguments& arguments) {
     const StatusLine line(driver);
     finished = driver.run(interrupted, [&](const fuzz::DriverStatus& status) { line.update(status); });
   }
-  io::write_atomically(options.folder / "conformance.json", fuzz::conformance_json(driver.ledger(), info));
-  const std::string text = fuzz::conformance_text(driver.ledger(), info, arguments.artifacts);
+  const fuzz::Ledger& ledger = driver.ledger();
+  const ConformanceRun page{"selvage " SELVAGE_VERSION, arguments.plugin, arguments.artifacts, finished};
+  const std::string text = fuzz::conformance_text(ledger, info, arguments.artifacts);
+  io::write_atomically(options.folder / "conformance.json", fuzz::conformance_json(ledger, info));
   io::write_atomically(options.folder / "conformance.txt", text);
+  io::write_atomically(options.folder / "conformance.html", conformance_page(ledger, *properties.front(), info, page));
   fmt::print("{}", text);
-  if (!driver.ledger().properties.front().findings.empty()) return ExitCode::kViolation;
+  if (!ledger.properties.front().findings.empty()) return ExitCode::kViolation;
   return finished ? ExitCode::kClean : ExitCode::kInterrupted;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fuzz/case_file.h"
+#include "fuzz/case_text.h"
 #include "fuzz/closest_approach.h"
 #include "fuzz/query_streams.h"
 #include "fuzz/shrink_query.h"
@@ -18,7 +19,7 @@ constexpr int kMaxTests = 256;
 struct Verdict {
   std::string failure;
   bool touches = false, alarm = false;
-  std::int64_t nanoseconds = 0;
+  Plugin::Answer answer;
 };
 
 class Conformance final : public Property {
@@ -47,7 +48,7 @@ class Conformance final : public Property {
                          verdict.failure == "missed",
                          verdict.failure == "late-time",
                          verdict.failure == "alarm-too-far",
-                         verdict.nanoseconds};
+                         verdict.answer.nanoseconds};
     return outcome;
   }
 
@@ -61,7 +62,8 @@ class Conformance final : public Property {
       query =
           shrink(query, [&](const MotionQuery& simpler) { return judge(simpler, in_batch).failure == failure; }).query;
     }
-    return format_case({query, origin, exact_motion(query, verify::Detail::kDecision).touches});
+    const std::string text = format_case({query, origin, exact_motion(query, verify::Detail::kDecision).touches});
+    return shrunk ? text + "# answered: " + words_of(judge(query, in_batch).answer) + "\n" : text;
   }
 
  private:
@@ -71,21 +73,27 @@ class Conformance final : public Property {
     return {{1, 1, {}, 0}, plugin_->load_misdeed() + "-at-load"};
   }
 
+  [[nodiscard]] std::string words_of(const Plugin::Answer& answer) const {
+    if (!answer.misdeed.empty()) return answer.misdeed;
+    if (answer.answer.verdict != SELVAGE_COLLIDES) return "separated";
+    return plugin_->info().has_toi ? "collides at t = " + hex(answer.answer.toi) : "collides";
+  }
+
   Verdict judge(const MotionQuery& query, bool in_batch) const {
     Verdict verdict;
-    const Plugin::Answer answer = plugin_->ask(query, in_batch);
-    verdict.nanoseconds = answer.nanoseconds;
-    verdict.failure = answer.misdeed;
+    verdict.answer = plugin_->ask(query, in_batch);
+    verdict.failure = verdict.answer.misdeed;
     if (!verdict.failure.empty()) return verdict;
-    verdict.alarm = answer.answer.verdict == SELVAGE_COLLIDES;
+    const selvage_answer& answer = verdict.answer.answer;
+    verdict.alarm = answer.verdict == SELVAGE_COLLIDES;
     const bool has_time = verdict.alarm && plugin_->info().has_toi;
-    const verify::MotionAgainst exact = motion_against(query, has_time ? answer.answer.toi : 0);
+    const verify::MotionAgainst exact = motion_against(query, has_time ? answer.toi : 0);
     verdict.touches = exact.touches;
     if (exact.touches && !verdict.alarm) verdict.failure = "missed";
-    if (exact.touches && has_time && answer.answer.toi > 0 && exact.order < 0) verdict.failure = "late-time";
+    if (exact.touches && has_time && answer.toi > 0 && exact.order < 0) verdict.failure = "late-time";
     if (!exact.touches && verdict.alarm) {
       const double gap = plugin_->info().tolerance + plugin_->info().relative_tolerance * extent(query);
-      const std::array<double, 3> hints{has_time ? answer.answer.toi : 1, 0, 1};
+      const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
       if (closest_approach(query, gap, hints, kMaxTests) == Approach::kBeyond) verdict.failure = "alarm-too-far";
     }
     return verdict;

@@ -14,6 +14,17 @@ namespace selvage::fuzz {
 /// Streams for all classes, vf and ee. Failures: missed, late-time, alarm-too-far, and the misdeeds of Plugin::Answer.
 [[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library);
 
+/// What the property above counts in a stream.
+struct ConformanceRow {
+  std::int64_t queries = 0, touches = 0, alarms = 0;
+  std::int64_t missed = 0, late = 0, too_far = 0;
+  std::int64_t misdeeds = 0;  ///< failures of any other kind
+  std::int64_t nanoseconds = 0;
+
+  explicit ConformanceRow(const Counts& counts);
+  [[nodiscard]] double nanoseconds_per_query() const;
+};
+
 /// The report on a campaign with the property above: a line for each class with queries, touches, misses, late times,
 /// alarms beyond the declared gap and time a query; then every finding with its smallest counterexample.
 [[nodiscard]] std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const std::string& folder);

@@ -7,17 +7,31 @@
 namespace selvage::fuzz {
 namespace {
 
-std::string line(const std::string& name, const Counts& row) {
+std::string line(const std::string& name, const Counts& counts) {
   std::array<char, 200> text{};
-  const double nanoseconds = row.cases > 0 ? static_cast<double>(row.of[5]) / static_cast<double>(row.cases) : 0;
+  const ConformanceRow row(counts);
   std::snprintf(text.data(), text.size(), "  %-38s %10lld %9lld %9lld %8lld %8lld %8lld %10.0f\n", name.c_str(),
-                static_cast<long long>(row.cases), static_cast<long long>(row.of[0]), static_cast<long long>(row.of[1]),
-                static_cast<long long>(row.of[2]), static_cast<long long>(row.of[3]), static_cast<long long>(row.of[4]),
-                nanoseconds);
+                static_cast<long long>(row.queries), static_cast<long long>(row.touches),
+                static_cast<long long>(row.alarms), static_cast<long long>(row.missed),
+                static_cast<long long>(row.late), static_cast<long long>(row.too_far), row.nanoseconds_per_query());
   return text.data();
 }
 
 }  // namespace
+
+ConformanceRow::ConformanceRow(const Counts& counts)
+    : queries(counts.cases),
+      touches(counts.of[0]),
+      alarms(counts.of[1]),
+      missed(counts.of[2]),
+      late(counts.of[3]),
+      too_far(counts.of[4]),
+      misdeeds(counts.failures - missed - late - too_far),
+      nanoseconds(counts.of[5]) {}
+
+double ConformanceRow::nanoseconds_per_query() const {
+  return queries > 0 ? static_cast<double>(nanoseconds) / static_cast<double>(queries) : 0;
+}
 
 std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const std::string& folder) {
   const PropertyLedger& done = ledger.properties.front();
@@ -48,16 +62,16 @@ std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
                     {"has_batch", info.has_batch}};
   json["seed"] = ledger.seed;
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
-    const Counts& row = done.rows[i];
+    const ConformanceRow row(done.rows[i]);
     json["classes"].push_back({{"name", done.streams[i]},
-                               {"queries", row.cases},
-                               {"touches", row.of[0]},
-                               {"alarms", row.of[1]},
-                               {"missed", row.of[2]},
-                               {"late", row.of[3]},
-                               {"too_far", row.of[4]},
-                               {"nanoseconds", row.of[5]},
-                               {"failures", row.failures}});
+                               {"queries", row.queries},
+                               {"touches", row.touches},
+                               {"alarms", row.alarms},
+                               {"missed", row.missed},
+                               {"late", row.late},
+                               {"too_far", row.too_far},
+                               {"nanoseconds", row.nanoseconds},
+                               {"failures", done.rows[i].failures}});
   }
   json["findings"] = nlohmann::ordered_json::array();
   for (const auto& [key, finding] : done.findings) {

@@ -1,6 +1,6 @@
-"""The pages of `selvage verify --html` and `selvage view` in a browser without a window: what they show, and draw.
+"""The pages of `selvage verify --html`, `view` and `fuzz --plugin` in a browser without a window: what they show, and draw.
 
-usage: pages.py PROGRAM [FOLDER]    FOLDER keeps the pages and screenshots
+usage: pages.py PROGRAM PLUGIN [FOLDER]    PLUGIN misses contacts; FOLDER keeps the pages and screenshots
 Exit code 77 (skipped) where there is no Chromium.
 """
 import os
@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import zlib
 
-program = sys.argv[1]
+program, plugin = sys.argv[1:3]
 chromium = shutil.which("chromium")
 if chromium is None:
     print("skipped: no chromium (packages-browser.txt names the Debian package)")
@@ -84,8 +84,8 @@ def write_sheets(folder):
 class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.kept = tempfile.TemporaryDirectory() if len(sys.argv) < 3 else None
-        cls.folder = cls.kept.name if cls.kept else sys.argv[2]
+        cls.kept = tempfile.TemporaryDirectory() if len(sys.argv) < 4 else None
+        cls.folder = cls.kept.name if cls.kept else sys.argv[3]
         os.makedirs(cls.folder, exist_ok=True)
         cls.sheets = write_sheets(cls.folder)
         cls.browser = Browser(chromium, 1200, 800)
@@ -226,6 +226,21 @@ class Pages(unittest.TestCase):
         self.browser.press(" ")
         self.browser.wait_for("document.querySelector('.view').dataset.shown !== '#frame=3'")
         self.assertEqual(self.text("[data-do=play]"), "Pause")
+
+    def test_conformance(self):
+        artifacts = os.path.join(self.folder, "artifacts")
+        run = subprocess.run([program, "fuzz", "--plugin", plugin, "--cases", "1", "--jobs", "1", "--artifacts", artifacts],
+                             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+        self.assertEqual(run.returncode, 1, run.stderr)
+        browser = self.browser
+        browser.call("Page.navigate", url=pathlib.Path(artifacts, "conformance.html").as_uri())
+        browser.wait_for("document.readyState === 'complete' && document.querySelector('#classes') !== null")
+        self.assertIn("does not conform", self.text("#verdict"))
+        self.assertEqual(browser.ask("performance.getEntriesByType('resource').length"), 0, "nothing is loaded")
+        self.assertLessEqual(browser.ask("document.documentElement.scrollWidth"), 1200, "all of it fits into the window")
+        target = browser.ask("(link => { link.click(); return link.hash; })(document.querySelector('#classes a'))")
+        browser.wait_for(f"document.querySelector({target!r}).closest('details').open")
+        self.screenshot("conformance.png", "body")
 
 
 if __name__ == "__main__":

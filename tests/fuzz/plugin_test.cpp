@@ -44,7 +44,30 @@ TEST(Plugin, MisdeedsAreNamed) {
   }
 }
 
-TEST(Plugin, TheTextbookMissesAndTheMissIsMadeSimple) {
+/// The first text between `begin` and `end`.
+std::string between(const std::string& html, const std::string& begin, const std::string& end) {
+  const std::size_t from = html.find(begin);
+  if (from == html.npos) return {};
+  return html.substr(from + begin.size(), html.find(end, from + begin.size()) - from - begin.size());
+}
+
+void expect_whole_page(const std::string& html, const nlohmann::json& report, const std::filesystem::path& artifacts) {
+  for (const char* loads : {"src=", "url(", "@import", "http:", "https:", "<script>"}) {
+    EXPECT_EQ(html.find(loads), html.npos) << loads;
+  }
+  EXPECT_EQ(nlohmann::json::parse(between(html, "id=\"report\">", "</script>")), report);
+  const std::string table = between(html, "<table id=\"classes\">", "</table>");
+  for (const auto& one : report["classes"]) {
+    const std::string name = one["name"];
+    EXPECT_NE(table.find(">" + name + "<"), table.npos) << name;
+  }
+  const std::string list = between(html, "<section id=\"findings\">", "</section>");
+  for (const auto& one : report["findings"]) {
+    EXPECT_NE(list.find(slurp(artifacts / one["smallest"])), list.npos) << one["smallest"];
+  }
+}
+
+TEST(Plugin, TheTextbookMissesAndTheMissIsMadeSimpleAndShown) {
   const TemporaryFolder folder;
   const std::filesystem::path artifacts = folder.path() / "artifacts";
   const auto run = run_program(folder, {"fuzz", "--plugin", SELVAGE_TEXTBOOK_PLUGIN, "--cases", "1", "--jobs", "1",
@@ -58,9 +81,32 @@ TEST(Plugin, TheTextbookMissesAndTheMissIsMadeSimple) {
     fewest = std::min(fewest, cost_of(kept.query).non_zero);
   }
   EXPECT_LE(fewest, 12);
+
+  const std::string html = slurp(artifacts / "conformance.html");
+  EXPECT_EQ(between(html, "<h1 id=\"verdict\">", "<"), "textbook: does not conform");
+  expect_whole_page(html, nlohmann::json::parse(slurp(artifacts / "conformance.json")), artifacts);
+  // The commands of the page do what it says.
+  const std::string gravest = between(html, "<article>", "</article>");
+  EXPECT_EQ(between(gravest, "<h3>", "<"), "contact missed");
+  EXPECT_NE(gravest.find("# answered: separated"), gravest.npos) << gravest;
+  const auto replayed = run_program(folder, {"replay", between(gravest, "selvage replay ", "<")});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  const auto again =
+      run_program(folder, {"fuzz", "--plugin", SELVAGE_TEXTBOOK_PLUGIN, "--only", between(gravest, "--only ", "<")});
+  EXPECT_EQ(again.exit_code, 1) << again.err;
+  EXPECT_EQ(again.out, "missed\n");
 }
 
-TEST(Plugin, TheKernelConforms) { EXPECT_EQ(failures_of(SELVAGE_KERNEL_PLUGIN, {"--cases", "1"}, 0).size(), 0U); }
+TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
+  const TemporaryFolder folder;
+  const std::filesystem::path artifacts = folder.path() / "artifacts";
+  const auto run = run_program(folder, {"fuzz", "--plugin", SELVAGE_KERNEL_PLUGIN, "--cases", "1", "--jobs", "1",
+                                        "--artifacts", artifacts.string()});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  const std::string html = slurp(artifacts / "conformance.html");
+  EXPECT_EQ(between(html, "<h1 id=\"verdict\">", "<"), "selvage kernel: nothing found");
+  EXPECT_EQ(html.find("<article>"), html.npos);
+}
 
 TEST(Plugin, WhatIsNoPluginIsRefused) {
   const TemporaryFolder folder;
