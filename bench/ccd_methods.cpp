@@ -39,7 +39,7 @@ CcdAnswers one_by_one(const MeshMotion& motion, const Pairs& pairs, const Ask& a
 }
 
 using CcdQuery = CcdResult (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&, const CcdOptions&);
-using TextbookQuery = TextbookAnswer (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&);
+using TextbookQuery = TextbookAnswer (*)(const std::array<Vec3, 4>&, const std::array<Vec3, 4>&, double);
 using ExactDecision = verify::MotionAnswer (*)(const std::array<verify::Point, 4>&, const std::array<verify::Point, 4>&,
                                                verify::Detail);
 
@@ -60,7 +60,7 @@ template <typename Pairs>
 CcdAnswers ask_textbook(const MeshMotion& motion, const Pairs& pairs, TextbookQuery textbook) {
   return one_by_one(motion, pairs, [&](const std::array<VertexId, 4>& vertices, Alarm& alarm) {
     const KernelQuery query = kernel_query(motion, vertices);
-    const TextbookAnswer answer = textbook(query.x_t0, query.x_t1);
+    const TextbookAnswer answer = textbook(query.x_t0, query.x_t1, kTextbookTolerance);
     alarm.toi = answer.toi;
     return answer.collides;
   });

@@ -10,14 +10,13 @@ namespace {
 
 // x4 is close to the triangle (x1, x2, x3): near its plane, with barycentric coordinates within [-delta, 1 + delta],
 // delta = tolerance / characteristic length. A zero-area triangle has no normal, and the method no answer for it.
-bool point_near_triangle(const std::array<Vec3, 4>& x) {
+bool point_near_triangle(const std::array<Vec3, 4>& x, double tolerance) {
   const Vec3 x13 = x[1] - x[3];
   const Vec3 x23 = x[2] - x[3];
   const Vec3 x43 = x[0] - x[3];
   const Vec3 normal = x13.cross(x23);
   const double height = x43.dot(normal), four_area_squared = normal.squaredNorm();
-  constexpr double kToleranceSquared = kTextbookTolerance * kTextbookTolerance;
-  if (four_area_squared == 0 || height * height > kToleranceSquared * four_area_squared) return false;
+  if (four_area_squared == 0 || height * height > tolerance * tolerance * four_area_squared) return false;
   const double twice_area = std::sqrt(four_area_squared);
   const double a11 = x13.squaredNorm();
   const double a12 = x13.dot(x23);
@@ -29,7 +28,7 @@ bool point_near_triangle(const std::array<Vec3, 4>& x) {
   const double w1 = (a22 * b1 - a12 * b2) / determinant;
   const double w2 = (a11 * b2 - a12 * b1) / determinant;
   const double w3 = 1 - w1 - w2;
-  const double delta = kTextbookTolerance / std::sqrt(twice_area);
+  const double delta = tolerance / std::sqrt(twice_area);
   const auto inside = [delta](double w) { return w >= -delta && w <= 1 + delta; };
   return inside(w1) && inside(w2) && inside(w3);
 }
@@ -38,14 +37,14 @@ double clamp_unit(double a) { return std::clamp(a, 0.0, 1.0); }
 
 // Closest points of the edges (x1, x2) and (x3, x4): the normal equations of the infinite lines, then clamping, where
 // the point that moved the most is right and the other one is projected again.
-bool edges_near(const std::array<Vec3, 4>& x) {
+bool edges_near(const std::array<Vec3, 4>& x, double tolerance) {
   const Vec3 x21 = x[1] - x[0];
   const Vec3 x43 = x[3] - x[2];
   const Vec3 x31 = x[2] - x[0];
   // Lines that are farther apart than this decide most pairs. Where they are parallel both sides are zero.
   const Vec3 normal = x21.cross(x43);
   const double height = x31.dot(normal);
-  if (height * height > kTextbookTolerance * kTextbookTolerance * normal.squaredNorm()) return false;
+  if (height * height > tolerance * tolerance * normal.squaredNorm()) return false;
   const double a11 = x21.squaredNorm();
   const double a12 = -x21.dot(x43);
   const double a22 = x43.squaredNorm();
@@ -81,7 +80,7 @@ bool edges_near(const std::array<Vec3, 4>& x) {
     b = clamp_unit(b2 / a22);
   }
   const Vec3 apart = x31 + b * x43 - a * x21;
-  return apart.squaredNorm() < kTextbookTolerance * kTextbookTolerance;
+  return apart.squaredNorm() < tolerance * tolerance;
 }
 
 struct Cubic {
@@ -140,17 +139,17 @@ bool has_one_sign(const Cubic& f) {
 
 template <typename NearTest>
 TextbookAnswer first_close_root(const Cubic& f, const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
-                                NearTest near) {
+                                double tolerance, NearTest near) {
   const auto near_at = [&](double t) {
     std::array<Vec3, 4> x;
     for (std::size_t i = 0; i < 4; ++i) x[i] = x_t0[i] + t * (x_t1[i] - x_t0[i]);
-    return near(x);
+    return near(x, tolerance);
   };
-  if (has_one_sign(f)) return {near(x_t1), 1};
+  if (has_one_sign(f)) return {near(x_t1, tolerance), 1};
   std::array<double, 4> ends{};
   const int count = monotone_ends(f, ends);
   double low = f.at(0);
-  if (low == 0 && near(x_t0)) return {true, 0};
+  if (low == 0 && near(x_t0, tolerance)) return {true, 0};
   for (int i = 1; i < count; ++i) {
     const double end = ends[static_cast<std::size_t>(i)];
     const double high = f.at(end);
@@ -162,25 +161,25 @@ TextbookAnswer first_close_root(const Cubic& f, const std::array<Vec3, 4>& x_t0,
     }
     low = high;
   }
-  return {near(x_t1), 1};
+  return {near(x_t1, tolerance), 1};
 }
 
 }  // namespace
 
-TextbookAnswer textbook_vf(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1) {
+TextbookAnswer textbook_vf(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1, double tolerance) {
   std::array<Vec3, 4> v;
   for (std::size_t i = 0; i < 4; ++i) v[i] = x_t1[i] - x_t0[i];
   const Cubic f =
       coplanarity(x_t0[2] - x_t0[1], v[2] - v[1], x_t0[3] - x_t0[1], v[3] - v[1], x_t0[0] - x_t0[1], v[0] - v[1]);
-  return first_close_root(f, x_t0, x_t1, point_near_triangle);
+  return first_close_root(f, x_t0, x_t1, tolerance, point_near_triangle);
 }
 
-TextbookAnswer textbook_ee(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1) {
+TextbookAnswer textbook_ee(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1, double tolerance) {
   std::array<Vec3, 4> v;
   for (std::size_t i = 0; i < 4; ++i) v[i] = x_t1[i] - x_t0[i];
   const Cubic f =
       coplanarity(x_t0[1] - x_t0[0], v[1] - v[0], x_t0[3] - x_t0[2], v[3] - v[2], x_t0[2] - x_t0[0], v[2] - v[0]);
-  return first_close_root(f, x_t0, x_t1, edges_near);
+  return first_close_root(f, x_t0, x_t1, tolerance, edges_near);
 }
 
 }  // namespace selvage::bench

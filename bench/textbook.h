@@ -18,9 +18,11 @@ struct TextbookAnswer {
   double toi = 1;  ///< of the first root that passed the proximity test, or 1
 };
 
-/// x = {p, a, b, c}: point p against triangle (a, b, c).
-[[nodiscard]] TextbookAnswer textbook_vf(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1);
+/// x = {p, a, b, c}: point p against triangle (a, b, c). `tolerance` is a length, the same for queries of any size.
+[[nodiscard]] TextbookAnswer textbook_vf(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
+                                         double tolerance = kTextbookTolerance);
 /// x = {a, b, c, d}: edge (a, b) against edge (c, d).
-[[nodiscard]] TextbookAnswer textbook_ee(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1);
+[[nodiscard]] TextbookAnswer textbook_ee(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
+                                         double tolerance = kTextbookTolerance);
 
 }  // namespace selvage::bench

@@ -9,6 +9,7 @@
 #include "bench/ccd_bench.h"
 #include "bench/query_bench.h"
 #include "cli/bench_broad_command.h"
+#include "cli/bench_methods_command.h"
 #include "cli/bench_verify_command.h"
 #include "cli/command.h"
 #include "io/atomic_file.h"
@@ -182,6 +183,7 @@ void add_bench_command(CLI::App& program, Job& job) {
   add_ccd_command(bench, job);
   add_broad_command(bench, job);
   add_bench_verify_command(bench, job);
+  add_bench_methods_command(bench, job);
 }
 
 }  // namespace selvage::cli
