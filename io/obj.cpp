@@ -43,20 +43,23 @@ class ObjParser {
   }
 
  private:
-  /// Room for what lines announce by their first letters: growing by doubling would take up to three times as much at
-  /// once, beyond ten times the file. A group that is kept has a face.
+  /// Room for all that the statements announce: growing by doubling would take up to three times as much at once,
+  /// beyond ten times the file. A group that is kept has a face.
   void reserve() {
-    std::size_t vertices = 0, faces = 0, groups = 1;
-    for (std::size_t at = 0; at < bytes_.size(); at = std::min(bytes_.find('\n', at), bytes_.size() - 1) + 1) {
-      const char letter = bytes_[at];
-      const bool is_alone = at + 1 < bytes_.size() && (bytes_[at + 1] == ' ' || bytes_[at + 1] == '\t');
-      if (letter == 'v' && is_alone) ++vertices;
-      if (letter == 'f') ++faces;
-      if (letter == 'g' || letter == 'o') ++groups;
+    std::size_t vertices = 0, triangles = 0, groups = 1;
+    while (std::optional<std::string_view> rest = next_statement()) {
+      const std::string_view keyword = next_token(*rest);
+      if (keyword == "v") ++vertices;
+      if (keyword == "g" || keyword == "o") ++groups;
+      if (keyword != "f") continue;
+      std::size_t corners = 0;
+      while (!next_token(*rest).empty()) ++corners;
+      triangles += std::max<std::size_t>(corners, 2) - 2;
     }
     mesh_.points.reserve(vertices);
-    mesh_.triangles.reserve(faces);
-    mesh_.groups.reserve(std::min(groups, faces + 1));
+    mesh_.triangles.reserve(triangles);
+    mesh_.groups.reserve(std::min(groups, triangles + 1));
+    lines_ = LineReader(bytes_, name_);
   }
 
   /// A line; of numbers, joined with the next while it ends in a backslash.
@@ -101,6 +104,7 @@ class ObjParser {
 
   void parse_face(std::string_view rest) {
     corners_.clear();
+    corners_.reserve((rest.size() + 1) / 2);
     for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
       corners_.push_back(parse_corner(token));
     }

@@ -22,6 +22,14 @@ void skip_property(Records& records, const PlyProperty& property) {
   records.skip(property.type, count);
 }
 
+/// What to read of the elements, found in the header.
+struct PlyLayout {
+  const PlyElement* vertex = nullptr;
+  const PlyElement* face = nullptr;
+  std::array<std::size_t, 3> axes = {};
+  std::size_t corner_list = 0;
+};
+
 template <typename Records>
 void read_vertices(Records& records, const PlyElement& element, const std::array<std::size_t, 3>& axes,
                    MeshData& mesh) {
@@ -42,24 +50,73 @@ void read_vertices(Records& records, const PlyElement& element, const std::array
   }
 }
 
+/// The number of corners of the next face, which are then skipped; no more than indices can tell apart.
 template <typename Records>
-void read_faces(Records& records, const PlyElement& element, std::size_t list, std::uint64_t vertex_count,
+std::size_t skip_corners(Records& records, const PlyProperty& list, std::uint64_t vertex_count) {
+  const std::int64_t count = records.integer(*list.list_count);
+  if (count < 0) records.fail("a face has a negative number of corners; correct it");
+  const auto corners = static_cast<std::uint64_t>(count);
+  if (corners > records.most_items(list.type)) {
+    records.fail("a face has fewer corners than it announces; the file is cut short");
+  }
+  records.skip(list.type, count);
+  const std::uint64_t nameable = std::min(vertex_count, std::uint64_t{1} << 8 * size_of(list.type));
+  if (corners > nameable) {
+    records.fail("a face has " + std::to_string(corners) + " corners, its indices can name " +
+                 std::to_string(nameable) + " vertices; correct it");
+  }
+  return corners;
+}
+
+/// How many triangles the faces become.
+template <typename Records>
+std::size_t count_triangles(Records ahead, const PlyElement& element, const PlyLayout& layout) {
+  std::size_t triangles = 0;
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    ahead.begin_record();
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      if (p == layout.corner_list) {
+        triangles += std::max<std::size_t>(skip_corners(ahead, property, layout.vertex->count), 2) - 2;
+      } else {
+        skip_property(ahead, property);
+      }
+    }
+  }
+  return triangles;
+}
+
+/// Room for the triangles at once: growing by doubling would take up to three times as much. Polygons of 18 corners and
+/// more whose indices take a byte would still become more than ten times their file; they are refused where they are
+/// many, which the faces of a surface are not: they have at most 256 vertices between them.
+template <typename Records>
+void reserve_triangles(const Records& records, std::size_t triangle_count, std::size_t file_size, MeshData& mesh) {
+  constexpr std::size_t kMostTimes = 10, kAlways = std::size_t{1} << 17;
+  const std::size_t bytes =
+      mesh.points.capacity() * sizeof(Points::value_type) + triangle_count * sizeof(Triangles::value_type);
+  if (bytes > kMostTimes * file_size + kAlways) {
+    records.fail("the polygons become more than ten times the file; export triangles");
+  }
+  mesh.triangles.reserve(triangle_count);
+}
+
+template <typename Records>
+void read_faces(Records& records, const PlyElement& element, const PlyLayout& layout, std::size_t file_size,
                 MeshData& mesh) {
+  const std::uint64_t vertex_count = layout.vertex->count;
+  reserve_triangles(records, count_triangles(records, element, layout), file_size, mesh);
   std::vector<std::int32_t> corners;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     records.begin_record();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
-      if (p != list) {
+      if (p != layout.corner_list) {
         skip_property(records, property);
         continue;
       }
       const std::int64_t count = records.integer(*property.list_count);
-      if (count < 0) records.fail("a face has a negative number of corners; correct it");
-      if (static_cast<std::uint64_t>(count) > records.most_items(property.type)) {
-        records.fail("a face has fewer corners than it announces; the file is cut short");
-      }
       corners.clear();
+      corners.reserve(static_cast<std::size_t>(count));
       for (std::int64_t k = 0; k < count; ++k) {
         const std::int64_t index = records.integer(property.type);
         if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count) {
@@ -74,14 +131,6 @@ void read_faces(Records& records, const PlyElement& element, std::size_t list, s
     records.end_record();
   }
 }
-
-/// What to read of the elements, found in the header.
-struct PlyLayout {
-  const PlyElement* vertex = nullptr;
-  const PlyElement* face = nullptr;
-  std::array<std::size_t, 3> axes = {};
-  std::size_t corner_list = 0;
-};
 
 const PlyElement* find_element(const LineReader& lines, const PlyHeader& header, std::string_view name) {
   const PlyElement* found = nullptr;
@@ -121,13 +170,13 @@ PlyLayout find_layout(const LineReader& lines, const PlyHeader& header) {
 }
 
 template <typename Records>
-MeshData read_elements(Records records, const PlyHeader& header, const PlyLayout& layout) {
+MeshData read_elements(Records records, const PlyHeader& header, const PlyLayout& layout, std::size_t file_size) {
   MeshData mesh;
   for (const PlyElement& element : header.elements) {
     if (&element == layout.vertex) {
       read_vertices(records, element, layout.axes, mesh);
     } else if (&element == layout.face) {
-      read_faces(records, element, layout.corner_list, layout.vertex->count, mesh);
+      read_faces(records, element, layout, file_size, mesh);
     } else {
       for (std::uint64_t i = 0; i < element.count; ++i) {
         records.begin_record();
@@ -150,9 +199,10 @@ MeshData parse_ply(std::string_view bytes, const std::string& name) {
   LineReader lines(bytes, name);
   const PlyHeader header = parse_ply_header(lines);
   const PlyLayout layout = find_layout(lines, header);
-  if (header.format == PlyFormat::kAscii) return read_elements(AsciiRecords(lines), header, layout);
+  if (header.format == PlyFormat::kAscii) return read_elements(AsciiRecords(lines), header, layout, bytes.size());
   const std::endian order = header.format == PlyFormat::kBigEndian ? std::endian::big : std::endian::little;
-  return read_elements(BinaryRecords(bytes, bytes.size() - lines.rest().size(), name, order), header, layout);
+  const BinaryRecords records(bytes, bytes.size() - lines.rest().size(), name, order);
+  return read_elements(records, header, layout, bytes.size());
 }
 
 }  // namespace selvage::io

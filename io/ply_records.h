@@ -12,10 +12,10 @@
 
 namespace selvage::io {
 
-/// Values written as text, one record a line. All functions throw Error with the line.
+/// Values written as text, one record a line. All functions throw Error with the line. A copy looks ahead.
 class AsciiRecords {
  public:
-  explicit AsciiRecords(LineReader& lines) : lines_(lines) {}
+  explicit AsciiRecords(const LineReader& lines) : lines_(lines) {}
 
   void begin_record();
   void end_record() const;
@@ -34,11 +34,11 @@ class AsciiRecords {
  private:
   std::string_view next_value();
 
-  LineReader& lines_;
+  LineReader lines_;
   std::string_view record_;
 };
 
-/// Values in binary, without separators. All functions throw Error with the byte.
+/// Values in binary, without separators. All functions throw Error with the byte. A copy looks ahead.
 class BinaryRecords {
  public:
   BinaryRecords(std::string_view bytes, std::size_t offset, std::string_view name, std::endian order)

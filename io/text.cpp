@@ -47,12 +47,11 @@ std::optional<std::string_view> LineReader::next() {
 void LineReader::fail_at(std::size_t line, std::string_view what) const { bad_input_at_line(name_, line, what); }
 
 std::string_view next_token(std::string_view& text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return text = {};
-  const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
-  const std::string_view token = text.substr(begin, end - begin);
-  text.remove_prefix(end);
-  return token;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  const char* const begin = std::find_if_not(text.data(), text.data() + text.size(), is_blank);
+  const char* const end = std::find_if(begin, text.data() + text.size(), is_blank);
+  text = {end, text.data() + text.size()};
+  return {begin, end};
 }
 
 std::string_view trimmed(std::string_view text) {

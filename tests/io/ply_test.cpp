@@ -173,6 +173,23 @@ TEST(Ply, PolygonsAreFans) {
   EXPECT_EQ(mesh.triangles, (Triangles{{4, 3, 2}, {4, 2, 1}, {4, 1, 0}}));
 }
 
+// Fans of polygons whose corners take one byte each are twelve times as long as the file.
+TEST(Ply, PolygonsThatBecomeTenTimesTheFileAreRefusedWhereTheyAreMany) {
+  const auto polygons = [](int count) {
+    std::string data(3 * 255, '\0');
+    for (int face = 0; face < count; ++face) {
+      data += '\xff';
+      for (int corner = 0; corner < 255; ++corner) data += static_cast<char>(corner);
+    }
+    return ply("binary_little_endian",
+               "element vertex 255\nproperty uchar x\nproperty uchar y\nproperty uchar z\nelement face " +
+                   std::to_string(count) + "\nproperty list uchar uchar vertex_indices\n",
+               data);
+  };
+  EXPECT_EQ(parse_ply(polygons(200), "a.ply").triangles.size(), 200U * 253);
+  expect_bad("the polygons become more than ten times the file; export triangles", polygons(400));
+}
+
 TEST(Ply, MalformedHeadersAreNamedByLine) {
   const auto with = [](const std::string& elements) { return ply("ascii", elements, kTriangleData); };
   expect_bad("a.ply:4: 'strange' does not belong here", with("strange\n"));
