@@ -10,6 +10,7 @@
 #include "io/npy.h"
 #include "io/point_cache.h"
 #include "io/query_csv.h"
+#include "io/sequence_json.h"
 #include "io/sequence_readers.h"
 #include "sim/scene_reader.h"
 
@@ -77,6 +78,18 @@ ParseResult parse_csv(std::string_view bytes) {
     return std::ranges::all_of(io::parse_query_csv(bytes, kName), [](const io::CcdQuery& query) {
       return is_finite(io::Points(query.points.begin(), query.points.end()));
     });
+  });
+}
+ParseResult parse_header(std::string_view bytes) {
+  return guarded([&] {
+    const std::vector<io::Group> groups = io::parse_sequence_json(bytes, kName).groups;
+    return std::ranges::all_of(groups, [](const auto& g) { return 0 <= g.face_begin && g.face_begin <= g.face_end; });
+  });
+}
+ParseResult parse_frames(std::string_view bytes) {
+  return guarded([&] {
+    return std::ranges::all_of(io::parse_frame_list(bytes, kName),
+                               [](const io::FrameRecord& frame) { return std::isfinite(frame.time_s); });
   });
 }
 ParseResult parse_scene(std::string_view bytes) {
@@ -157,6 +170,10 @@ std::vector<FileFormat> make_formats() {
   for (int i = 0; i < 9; ++i) mdd += big_endian(0x3f800000U * static_cast<std::uint32_t>(i % 2));
   std::string csv;
   for (int row = 0; row < 8; ++row) csv += std::to_string(row) + ",4,1,2,3,1," + "0\n";
+  const std::string header = io::to_json(io::SequenceDescription{
+      .producer = "x", .groups = {{"a", io::Group::Role::kBody, 0, 2}}, .faces_file = "f", .faces_crc32 = 7});
+  const std::string frames =
+      io::to_json(io::FrameRecord{"a", -0.5, 7}) + io::to_json(io::FrameRecord{"b", 1e-3, std::nullopt});
   return {{"obj", {kObj}, parse_obj},
           {"ply", {kPly, kBinaryPly}, parse_ply},
           {"npy", {points}, parse_npy},
@@ -166,7 +183,9 @@ std::vector<FileFormat> make_formats() {
           {"csv", {csv}, parse_csv},
           {"scene", {kScene}, parse_scene},
           {"case", {kCase}, parse_case},
-          {"overlap", {overlap_sample()}, parse_overlap}};
+          {"overlap", {overlap_sample()}, parse_overlap},
+          {"header", {header}, parse_header},
+          {"frames", {frames}, parse_frames}};
 }
 
 }  // namespace
