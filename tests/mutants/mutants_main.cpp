@@ -1,10 +1,10 @@
-// selvage_mutants LISTS: runs every mutant of the lists under its property and three seeds, the base first. Exit code 0
+// selvage_mutants LISTS: runs mutants of the lists under their properties and three seeds, the base first. Exit code 0
 // if all are killed within their cases, or proven equivalent and not killed; else 1.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <map>
-#include <set>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 
@@ -14,12 +14,11 @@
 namespace selvage::mutants {
 namespace {
 
-constexpr std::uint64_t kSeeds[] = {1, 2, 3};
-
 struct Arguments {
   std::string lists, json, markdown;
-  std::vector<std::string> only;
+  std::vector<std::string> only, sources, killers;
   int jobs = 2;
+  std::uint64_t seeds = 3;
   long class_cases = 0;
 };
 
@@ -32,23 +31,38 @@ void print(const TaskResult& result) {
   std::fflush(stdout);
 }
 
+std::vector<Mutant> chosen_mutants(const Arguments& arguments) {
+  std::vector<Mutant> mutants = read_lists(arguments.lists);
+  const auto is_among = [](const std::vector<std::string>& names, const std::string& name) {
+    return names.empty() || std::ranges::count(names, name) > 0;
+  };
+  std::erase_if(mutants, [&](const Mutant& m) {
+    const auto is_here = [&](const Edit& edit) { return is_among(arguments.sources, edit.file); };
+    return !is_among(arguments.only, m.name) || !is_among(arguments.killers, m.killer) ||
+           !std::ranges::all_of(m.edits, is_here);
+  });
+  if (mutants.empty()) throw std::runtime_error("there is no such mutant");
+  return mutants;
+}
+
 /// Every property that kills, on unchanged code, for as many cases as any of its mutants may take.
-std::vector<Task> base_tasks(const std::vector<Mutant>& mutants) {
+std::vector<Task> base_tasks(const std::vector<Mutant>& mutants, std::uint64_t seeds) {
   std::map<std::string, long> limits;
   for (const Mutant& mutant : mutants) {
     limits[mutant.killer] = std::max(limits[mutant.killer], mutant.within);
   }
   std::vector<Task> tasks;
   for (const auto& [name, limit] : limits) {
-    for (const std::uint64_t seed : kSeeds) tasks.push_back({"base", 0, &property_named(name), seed, limit});
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+      tasks.push_back({"base", 0, &property_named(name), seed, limit});
   }
   return tasks;
 }
 
-std::vector<Task> mutant_tasks(const std::vector<Mutant>& mutants) {
+std::vector<Task> mutant_tasks(const std::vector<Mutant>& mutants, std::uint64_t seeds) {
   std::vector<Task> tasks;
   for (const Mutant& mutant : mutants) {
-    for (const std::uint64_t seed : kSeeds) {
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       tasks.push_back({mutant.name, mutant.number, &property_named(mutant.killer), seed, mutant.within});
     }
   }
@@ -56,22 +70,19 @@ std::vector<Task> mutant_tasks(const std::vector<Mutant>& mutants) {
 }
 
 int run(const Arguments& arguments) {
-  std::vector<Mutant> mutants = read_lists(arguments.lists);
-  if (!arguments.only.empty()) {
-    std::erase_if(mutants, [&](const Mutant& m) { return std::ranges::count(arguments.only, m.name) == 0; });
-  }
-  const std::vector<TaskResult> base = run_tasks(base_tasks(mutants), arguments.jobs, print);
+  const std::vector<Mutant> mutants = chosen_mutants(arguments);
+  const std::vector<TaskResult> base = run_tasks(base_tasks(mutants, arguments.seeds), arguments.jobs, print);
   for (const TaskResult& result : base) {
     if (result.ending != Ending::kSurvived) {
       std::fprintf(stderr, "selvage_mutants: the base fails %s\n", std::string(result.task.property->name).c_str());
       return 1;
     }
   }
-  const std::vector<TaskResult> results = run_tasks(mutant_tasks(mutants), arguments.jobs, print);
+  const std::vector<TaskResult> results = run_tasks(mutant_tasks(mutants, arguments.seeds), arguments.jobs, print);
   std::vector<MutantOutcome> outcomes;
   for (std::size_t i = 0; i < mutants.size(); ++i) {
-    const auto first = results.begin() + static_cast<std::ptrdiff_t>(i * std::size(kSeeds));
-    outcomes.push_back({mutants[i], {first, first + std::ssize(kSeeds)}});
+    const auto first = results.begin() + static_cast<std::ptrdiff_t>(i * arguments.seeds);
+    outcomes.push_back({mutants[i], {first, first + static_cast<std::ptrdiff_t>(arguments.seeds)}});
   }
   std::vector<ClassWorth> classes;
   if (arguments.class_cases > 0) classes = rank_classes(mutants, arguments.class_cases, arguments.jobs);
@@ -91,6 +102,9 @@ int main(int argc, char** argv) {
   CLI::App program("Runs planted defects under the properties that must find them");
   program.add_option("lists", arguments.lists, "folder of *.mutants")->required();
   program.add_option("--only", arguments.only, "names of mutants")->delimiter(',');
+  program.add_option("--sources", arguments.sources, "only mutants of these sources")->delimiter(',');
+  program.add_option("--killers", arguments.killers, "only mutants that these properties kill")->delimiter(',');
+  program.add_option("--seeds", arguments.seeds, "how many: 1, 2, ...")->check(CLI::PositiveNumber);
   program.add_option("--json", arguments.json, "report for programs");
   program.add_option("--markdown", arguments.markdown, "report for people");
   program.add_option("--classes", arguments.class_cases, "cases a class and mutant, for the ranking of generators");

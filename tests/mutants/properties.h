@@ -25,12 +25,13 @@ struct Property {
   bool is_about_threads = false;  ///< else it runs on one
 };
 
-[[nodiscard]] std::vector<Property> kernel_properties();
+[[nodiscard]] std::vector<Property> query_properties();
+[[nodiscard]] std::vector<Property> bound_properties();
 [[nodiscard]] std::vector<Property> mesh_properties();
 [[nodiscard]] std::vector<Property> checker_properties();
 [[nodiscard]] std::vector<Property> step_properties();
 [[nodiscard]] std::vector<Property> simulation_properties();
-/// All of them.
+/// All that the program links: all_properties.cpp or only_query_properties.cpp.
 [[nodiscard]] const std::vector<Property>& properties();
 /// Throws std::runtime_error where there is none.
 [[nodiscard]] const Property& property_named(std::string_view name);

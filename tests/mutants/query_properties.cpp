@@ -1,6 +1,5 @@
-// Queries against exact arithmetic (K1 to K5), class after class; kept failures; what rounding uses of the bounds.
+// Queries against exact arithmetic (K1 to K5), class after class; kept failures.
 #include "fuzz/campaign.h"
-#include "tests/kernel/bound_shares.h"
 #include "tests/mutants/properties.h"
 
 namespace selvage::mutants {
@@ -36,27 +35,15 @@ std::optional<Kill> falsify_kept(std::uint64_t seed, long limit) {
   return std::nullopt;
 }
 
-/// A case is a climb of one bound.
-std::optional<Kill> falsify_bounds(std::uint64_t seed, long limit) {
-  testing::Random random(seed);
-  const auto bounds = testing::bounds();
-  for (long number = 0; number < limit; ++number) {
-    const testing::Bound& bound = bounds[static_cast<std::size_t>(number) % bounds.size()];
-    if (testing::climb(bound, random) > 1) return Kill{number + 1, std::string("exceeded: ") + bound.name};
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
-std::vector<Property> kernel_properties() {
+std::vector<Property> query_properties() {
   const auto& queries = fuzz::query_properties();
   return {{queries[0].name, queries[0].promise, falsify_query<0>},
           {queries[1].name, queries[1].promise, falsify_query<1>},
           {queries[2].name, queries[2].promise, falsify_query<2>},
           {queries[3].name, queries[3].promise, falsify_query<3>},
-          {"kept-cases", "every case that once failed is answered right (F3)", falsify_kept},
-          {"bounds", "rounding never uses more than the whole of an error bound (K1 to K4)", falsify_bounds}};
+          {"kept-cases", "every case that once failed is answered right (F3)", falsify_kept}};
 }
 
 }  // namespace selvage::mutants

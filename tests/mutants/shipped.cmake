@@ -1,0 +1,30 @@
+# cmake -DBUILD=<folder of the build> -DPROGRAM=<selvage> -DPLANTED=<a program with mutants> -P shipped.cmake
+# Reads the symbols of all that is shipped, wanted ones included: a planted copy of a source would want the number of its
+# mutant.
+cmake_minimum_required(VERSION 3.25)
+
+set(of_mutants "selvage::mutants::")
+function(read_symbols file result)
+  execute_process(COMMAND nm --demangle --format=posix ${file} OUTPUT_VARIABLE symbols RESULT_VARIABLE failed ERROR_QUIET)
+  if(failed OR NOT symbols MATCHES "selvage")
+    message(FATAL_ERROR "${file}: no symbols to read")
+  endif()
+  set(${result} "${symbols}" PARENT_SCOPE)
+endfunction()
+
+file(GLOB shipped "${BUILD}/*/libselvage_*.a" "${BUILD}/examples/plugins/*.so")
+list(LENGTH shipped count)
+if(count LESS 7)
+  message(FATAL_ERROR "${BUILD}: only ${count} libraries found")
+endif()
+foreach(file ${shipped} ${PROGRAM})
+  read_symbols(${file} symbols)
+  if(symbols MATCHES "${of_mutants}")
+    message(FATAL_ERROR "${file} holds mutants")
+  endif()
+endforeach()
+read_symbols(${PLANTED} symbols)
+if(NOT symbols MATCHES "${of_mutants}")
+  message(FATAL_ERROR "${PLANTED} holds no mutants: the search finds nothing")
+endif()
+message(STATUS "${count} libraries and the program hold no mutants")
