@@ -1,0 +1,90 @@
+#include "bench/stability/exact_watch.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "verify/smallest_gap.h"
+
+namespace selvage::bench {
+namespace {
+
+const char* name_of(sim::StepStatus status) {
+  switch (status) {
+    case sim::StepStatus::kSafe:
+      return "safe";
+    case sim::StepStatus::kStopped:
+      return "stopped";
+    case sim::StepStatus::kInvalidInput:
+      break;
+  }
+  return "invalid input";
+}
+
+}  // namespace
+
+std::vector<verify::Point> points_of(const Positions& x) {
+  std::vector<verify::Point> points;
+  points.reserve(static_cast<std::size_t>(x.rows()));
+  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
+  return points;
+}
+
+ExactWatch::ExactWatch(Trial& trial, const io::Triangles& triangles, const std::vector<std::uint8_t>& face_is_body,
+                       std::int64_t vertex_count, double tolerance_m)
+    : trial_(trial),
+      topology_(verify::make_topology({triangles, face_is_body}, static_cast<std::size_t>(vertex_count))),
+      tolerance_m_(tolerance_m) {
+  trial.report().vertices = vertex_count;
+  trial.report().faces = static_cast<std::int64_t>(triangles.size());
+}
+
+void ExactWatch::require_free(const verify::CheckResult& result, const char* what) {
+  trial_.report().pairs_examined += result.pairs.vf + result.pairs.ee + result.pairs.overlap + result.pairs.self;
+  trial_.require(result.violations_total.total() == 0,
+                 fmt::format("{} has {} exact violations at step {}", what, result.violations_total.total(),
+                             trial_.report().steps));
+}
+
+void ExactWatch::start(const Positions& x) {
+  require_free(verify::check_frame(topology_, points_of(x), {}), "the start");
+}
+
+void ExactWatch::step(const Positions& x_t0, const Positions& x_t1, const sim::CollisionStepReport& report) {
+  TrialReport& account = trial_.report();
+  ++account.steps;
+  account.steps_with_collisions += report.impulse_rounds + report.zone_rounds + report.fail_safe_rounds > 0;
+  account.pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
+  account.fail_safe_steps += report.fail_safe_vertices > 0;
+  account.fail_safe_vertices += report.fail_safe_vertices;
+  account.waiting_bodies += static_cast<std::int64_t>(report.waiting_bodies.size());
+  account.cut_candidates += report.cut_candidates;
+  trial_.require(report.status == sim::StepStatus::kSafe,
+                 fmt::format("step {} is {}: {}", account.steps, name_of(report.status), describe(report.input_error)));
+  trial_.require(x_t1.allFinite(), fmt::format("step {} ends in positions that are not finite", account.steps));
+  require_free(verify::check_motion(topology_, points_of(x_t0), points_of(x_t1), {}), "the motion");
+  require_free(verify::check_frame(topology_, points_of(x_t1), {}), "the frame");
+  watch_gap(x_t1, report);
+}
+
+void ExactWatch::watch_gap(const Positions& x, const sim::CollisionStepReport& report) {
+  const std::optional<verify::Gap> gap = verify::smallest_gap(topology_, points_of(x), false);
+  if (!gap) return;
+  trial_.report().smallest_gap_m = std::min(trial_.report().smallest_gap_m, gap->lower);
+  if (gap->lower >= tolerance_m_) return;
+  verify::CheckOptions options;
+  options.min_distance = tolerance_m_;
+  options.max_violations = 1'000'000;
+  std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
+  for (const Collision& pair : report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
+  for (const verify::Violation& near : verify::check_frame(topology_, points_of(x), options).violations) {
+    const PairKind kind = near.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
+    trial_.require(named.contains({kind, near.features}),
+                   fmt::format("step {} ends with a pair below the tolerance that its report does not name",
+                               trial_.report().steps));
+  }
+}
+
+}  // namespace selvage::bench

@@ -1,0 +1,18 @@
+// Closed and open surfaces that scenes do not name.
+#pragma once
+
+#include "sim/shapes.h"
+
+namespace selvage::bench {
+
+/// A closed cone of `facets` sides: its tip at the origin, its flat end at z = height.
+[[nodiscard]] sim::Shape make_spike(int facets, double radius_m, double height_m);
+
+/// A closed prism over a triangle: its ridge along y through the origin, `cells` long, its flat side at z = height.
+[[nodiscard]] sim::Shape make_wedge(int cells, double length_m, double width_m, double height_m);
+
+/// The shape turned by 180 degrees about the x axis.
+[[nodiscard]] sim::Shape upside_down(sim::Shape shape);
+[[nodiscard]] sim::Shape turned(sim::Shape shape, const Vec3& rotation_deg);
+
+}  // namespace selvage::bench
