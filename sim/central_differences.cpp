@@ -10,20 +10,23 @@
 namespace selvage::sim {
 
 CentralDifferences::CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options)
-    : springs_(springs), options_(options), along_(springs.springs().size()) {
+    : springs_(springs), options_(options), along_(springs.springs().size()), strain_(springs, options.strain) {
   SELVAGE_ASSERT(options.step_s > 0);
   for (const Spring& spring : springs.springs()) damping_.push_back(spring.damping_n_s_m);
 }
 
 void CentralDifferences::find_forces(const Positions& x) {
-  springs_.elastic_forces(x, force_);
-  springs_.directions(x, direction_);
+  springs_.stretch(x, stretch_);
+  springs_.elastic_forces(stretch_, force_);
   if (options_.stabilizers != nullptr) options_.stabilizers->add_forces(x, 1, 0, force_);
 }
 
+void CentralDifferences::find_damping(const Positions& v, std::span<const double> inverse_mass) {
+  damping_impulses({springs_, inverse_mass, 0, damping_, options_.stabilizers, 0, 1}, stretch_.direction, v,
+                   damping_force_);
+}
+
 void CentralDifferences::explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h) {
-  damping_impulses({springs_, inverse_mass, 0, damping_, options_.stabilizers, 0, 1}, direction_, motion.v,
-                   damping_force_, scratch_);
   parallel_each(motion.v.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
     if (w == 0) return;
@@ -42,16 +45,18 @@ void CentralDifferences::implicit_half_kick(Motion& motion, std::span<const doub
   }
   const VelocitySystem system{springs_,     inverse_mass, options_.drag_1_s, along_, options_.stabilizers,
                               stiffness_s2, h / 2};
-  Positions rhs = motion.v;
-  parallel_each(rhs.rows(), [&](Eigen::Index i) {
+  rhs_ = motion.v;
+  parallel_each(rhs_.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
-    if (w > 0) rhs.row(i) += h / 2 * (options_.gravity_m_s2.transpose() + w * force_.row(i));
+    if (w > 0) rhs_.row(i) += h / 2 * (options_.gravity_m_s2.transpose() + w * force_.row(i));
   });
   if (options_.quadratic_drag_1_m > 0) {
-    motion.v = rhs;
+    motion.v = rhs_;
     march(system, inverse_mass, h / 2, motion.v);
+    find_damping(motion.v, inverse_mass);
   } else {
-    solve_velocity(system, direction_, rhs, h / 2, motion.v);
+    solver_.solve(system, stretch_.direction, rhs_, h / 2, motion.v);
+    damping_force_ = solver_.impulses() / (h / 2);
   }
 }
 
@@ -63,7 +68,7 @@ void CentralDifferences::march(const VelocitySystem& system, std::span<const dou
     const auto vertex = static_cast<std::size_t>(i);
     if (inverse_mass[vertex] == 0) continue;
     double row = 0;  // Gershgorin: twice the diagonal of the springs' part
-    springs_.for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double) { row += 2 * along_[s]; });
+    for (const SpringSystem::End& end : springs_.ends_at(static_cast<VertexId>(i))) row += 2 * along_[end.spring];
     if (system.stabilizers != nullptr) {
       row += system.stabilizers->row_sum(static_cast<VertexId>(i), system.stabilizer_stiffness_share,
                                          system.stabilizer_damping_share);
@@ -73,7 +78,7 @@ void CentralDifferences::march(const VelocitySystem& system, std::span<const dou
   }
   rate_1_s += options_.drag_1_s + 2 * options_.quadratic_drag_1_m * speed;
   const auto acceleration = [&](const Positions& u, Positions& a) {
-    damping_impulses(system, direction_, u, a, scratch_);
+    damping_impulses(system, stretch_.direction, u, a);
     parallel_each(a.rows(), [&](Eigen::Index i) {
       const double w = inverse_mass[static_cast<std::size_t>(i)];
       if (w > 0) {
@@ -97,10 +102,11 @@ void CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_
     }
   }
   find_forces(motion.x);
+  find_damping(motion.v, inverse_mass);
   for (int step = 0; step < step_count; ++step) {
     explicit_half_kick(motion, inverse_mass, h);
-    limit_strain(springs_, inverse_mass, motion.x, h, options_.strain, motion.v);
-    limit_strain_rate(springs_, inverse_mass, motion.x, h, options_.strain, motion.v);
+    strain_.limit_strain(inverse_mass, motion.x, stretch_, h, motion.v);
+    strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, h, motion.v);
     motion.x += h * motion.v;
     find_forces(motion.x);
     implicit_half_kick(motion, inverse_mass, h, 0);
@@ -113,7 +119,7 @@ void CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_
 void CentralDifferences::final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) {
   find_forces(motion.x);
   implicit_half_kick(motion, inverse_mass, dt_s, 1);
-  limit_strain_rate(springs_, inverse_mass, motion.x, dt_s, options_.strain, motion.v);
+  strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, dt_s, motion.v);
 }
 
 }  // namespace selvage::sim

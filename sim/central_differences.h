@@ -42,7 +42,10 @@ class CentralDifferences : public Dynamics {
 
  private:
   void find_forces(const Positions& x);
+  /// The damping forces at v into damping_force_.
+  void find_damping(const Positions& v, std::span<const double> inverse_mass);
   void explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h);
+  /// Leaves the damping forces at the new velocity in damping_force_ where stiffness_share is 0: what was solved for.
   void implicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h, double stiffness_share);
   void march(const VelocitySystem& system, std::span<const double> inverse_mass, double time_s, Positions& v);
 
@@ -50,8 +53,11 @@ class CentralDifferences : public Dynamics {
   CentralDifferencesOptions options_;
   std::vector<double> damping_;  ///< per spring, N s / m
   std::vector<double> along_;    ///< per spring: impulse per rate of elongation over half a step
-  Positions force_, direction_;  ///< at the positions last given to find_forces
-  Positions damping_force_, scratch_;
+  SpringStretch stretch_;        ///< at the positions last given to find_forces
+  Positions force_;              ///< there
+  Positions damping_force_, rhs_;
+  VelocitySolver solver_;
+  StrainLimiter strain_;
 };
 
 }  // namespace selvage::sim

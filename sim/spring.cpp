@@ -8,9 +8,15 @@
 #include "sim/parallel.h"
 
 namespace selvage::sim {
+namespace {
+
+constexpr std::uint32_t kSpringMask = 0x7fffffff;
+
+}  // namespace
 
 SpringSystem::SpringSystem(std::vector<Spring> springs, std::int32_t vertex_count)
     : springs_(std::move(springs)), begin_(static_cast<std::size_t>(vertex_count) + 1) {
+  SELVAGE_ASSERT(springs_.size() <= kSpringMask);
   for (const Spring& spring : springs_) {
     SELVAGE_ASSERT(spring.a != spring.b && std::min(spring.a, spring.b) >= 0 &&
                    std::max(spring.a, spring.b) < vertex_count);
@@ -21,55 +27,35 @@ SpringSystem::SpringSystem(std::vector<Spring> springs, std::int32_t vertex_coun
   ends_.resize(2 * springs_.size());
   std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
   for (std::uint32_t s = 0; s < springs_.size(); ++s) {
-    ends_[next[static_cast<std::size_t>(springs_[s].a)]++] = {s, 1};
-    ends_[next[static_cast<std::size_t>(springs_[s].b)]++] = {s, -1};
+    ends_[next[static_cast<std::size_t>(springs_[s].a)]++] = {springs_[s].b, s & kSpringMask, 0};
+    ends_[next[static_cast<std::size_t>(springs_[s].b)]++] = {springs_[s].a, s & kSpringMask, 1};
   }
 }
 
-void SpringSystem::elastic_forces(const PositionsRef& x, Positions& force) const {
-  Positions pull(static_cast<Eigen::Index>(springs_.size()), 3);  // on end a; end b gets the opposite
-  parallel_each(pull.rows(), [&](Eigen::Index s) {
-    const Spring& spring = springs_[static_cast<std::size_t>(s)];
+void SpringSystem::stretch(const PositionsRef& x, SpringStretch& stretch) const {
+  stretch.direction.resize(static_cast<Eigen::Index>(springs_.size()), 3);
+  stretch.length.resize(springs_.size());
+  stretch.tension.resize(springs_.size());
+  parallel_each(stretch.direction.rows(), [&](Eigen::Index i) {
+    const auto s = static_cast<std::size_t>(i);
+    const Spring& spring = springs_[s];
     const Eigen::RowVector3d d = x.row(spring.b) - x.row(spring.a);
     const double length = d.norm();
-    const double factor = length > 0 ? spring.stiffness_n_m * (1 - spring.rest_length_m / length) : 0;
-    pull.row(s) = factor * d;
+    stretch.length[s] = length;
+    stretch.tension[s] = spring.stiffness_n_m * (length - spring.rest_length_m);
+    stretch.direction.row(i) = (length >= std::numeric_limits<double>::min() ? 1 / length : 0.0) * d;
   });
+}
+
+void SpringSystem::elastic_forces(const SpringStretch& stretch, Positions& force) const {
   force.resize(vertex_count(), 3);
   parallel_each(force.rows(), [&](Eigen::Index i) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double sign) { sum += sign * pull.row(s); });
-    force.row(i) = sum;
-  });
-}
-
-void SpringSystem::directions(const PositionsRef& x, Positions& direction) const {
-  direction.resize(static_cast<Eigen::Index>(springs_.size()), 3);
-  parallel_each(direction.rows(), [&](Eigen::Index s) {
-    const Spring& spring = springs_[static_cast<std::size_t>(s)];
-    const Eigen::RowVector3d d = x.row(spring.b) - x.row(spring.a);
-    const double length = d.norm();
-    if (length > 0) {
-      direction.row(s) = d / length;
-    } else {
-      direction.row(s).setZero();
+    for (const End& end : ends_at(static_cast<VertexId>(i))) {
+      const double tension = stretch.tension[end.spring];
+      sum += (end.is_b ? -tension : tension) * stretch.direction.row(end.spring);
     }
-  });
-}
-
-void SpringSystem::apply(const Positions& direction, std::span<const double> coefficient, const Positions& v,
-                         Positions& result, Positions& scratch) const {
-  scratch.resize(direction.rows(), 3);
-  parallel_each(direction.rows(), [&](Eigen::Index s) {
-    const Spring& spring = springs_[static_cast<std::size_t>(s)];
-    const double rate = direction.row(s).dot(v.row(spring.a) - v.row(spring.b));
-    scratch.row(s) = (coefficient[static_cast<std::size_t>(s)] * rate) * direction.row(s);
-  });
-  result.resize(vertex_count(), 3);
-  parallel_each(result.rows(), [&](Eigen::Index i) {
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double sign) { sum += sign * scratch.row(s); });
-    result.row(i) = sum;
+    force.row(i) = sum;
   });
 }
 
@@ -78,7 +64,7 @@ double stable_step_s(const SpringSystem& springs, std::span<const double> invers
   double omega_squared_upper = 0;
   for (VertexId i = 0; i < springs.vertex_count(); ++i) {
     double stiffness = 0;
-    springs.for_each_at(i, [&](std::uint32_t s, double) { stiffness += springs.springs()[s].stiffness_n_m; });
+    for (const SpringSystem::End& end : springs.ends_at(i)) stiffness += springs.springs()[end.spring].stiffness_n_m;
     omega_squared_upper = std::max(omega_squared_upper, inverse_mass[static_cast<std::size_t>(i)] *
                                                             (2 * stiffness + stabilizers.row_sum(i, 1, 0)));
   }

@@ -24,42 +24,48 @@ struct Spring {
   double damping_n_s_m = 0;  ///< force per rate of elongation
 };
 
+/// Springs at given positions.
+struct SpringStretch {
+  Positions direction;          ///< #S by 3: unit vectors from a to b; zero for a spring of length 0, or subnormal
+  std::vector<double> length;   ///< m
+  std::vector<double> tension;  ///< N: what the spring pulls its ends together with
+};
+
 /// Springs with the list of those that end at each vertex, so that forces are gathered per vertex in a fixed order.
 class SpringSystem {
  public:
-  /// REQUIRES ends in [0, vertex_count) and a != b.
+  /// REQUIRES ends in [0, vertex_count), a != b, and fewer than 2^31 springs.
   SpringSystem(std::vector<Spring> springs, std::int32_t vertex_count);
 
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
   [[nodiscard]] std::int32_t vertex_count() const { return static_cast<std::int32_t>(begin_.size()) - 1; }
 
-  /// Rows [0, vertex_count) of `force` become the elastic forces at x, in N. Each spring pulls its two ends with the
-  /// same number of opposite sign, along the line between them, so linear and angular momentum are kept to rounding. A
+  /// How every spring lies at x.
+  void stretch(const PositionsRef& x, SpringStretch& stretch) const;
+
+  /// Rows [0, vertex_count) of `force` become the elastic forces, in N. Each spring pulls its two ends with the same
+  /// number of opposite sign, along the line between them, so linear and angular momentum are kept to rounding. A
   /// spring of length 0 has no direction and pulls at neither end. Deterministic for any thread count.
-  void elastic_forces(const PositionsRef& x, Positions& force) const;
+  void elastic_forces(const SpringStretch& stretch, Positions& force) const;
 
-  /// Unit vectors from a to b of every spring at x; zero for a spring of length 0.
-  void directions(const PositionsRef& x, Positions& direction) const;
-
-  /// Row i of `result` becomes sum over the springs s at i of coefficient[s] n_s n_s^T (v_i - v_other): the product
-  /// with a symmetric positive semidefinite matrix whose rows sum to zero. With the damping coefficients it is minus
-  /// the damping force. `scratch` is room to work in.
-  void apply(const Positions& direction, std::span<const double> coefficient, const Positions& v, Positions& result,
-             Positions& scratch) const;
-
-  /// Calls visit(spring index, other end, sign) for the springs at vertex i in a fixed order; sign is +1 where i is a.
+  /// One end of a spring, as its vertex sees it.
+  struct End {
+    VertexId other;
+    std::uint32_t spring : 31;
+    std::uint32_t is_b : 1;
+  };
+  /// The springs at vertex i, in the order of their numbers.
+  [[nodiscard]] std::span<const End> ends_at(VertexId i) const {
+    const auto row = static_cast<std::size_t>(i);
+    return {ends_.data() + begin_[row], begin_[row + 1] - begin_[row]};
+  }
+  /// Calls visit(spring number, sign) for them; sign is +1 where i is a.
   template <class Visit>
   void for_each_at(VertexId i, Visit visit) const {
-    for (auto k = begin_[static_cast<std::size_t>(i)]; k < begin_[static_cast<std::size_t>(i) + 1]; ++k) {
-      visit(ends_[k].spring, ends_[k].sign);
-    }
+    for (const End& end : ends_at(i)) visit(std::uint32_t{end.spring}, end.is_b ? -1.0 : 1.0);
   }
 
  private:
-  struct End {
-    std::uint32_t spring;
-    double sign;
-  };
   std::vector<Spring> springs_;
   std::vector<std::size_t> begin_;  ///< the ends at vertex i are ends_[begin_[i] .. begin_[i + 1])
   std::vector<End> ends_;

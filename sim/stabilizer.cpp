@@ -30,18 +30,11 @@ StabilizerSystem::StabilizerSystem(std::span<const Stabilizer> stabilizers, std:
   }
 }
 
-void StabilizerSystem::add_forces(const PositionsRef& X, double stiffness_share, double damping_share,
+void StabilizerSystem::add_forces(const Positions& X, double stiffness_share, double damping_share,
                                   Positions& result) const {
   if (empty()) return;
   parallel_each(static_cast<Eigen::Index>(begin_.size()) - 1, [&](Eigen::Index i) {
-    const auto row = static_cast<std::size_t>(i);
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (std::size_t n = begin_[row]; n < begin_[row + 1]; ++n) {
-      const Neighbour& neighbour = neighbours_[n];
-      const double c = stiffness_share * neighbour.stiffness + damping_share * neighbour.damping;
-      sum += c * (X.row(i) - X.row(neighbour.vertex));
-    }
-    result.row(i) += sum;
+    result.row(i) += force_at(X, static_cast<VertexId>(i), stiffness_share, damping_share);
   });
 }
 

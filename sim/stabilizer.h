@@ -37,7 +37,21 @@ class StabilizerSystem {
 
   /// Adds minus (stiffness_share K + damping_share D) X to rows [0, vertex_count) of `result`: elastic forces at X with
   /// shares (1, 0), damping forces at the velocities X with (0, 1).
-  void add_forces(const PositionsRef& X, double stiffness_share, double damping_share, Positions& result) const;
+  void add_forces(const Positions& X, double stiffness_share, double damping_share, Positions& result) const;
+  /// What it adds to row i.
+  [[nodiscard]] Eigen::RowVector3d force_at(const Positions& X, VertexId i, double stiffness_share,
+                                            double damping_share) const {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    if (empty()) return sum;
+    const auto row = static_cast<std::size_t>(i);
+    const Eigen::RowVector3d X_i = X.row(i);
+    for (std::size_t n = begin_[row]; n < begin_[row + 1]; ++n) {
+      const Neighbour& neighbour = neighbours_[n];
+      sum +=
+          (stiffness_share * neighbour.stiffness + damping_share * neighbour.damping) * (X_i - X.row(neighbour.vertex));
+    }
+    return sum;
+  }
   /// Element (i, i) of stiffness_share K + damping_share D, one for all three axes.
   [[nodiscard]] double diagonal(VertexId i, double stiffness_share, double damping_share) const;
   /// Sum of the magnitudes of row i of the same matrix: Gershgorin's bound.

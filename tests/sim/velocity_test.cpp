@@ -14,7 +14,7 @@ using testing::random_cloth;
 
 namespace {
 
-// The matrix of solve_velocity written down element by element.
+// The matrix of VelocitySolver written down element by element.
 Eigen::MatrixXd dense_matrix(const testing::RandomCloth& cloth, const std::vector<double>& coefficient, double shift) {
   const Eigen::Index size = 3 * cloth.x.rows();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
@@ -34,6 +34,12 @@ Eigen::MatrixXd dense_matrix(const testing::RandomCloth& cloth, const std::vecto
   return A;
 }
 
+Positions directions(const testing::RandomCloth& cloth) {
+  SpringStretch stretch;
+  cloth.springs.stretch(cloth.x, stretch);
+  return stretch.direction;
+}
+
 }  // namespace
 
 TEST(Velocity, SolvesTheSystemThatItStates) {
@@ -41,11 +47,10 @@ TEST(Velocity, SolvesTheSystemThatItStates) {
   const double dt_s = 0.01, drag = 3;
   std::vector<double> coefficient;
   for (const Spring& spring : cloth.springs.springs()) coefficient.push_back(0.01 * spring.stiffness_n_m);
-  Positions direction, v = Positions::Zero(cloth.x.rows(), 3);
-  cloth.springs.directions(cloth.x, direction);
-  const auto iterations =
-      solve_velocity({cloth.springs, cloth.inverse_mass, drag, coefficient}, direction, cloth.v, dt_s, v);
-  EXPECT_LT(iterations, 200);
+  Positions v = Positions::Zero(cloth.x.rows(), 3);
+  const VelocitySystem system{cloth.springs, cloth.inverse_mass, drag, coefficient};
+  VelocitySolver solver;
+  EXPECT_LT(solver.solve(system, directions(cloth), cloth.v, dt_s, v), 200);
 
   Eigen::VectorXd rhs(3 * cloth.x.rows());
   for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
@@ -53,7 +58,8 @@ TEST(Velocity, SolvesTheSystemThatItStates) {
   }
   const Eigen::VectorXd expected = dense_matrix(cloth, coefficient, 1 + dt_s * drag).ldlt().solve(rhs);
   for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
-    EXPECT_LE((v.row(i).transpose() - expected.segment<3>(3 * i)).norm(), 1e-8);
+    // All the residual may lie in one of the lightest vertices, among 36 of about 1 m/s.
+    EXPECT_LE((v.row(i).transpose() - expected.segment<3>(3 * i)).norm(), 100 * kVelocityResidual);
   }
 }
 
@@ -61,9 +67,8 @@ TEST(Velocity, HeldVerticesKeepTheirVelocity) {
   auto cloth = random_cloth(2, 6);
   cloth.inverse_mass[7] = 0;
   std::vector<double> coefficient(cloth.springs.springs().size(), 1.0);
-  Positions direction, v = cloth.v;
-  cloth.springs.directions(cloth.x, direction);
-  solve_velocity({cloth.springs, cloth.inverse_mass, 0, coefficient}, direction, cloth.v, 0.01, v);
+  Positions v = cloth.v;
+  VelocitySolver().solve({cloth.springs, cloth.inverse_mass, 0, coefficient}, directions(cloth), cloth.v, 0.01, v);
   EXPECT_EQ(Vec3(v.row(7)), Vec3(cloth.v.row(7)));
   EXPECT_NE(Vec3(v.row(8)), Vec3(cloth.v.row(8)));
 }
@@ -71,9 +76,8 @@ TEST(Velocity, HeldVerticesKeepTheirVelocity) {
 TEST(Velocity, KeepsMomentaToRoundingWhateverConjugateGradientsLeave) {
   const auto cloth = random_cloth(3, 12);
   const std::vector<double> coefficient(cloth.springs.springs().size(), 0.5);
-  Positions direction, v = cloth.v;
-  cloth.springs.directions(cloth.x, direction);
-  solve_velocity({cloth.springs, cloth.inverse_mass, 0, coefficient}, direction, cloth.v, 0.01, v);
+  Positions v = cloth.v;
+  VelocitySolver().solve({cloth.springs, cloth.inverse_mass, 0, coefficient}, directions(cloth), cloth.v, 0.01, v);
   EXPECT_GT((v - cloth.v).norm(), 0.1 * cloth.v.norm());
   EXPECT_LE((linear_momentum(cloth, v) - linear_momentum(cloth, cloth.v)).norm(), 1e-14);
   EXPECT_LE((angular_momentum(cloth, v) - angular_momentum(cloth, cloth.v)).norm(), 1e-14);
