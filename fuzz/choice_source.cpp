@@ -13,6 +13,8 @@ constexpr std::uint64_t finalise(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
+constexpr int byte_count(std::uint32_t k) { return k <= 0x100 ? 1 : k <= 0x10000 ? 2 : 4; }
+
 }  // namespace
 
 std::uint64_t mix(std::uint64_t a, std::uint64_t b) { return finalise(finalise(a + kGolden) ^ (b * kGolden)); }
@@ -45,15 +47,21 @@ std::uint32_t ChoiceSource::next_word(std::uint32_t k) {
     case Feed::kBytes:
       break;
   }
-  const int byte_count = k <= 0x100 ? 1 : k <= 0x10000 ? 2 : 4;
   std::uint32_t word = 0;
-  for (int i = 0; i < byte_count && next_ < bytes_.size(); ++i) word = word << 8 | bytes_[next_++];
+  for (int i = 0; i < byte_count(k) && next_ < bytes_.size(); ++i) word = word << 8 | bytes_[next_++];
   return word;
+}
+
+void ChoiceSource::record(std::uint32_t answer, std::uint32_t k) {
+  for (int i = byte_count(k) - 1; i >= 0; --i) record_->push_back(static_cast<std::uint8_t>(answer >> (8 * i)));
 }
 
 std::uint32_t ChoiceSource::n(std::uint32_t k) {
   SELVAGE_ASSERT(k >= 1);
-  return k == 1 ? 0 : next_word(k) % k;  // the remainder keeps small words small; its bias, k/2^32, does not matter
+  if (k == 1) return 0;
+  const std::uint32_t answer = next_word(k) % k;  // keeps small words small; the bias, k/2^32, does not matter
+  if (record_ != nullptr) record(answer, k);
+  return answer;
 }
 
 std::int64_t ChoiceSource::zigzag(std::uint32_t radius) {

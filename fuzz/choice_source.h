@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace selvage::fuzz {
 
@@ -18,6 +19,9 @@ class ChoiceSource {
   static ChoiceSource from_words(std::span<const std::uint32_t> words);
   /// Takes as few bytes an answer as k needs: 1, 2 or 4.
   static ChoiceSource from_bytes(std::span<const std::uint8_t> bytes);
+  /// From now on appends to `bytes`, for each answer, what makes from_bytes() answer the same: so the case of any feed
+  /// becomes an input of the byte engines. A copy goes on appending; ask one of the two only.
+  void record_to(std::vector<std::uint8_t>& bytes) { record_ = &bytes; }
 
   /// 0 .. k-1. REQUIRES k >= 1.
   std::uint32_t n(std::uint32_t k);
@@ -38,12 +42,14 @@ class ChoiceSource {
   enum class Feed : std::uint8_t { kSeed, kWords, kBytes };
   explicit ChoiceSource(Feed feed) : feed_(feed) {}
   std::uint32_t next_word(std::uint32_t k);
+  void record(std::uint32_t answer, std::uint32_t k);
 
   Feed feed_;
   std::uint64_t state_ = 0;
   std::span<const std::uint32_t> words_;
   std::span<const std::uint8_t> bytes_;
   std::size_t next_ = 0;
+  std::vector<std::uint8_t>* record_ = nullptr;
 };
 
 /// A well mixed 64-bit hash of two numbers (splitmix64): seeds of cases from (campaign seed, case number).
