@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "fuzz/case_file.h"
+#include "fuzz/file_samples.h"
+#include "fuzz/ledger.h"
 #include "fuzz/overlap_case.h"
-#include "io/checksum.h"
 #include "io/mesh_reader.h"
 #include "io/npy.h"
-#include "io/point_cache.h"
 #include "io/query_csv.h"
 #include "io/sequence_json.h"
 #include "io/sequence_readers.h"
 #include "sim/scene_reader.h"
+#include "verify/report.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -33,12 +36,27 @@ bool is_finite(const io::Points& points) {
       points, [](const auto& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); });
 }
 
-bool is_sound(const io::MeshData& mesh) {
-  const auto vertex_count = static_cast<std::int64_t>(mesh.points.size());
-  const bool in_range = std::ranges::all_of(mesh.triangles, [&](const auto& triangle) {
-    return std::ranges::all_of(triangle, [&](std::int32_t v) { return v >= 0 && v < vertex_count; });
+bool are_sound(const io::Triangles& triangles, std::int64_t vertex_count) {
+  return std::ranges::all_of(triangles, [&](const auto& triangle) {
+    const bool distinct = triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0];
+    return distinct && std::ranges::all_of(triangle, [&](std::int32_t v) { return v >= 0 && v < vertex_count; });
   });
-  return in_range && is_finite(mesh.points);
+}
+
+bool are_sound(const std::vector<io::Group>& groups, std::int64_t face_count) {
+  return std::ranges::all_of(groups, [&](const io::Group& group) {
+    return 0 <= group.face_begin && group.face_begin <= group.face_end && group.face_end <= face_count;
+  });
+}
+
+bool is_sound(const io::MeshData& mesh) {
+  return are_sound(mesh.triangles, std::ssize(mesh.points)) && are_sound(mesh.groups, std::ssize(mesh.triangles)) &&
+         is_finite(mesh.points);
+}
+
+/// A name that stays in its folder.
+bool is_plain(const std::string& file) {
+  return !file.empty() && file != "." && file != ".." && file.find_first_of(std::string_view("/\\\0", 3)) == file.npos;
 }
 
 bool is_sound(const io::SequenceReader& sequence) {
@@ -55,6 +73,12 @@ ParseResult parse_ply(std::string_view bytes) {
 }
 ParseResult parse_npy(std::string_view bytes) {
   return guarded([&] { return is_finite(io::parse_npy_points(bytes, kName).points); });
+}
+ParseResult parse_npy_triangles(std::string_view bytes) {
+  return guarded([&] { return are_sound(io::parse_npy_triangles(bytes, kName), std::int64_t{1} << 31); });
+}
+ParseResult parse_npy_integers(std::string_view bytes) {
+  return guarded([&] { return io::parse_npy_integers(bytes, kName).size() <= bytes.size(); });
 }
 ParseResult parse_npz(std::string_view bytes) {
   return guarded([&] { return is_sound(*io::open_npz_sequence(io::in_memory(std::string(bytes)), kName)); });
@@ -82,14 +106,16 @@ ParseResult parse_csv(std::string_view bytes) {
 }
 ParseResult parse_header(std::string_view bytes) {
   return guarded([&] {
-    const std::vector<io::Group> groups = io::parse_sequence_json(bytes, kName).groups;
-    return std::ranges::all_of(groups, [](const auto& g) { return 0 <= g.face_begin && g.face_begin <= g.face_end; });
+    const io::SequenceDescription description = io::parse_sequence_json(bytes, kName);
+    return is_plain(description.faces_file) && are_sound(description.groups, std::numeric_limits<std::int64_t>::max());
   });
 }
 ParseResult parse_frames(std::string_view bytes) {
   return guarded([&] {
-    return std::ranges::all_of(io::parse_frame_list(bytes, kName),
-                               [](const io::FrameRecord& frame) { return std::isfinite(frame.time_s); });
+    double before = -std::numeric_limits<double>::infinity();
+    return std::ranges::all_of(io::parse_frame_list(bytes, kName), [&](const io::FrameRecord& frame) {
+      return is_plain(frame.file) && std::isfinite(frame.time_s) && std::exchange(before, frame.time_s) < frame.time_s;
+    });
   });
 }
 ParseResult parse_scene(std::string_view bytes) {
@@ -107,85 +133,43 @@ ParseResult parse_overlap(std::string_view bytes) {
   });
 }
 
-std::string bytes_of(const std::vector<float>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
+// What is written and read again by other runs: reading it must not change it.
+ParseResult parse_report(std::string_view bytes) {
+  return guarded([&] {
+    const auto written = [](const std::string& text) {
+      const verify::ParsedReport parsed = verify::parse_report(text, kName);
+      return verify::json_report(parsed.report, parsed.context);
+    };
+    const std::string once = written(std::string(bytes));
+    return written(once) == once;
+  });
 }
-
-std::string big_endian(std::uint32_t word) {
-  return {static_cast<char>(word >> 24), static_cast<char>(word >> 16), static_cast<char>(word >> 8),
-          static_cast<char>(word)};
-}
-
-const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\ng a\nf 1/1/1 2//2 3\nf -1 -2 -3\n";
-const std::string kPly =
-    "ply\nformat ascii 1.0\ncomment x\nelement vertex 3\nproperty float x\nproperty double y\nproperty float z\n"
-    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-const std::string kBinaryPly = std::string(
-                                   "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty "
-                                   "float y\nproperty float z\nelement face 1\nproperty list uchar uchar "
-                                   "vertex_index\nend_header\n") +
-                               bytes_of({0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string("\3\0\1\2", 4);
-const std::string kScene =
-    "gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes = 2\n[[cloth]]\nsheet = {nx = 2, ny = 3, width_m = 1, height_m = 1}\n"
-    "density_kg_m2 = 0.2\nstretch_n_m = 50\n[[cloth.pin]]\nedge = \"top\"\n[[body]]\nsphere = {radius_m = 0.3}\n"
-    "[[body.key]]\ntime_s = 1\nposition_m = [0, 0, 1]\n";
-const std::string kCase =
-    "selvage-case 1 self\nseed x:1\noptions tolerance=0x1p-20 max_intervals=4096\np 0x1p+0 1 -0x1.8p-3  0 0 0\n"
-    "a 0 0 0  1 0 0\nb 0 1 0  0 1 1\nexpect apart\n";
-
-std::string overlap_sample() {
-  OverlapCase kept;
-  kept.faces = {{{0, 1, 2}, {3, 4, 5}}};
-  kept.seed = "x:1";
-  return format_overlap_case(kept);
-}
-
-std::string little_endian(std::uint64_t value, int byte_count) {
-  std::string bytes;
-  for (int i = 0; i < byte_count; ++i) bytes += static_cast<char>(value >> (8 * i));
-  return bytes;
-}
-
-/// A zip archive whose members are stored, as numpy.savez writes it (APPNOTE, 4.3.7, 4.3.12 and 4.3.16).
-std::string stored_zip(const std::vector<std::pair<std::string, std::string>>& members) {
-  std::string files, directory;
-  for (const auto& [name, content] : members) {
-    const std::string common = little_endian(0x14, 2) + little_endian(0, 8) + little_endian(io::crc32(content), 4) +
-                               little_endian(content.size(), 4) + little_endian(content.size(), 4) +
-                               little_endian(name.size(), 2) + little_endian(0, 2);
-    directory +=
-        "PK\1\2" + little_endian(0x14, 2) + common + little_endian(0, 10) + little_endian(files.size(), 4) + name;
-    files += "PK\3\4" + common + name + content;
-  }
-  return files + directory + "PK\5\6" + little_endian(0, 4) + little_endian(members.size(), 2) +
-         little_endian(members.size(), 2) + little_endian(directory.size(), 4) + little_endian(files.size(), 4) +
-         little_endian(0, 2);
+ParseResult parse_campaign(std::string_view bytes) {
+  return guarded([&] {
+    const Ledger ledger = parse_ledger(std::string(bytes), kName);
+    return parse_ledger(to_json(ledger), kName) == ledger;
+  });
 }
 
 std::vector<FileFormat> make_formats() {
-  const std::string points = io::npy_bytes({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, io::Precision::kFloat64, kName);
-  const std::string faces = io::npy_bytes(io::Triangles{{0, 1, 2}});
-  const std::string pc2 = io::pc2_header(3, 2) + bytes_of({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1});
-  std::string mdd = big_endian(1) + big_endian(3) + big_endian(0);
-  for (int i = 0; i < 9; ++i) mdd += big_endian(0x3f800000U * static_cast<std::uint32_t>(i % 2));
-  std::string csv;
-  for (int row = 0; row < 8; ++row) csv += std::to_string(row) + ",4,1,2,3,1," + "0\n";
-  const std::string header = io::to_json(io::SequenceDescription{
-      .producer = "x", .groups = {{"a", io::Group::Role::kBody, 0, 2}}, .faces_file = "f", .faces_crc32 = 7});
-  const std::string frames =
-      io::to_json(io::FrameRecord{"a", -0.5, 7}) + io::to_json(io::FrameRecord{"b", 1e-3, std::nullopt});
-  return {{"obj", {kObj}, parse_obj},
-          {"ply", {kPly, kBinaryPly}, parse_ply},
-          {"npy", {points}, parse_npy},
-          {"npz", {stored_zip({{"V.npy", points}, {"F.npy", faces}})}, parse_npz},
-          {"pc2", {pc2}, parse_cache<io::PointCacheFormat::kPc2>},
-          {"mdd", {mdd}, parse_cache<io::PointCacheFormat::kMdd>},
-          {"csv", {csv}, parse_csv},
-          {"scene", {kScene}, parse_scene},
-          {"case", {kCase}, parse_case},
-          {"overlap", {overlap_sample()}, parse_overlap},
-          {"header", {header}, parse_header},
-          {"frames", {frames}, parse_frames}};
+  std::vector<FileFormat> formats = {{"obj", {}, parse_obj},
+                                     {"ply", {}, parse_ply},
+                                     {"npy", {}, parse_npy},
+                                     {"npy-triangles", {}, parse_npy_triangles},
+                                     {"npy-integers", {}, parse_npy_integers},
+                                     {"npz", {}, parse_npz},
+                                     {"pc2", {}, parse_cache<io::PointCacheFormat::kPc2>},
+                                     {"mdd", {}, parse_cache<io::PointCacheFormat::kMdd>},
+                                     {"csv", {}, parse_csv},
+                                     {"header", {}, parse_header},
+                                     {"frames", {}, parse_frames},
+                                     {"scene", {}, parse_scene},
+                                     {"case", {}, parse_case},
+                                     {"overlap", {}, parse_overlap},
+                                     {"report", {}, parse_report},
+                                     {"campaign", {}, parse_campaign}};
+  for (FileFormat& format : formats) format.samples = file_samples(format.name);
+  return formats;
 }
 
 }  // namespace
