@@ -5,6 +5,7 @@
 #include "fuzz/query_streams.h"
 #include "fuzz/simulation_campaign.h"
 #include "fuzz/step_campaign.h"
+#include "fuzz/subdivision_campaign.h"
 
 namespace selvage::fuzz {
 
@@ -21,6 +22,7 @@ Properties all_properties() {
   properties.push_back(make_broad_campaign());
   properties.push_back(make_step_campaign());
   properties.push_back(make_simulation_campaign());
+  properties.push_back(make_subdivision_campaign());
   properties.push_back(make_file_campaign());
   return properties;
 }
