@@ -14,6 +14,7 @@
 #include "cli/page/conformance_page.h"
 #include "cli/shard.h"
 #include "cli/terminal.h"
+#include "fuzz/campaign_stats.h"
 #include "fuzz/conformance.h"
 #include "fuzz/driver.h"
 #include "io/atomic_file.h"
@@ -95,11 +96,9 @@ class StatusLine {
 
   void update(const fuzz::DriverStatus& status) const {
     if (!enabled_) return;
-    std::int64_t findings = 0;
-    for (const auto& property : driver_.ledger().properties)
-      findings += static_cast<std::int64_t>(property.findings.size());
-    fmt::print(stderr, "\r\033[K{:.0f} s  {} cases  {:.0f} a second  {} kinds of failure", status.seconds, status.cases,
-               static_cast<double>(status.cases) / std::max(status.seconds, 0.1), findings);
+    constexpr const char* kCutOff = "\033[?7l";  // at the terminal's edge: a line that wrapped could not be overwritten
+    constexpr const char* kWrap = "\033[?7h";
+    fmt::print(stderr, "\r\033[K{}{}{}", kCutOff, fuzz::status_line(driver_.ledger(), status), kWrap);
   }
 
  private:

@@ -1,8 +1,30 @@
 #include "fuzz/campaign_stats.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+
 #include <nlohmann/json.hpp>
 
 namespace selvage::fuzz {
+namespace {
+
+void add_failures(const PropertyLedger& property, std::map<std::string, std::int64_t>& by_kind) {
+  for (const auto& [key, finding] : property.findings) by_kind[key.second] += finding.count;
+}
+
+/// Three or four digits: 987, 12.3k, 4.56M.
+std::string brief(double x) {
+  constexpr std::array<const char*, 4> kUnits{"", "k", "M", "G"};
+  std::size_t unit = 0;
+  for (; x >= 1000 && unit + 1 < kUnits.size(); ++unit) x /= 1000;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), unit == 0 ? "%.0f%s" : "%.3g%s", x, kUnits[unit]);
+  return text.data();
+}
+
+}  // namespace
 
 std::string stats_line(const Ledger& ledger, const DriverStatus& status) {
   nlohmann::ordered_json line;
@@ -17,13 +39,32 @@ std::string stats_line(const Ledger& ledger, const DriverStatus& status) {
     one["cases"] = total.cases;
     for (std::size_t i = 0; i < property.counters.size(); ++i) one[property.counters[i]] = total.of[i];
     one["nearest_bits"] = total.nearest_bits;
-    one["failures"] = nlohmann::ordered_json::object();
-    for (const auto& [key, finding] : property.findings) {
-      nlohmann::ordered_json& sum = one["failures"][key.second];
-      sum = finding.count + (sum.is_null() ? 0 : sum.get<std::int64_t>());
-    }
+    std::map<std::string, std::int64_t> failures;
+    add_failures(property, failures);
+    one["failures"] = failures;
   }
   return line.dump() + "\n";
+}
+
+std::string status_line(const Ledger& ledger, const DriverStatus& status) {
+  std::map<std::string, std::int64_t> counted, failures;
+  std::int64_t nearest_bits = 0;
+  for (const PropertyLedger& property : ledger.properties) {
+    const Counts total = property.total();
+    for (std::size_t i = 0; i < property.counters.size(); ++i) counted[property.counters[i]] += total.of[i];
+    nearest_bits = std::max(nearest_bits, total.nearest_bits);
+    add_failures(property, failures);
+  }
+  const auto cases = static_cast<double>(status.cases);
+  std::string text = brief(status.seconds) + " s: " + brief(cases) + " cases, " +
+                     brief(status.seconds > 0 ? cases / status.seconds : 0) + " a second";
+  for (const char* name : {"hits", "alarms", "exact"}) {
+    const auto found = counted.find(name);
+    if (found != counted.end()) text += ", " + brief(static_cast<double>(found->second)) + " " + name;
+  }
+  if (nearest_bits > 0) text += ", nearest 2^-" + std::to_string(nearest_bits);
+  for (const auto& [kind, count] : failures) text += ", " + std::to_string(count) + " " + kind;
+  return failures.empty() ? text + ", no failure" : text;
 }
 
 }  // namespace selvage::fuzz

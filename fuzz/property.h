@@ -36,6 +36,8 @@ class Property {
   [[nodiscard]] const std::string& promise() const { return promise_; }  ///< one line for people
   [[nodiscard]] const std::vector<Stream>& streams() const { return streams_; }
   [[nodiscard]] const std::vector<std::string>& counters() const { return counters_; }
+  /// Whether kept() writes a query, which `selvage replay` explains.
+  [[nodiscard]] bool keeps_queries() const { return keeps_queries_; }
   /// Share of a campaign's processor time, relative to the other properties.
   [[nodiscard]] int weight() const { return weight_; }
 
@@ -55,6 +57,7 @@ class Property {
   std::vector<Stream> streams_;
   std::vector<std::string> counters_;
   int weight_ = 1;
+  bool keeps_queries_ = false;
 
  private:
   std::string name_, promise_;

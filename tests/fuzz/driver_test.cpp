@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fuzz/campaign_stats.h"
 #include "io/atomic_file.h"
 #include "tests/cli/run_program.h"
 
@@ -134,6 +135,31 @@ TEST(Driver, CrashesAndHangsAreFindingsAndNotTheEnd) {
   EXPECT_EQ(ledger.findings.at({"two", "crashed-SIGSEGV"}).count, deadly);
   EXPECT_FALSE(ledger.findings.at({"two", "crashed-SIGSEGV"}).file.empty());
   EXPECT_EQ(ledger.findings.at({"one", "hung"}).count, 1);
+}
+
+TEST(Driver, SaysWhereItIs) {
+  Ledger ledger;
+  PropertyLedger property;
+  property.counters = {"touches", "hits", "alarms", "exact"};
+  property.rows = {{40, 2, {9, 12'345, 6, 5}, 51}, {60, 0, {1, 0, 1, 0}, 53}};
+  property.findings[{"one", "missed"}] = {2, 7, {}};
+  ledger.properties = {property};
+  DriverStatus status;
+  status.seconds = 20;
+  status.cases = 4'560'000;
+  EXPECT_EQ(status_line(ledger, status),
+            "20 s: 4.56M cases, 228k a second, 12.3k hits, 7 alarms, 5 exact, nearest 2^-53, 2 missed");
+  const auto line = nlohmann::json::parse(stats_line(ledger, status));
+  EXPECT_EQ(line["cases_per_second"], 228'000);
+  const nlohmann::json& one = line["properties"][property.name];
+  EXPECT_EQ(one["cases"], 100);
+  EXPECT_EQ(one["hits"], 12'345);
+  EXPECT_EQ(one["alarms"], 7);
+  EXPECT_EQ(one["exact"], 5);
+  EXPECT_EQ(one["nearest_bits"], 53);
+  EXPECT_EQ(one["failures"]["missed"], 2);
+  ledger.properties[0].findings.clear();
+  EXPECT_TRUE(status_line(ledger, status).ends_with(", no failure"));
 }
 
 TEST(Driver, RefusesAnotherCampaignsFolder) {
