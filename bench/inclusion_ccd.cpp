@@ -1,7 +1,7 @@
 #include "bench/inclusion_ccd.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace selvage::bench {
@@ -57,7 +57,7 @@ class Subdivision {
   InclusionAnswer run();
 
  private:
-  [[nodiscard]] Vec3 value(double t, double u, double v) const;
+  [[nodiscard]] Vec3 value(const Points& x, double u, double v) const;
   [[nodiscard]] Image image(const DomainBox& box) const;
   [[nodiscard]] bool excludes_touch(const Image& f) const {
     return ((f.low - error_bound_).array() > 0).any() || ((f.high + error_bound_).array() < 0).any();
@@ -74,20 +74,25 @@ class Subdivision {
   std::array<double, 3> variation_{};  ///< how far F may move over the whole range of t, u, v
 };
 
-Vec3 Subdivision::value(double t, double u, double v) const {
-  const auto at = [&](std::size_t i) -> Vec3 { return (1 - t) * x_t0_[i] + t * x_t1_[i]; };
-  if (kind_ == PairKind::kVf) return at(0) - ((1 - u - v) * at(1) + u * at(2) + v * at(3));
-  return ((1 - u) * at(0) + u * at(1)) - ((1 - v) * at(2) + v * at(3));
+Vec3 Subdivision::value(const Points& x, double u, double v) const {
+  if (kind_ == PairKind::kVf) return x[0] - ((1 - u - v) * x[1] + u * x[2] + v * x[3]);
+  return ((1 - u) * x[0] + u * x[1]) - ((1 - v) * x[2] + v * x[3]);
 }
 
 Image Subdivision::image(const DomainBox& box) const {
-  const auto& [t, u, v] = box.range;
-  Image image{value(t[0], u[0], v[0]), {}};
-  image.high = image.low;
-  for (unsigned corner = 1; corner < 8; ++corner) {
-    const Vec3 f = value(t[corner & 1U], u[(corner >> 1U) & 1U], v[corner >> 2U]);
-    image.low = image.low.cwiseMin(f);
-    image.high = image.high.cwiseMax(f);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Image image{Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+  const auto& [times, us, vs] = box.range;
+  for (const double t : times) {
+    Points x;
+    for (std::size_t i = 0; i < 4; ++i) x[i] = (1 - t) * x_t0_[i] + t * x_t1_[i];
+    for (const double u : us) {
+      for (const double v : vs) {
+        const Vec3 f = value(x, u, v);
+        image.low = image.low.cwiseMin(f);
+        image.high = image.high.cwiseMax(f);
+      }
+    }
   }
   return image;
 }
