@@ -10,6 +10,7 @@
 #include "bench/query_bench.h"
 #include "cli/bench_broad_command.h"
 #include "cli/bench_methods_command.h"
+#include "cli/bench_sim_command.h"
 #include "cli/bench_stability_command.h"
 #include "cli/bench_verify_command.h"
 #include "cli/command.h"
@@ -186,6 +187,7 @@ void add_bench_command(CLI::App& program, Job& job) {
   add_bench_verify_command(bench, job);
   add_bench_methods_command(bench, job);
   add_bench_stability_command(bench, job);
+  add_bench_sim_command(bench, job);
 }
 
 }  // namespace selvage::cli
