@@ -83,6 +83,12 @@ cluster: build  ## the manual's Slurm script on a Slurm of this machine, with a 
 	$(SELVAGE) sim sim/scenes/demo.toml -o build/cluster/run --frames 5 --record steps
 	cd build/cluster && ../../tests/cluster/slurm_kill ../../$(SELVAGE) run --second-opinion-all
 
+BENCH_RESULTS := $(if $(QUICK),build/bench,bench/results)
+BENCH_PAGE    := $(if $(QUICK),build/bench/speed-against-error.md,docs/speed-against-error.md)
+bench: build  ## speed against error: bench/results and docs/speed-against-error.md; QUICK=1: two minutes, into build/bench
+	@cmake/setup packages-bench.txt
+	bench/report/run.py --build build/release --results $(BENCH_RESULTS) --page $(BENCH_PAGE) $(if $(QUICK),--quick)
+
 format:  ## rewrite the sources in the house style
 	@cmake/setup packages-clang.txt
 	git ls-files '*.h' '*.cpp' | xargs clang-format-14 -i

@@ -34,8 +34,7 @@ double smooth_noise(int i, int j, int channel) {
          s * ((1 - t) * noise(a + 1, b, channel) + t * noise(a + 1, b + 1, channel));
 }
 
-constexpr int kPleat = 10;             // edges from one fold to the next
-constexpr double kPleatAdvance = 0.1;  // of each edge along the sheet
+constexpr int kPleat = 10;  // edges from one fold to the next
 constexpr double kRoughness = 0.12, kTravel = 1.5;
 
 }  // namespace
@@ -54,13 +53,13 @@ MeshMotion mesh_motion(const io::MeshData& t0, const io::MeshData& t1) {
   return motion;
 }
 
-MeshMotion crumpled_sheet(int side) {
+MeshMotion crumpled_sheet(int side, double pleat_advance) {
   Positions V_t0(side * side, 3), V_t1(side * side, 3);
   for (int i = 0; i < side; ++i) {
     for (int j = 0; j < side; ++j) {
       const int phase = i % (2 * kPleat);
       const int height = phase < kPleat ? phase : 2 * kPleat - phase;
-      const Vec3 x(kPleatAdvance * i + kRoughness * noise(i, j, 0), j + kRoughness * noise(i, j, 1),
+      const Vec3 x(pleat_advance * i + kRoughness * noise(i, j, 0), j + kRoughness * noise(i, j, 1),
                    height + kRoughness * noise(i, j, 2));
       const Vec3 travel(smooth_noise(i, j, 3), smooth_noise(i, j, 4), smooth_noise(i, j, 5));
       V_t0.row(i * side + j) = x;

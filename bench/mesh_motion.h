@@ -17,8 +17,9 @@ struct MeshMotion {
 
 /// A square sheet of side x side vertices, pleated so tightly that layers lie a fraction of an edge apart, roughened,
 /// and moved by up to one and a half edge lengths in a direction that varies smoothly: many near pairs, some contacts.
-/// Every bit depends on `side` alone. REQUIRES side >= 2.
-[[nodiscard]] MeshMotion crumpled_sheet(int side);
+/// `pleat_advance` is how far an edge takes the sheet along, in edges: 1 / pleat_advance layers lie over each other,
+/// about. Every bit depends on the arguments alone. REQUIRES side >= 2.
+[[nodiscard]] MeshMotion crumpled_sheet(int side, double pleat_advance = 0.1);
 
 /// What the kernel's broad phase finds for the motion.
 [[nodiscard]] Candidates candidates_of(const MeshMotion& motion, double tolerance);

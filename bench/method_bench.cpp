@@ -18,24 +18,34 @@ namespace {
 struct Contestant {
   std::string method, setting;
   std::function<void(std::span<const std::size_t> order, std::vector<MethodAnswer>& answers)> ask;
-  bool gives_toi = true;
+  bool gives_toi;
+  std::size_t asked;                                         ///< queries in a pass
   double best_ns = std::numeric_limits<double>::infinity();  // a pass
   std::vector<MethodAnswer> answers = {};
 };
+
+/// Keeps the answers to the queries of the set. Both lists are ascending.
+void keep_answers(const QuerySet& set, const BatchReport& report, std::size_t first,
+                  std::vector<MethodAnswer>& answers) {
+  auto query = std::lower_bound(set.place.begin(), set.place.end(), first);
+  for (const BatchAnswer& answer : report.answers) {
+    query = std::lower_bound(query, set.place.end(), first + answer.candidate);
+    if (query == set.place.end()) return;
+    if (*query != first + answer.candidate) continue;
+    answers[static_cast<std::size_t>(query - set.place.begin())] = {true, answer.ccd.verdict == CcdVerdict::kUnresolved,
+                                                                    answer.ccd.toi_lower};
+  }
+}
 
 void ask_batches(const QuerySet& set, std::vector<MethodAnswer>& answers) {
   std::fill(answers.begin(), answers.end(), MethodAnswer{});
   CcdOptions options;
   options.tolerance = 0;
   const MeshMotion& motion = *set.motion;
-  const CcdBatch batch(motion.mesh, motion.V_t0, motion.V_t1, options, set.queries.size());
-  const auto take = [&](const BatchReport& report, std::size_t first) {
-    for (const BatchAnswer& answer : report.answers) {
-      answers[first + answer.candidate] = {true, answer.ccd.verdict == CcdVerdict::kUnresolved, answer.ccd.toi_lower};
-    }
-  };
-  take(batch.ask(set.candidates.vf), 0);
-  take(batch.ask(set.candidates.ee), set.candidates.vf.size());
+  const std::size_t count = set.candidates.vf.size() + set.candidates.ee.size();
+  const CcdBatch batch(motion.mesh, motion.V_t0, motion.V_t1, options, count);
+  keep_answers(set, batch.ask(set.candidates.vf), 0, answers);
+  keep_answers(set, batch.ask(set.candidates.ee), set.candidates.vf.size(), answers);
 }
 
 std::vector<Contestant> contestants(const QuerySet& set) {
@@ -45,10 +55,12 @@ std::vector<Contestant> contestants(const QuerySet& set) {
                                                                  std::vector<MethodAnswer>& answers) {
       for (const std::size_t i : order) answers[i] = ask(set.queries[i]);
     };
-    all.push_back({setting.method, setting.setting, one_by_one, setting.gives_toi});
+    all.push_back({setting.method, setting.setting, one_by_one, setting.gives_toi, set.queries.size()});
   }
   if (set.motion != nullptr) {
-    all.push_back({"kernel in batches", "0 m", [&set](auto, auto& answers) { ask_batches(set, answers); }});
+    const std::size_t count = set.candidates.vf.size() + set.candidates.ee.size();
+    all.push_back(
+        {"kernel in batches", "0 m", [&set](auto, auto& answers) { ask_batches(set, answers); }, true, count});
   }
   return all;
 }
@@ -74,7 +86,7 @@ SettingReport judge(const QuerySet& set, const std::vector<verify::MotionAnswer>
   SettingReport report;
   report.method = contestant.method;
   report.setting = contestant.setting;
-  report.ns = contestant.best_ns / static_cast<double>(std::max<std::size_t>(1, set.queries.size()));
+  report.ns = contestant.best_ns / static_cast<double>(std::max<std::size_t>(1, contestant.asked));
   std::vector<double> early;
   for (std::size_t i = 0; i < set.queries.size(); ++i) {
     const MethodAnswer& answer = contestant.answers[i];
@@ -108,30 +120,23 @@ MethodQuery query_of(const MeshMotion& motion, PairKind kind, std::int32_t first
   return method_query(kind, x_t0, x_t1);
 }
 
-template <typename Pair>
-std::vector<Pair> thinned(const std::vector<Pair>& pairs, std::size_t keep_one_in) {
-  constexpr std::size_t kRun = 256;
-  std::vector<Pair> kept;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i / kRun % keep_one_in == 0) kept.push_back(pairs[i]);
-  }
-  return kept;
-}
-
 }  // namespace
 
 QuerySet candidate_set(const std::string& name, const MeshMotion& motion, std::size_t most) {
-  const Candidates all = candidates_of(motion, 0);
-  const std::size_t count = all.vf.size() + all.ee.size();
-  const std::size_t keep_one_in = (count + most - 1) / std::max<std::size_t>(1, most);
-  QuerySet set{name, "", {}, &motion, {}};
-  set.candidates.vf = thinned(all.vf, std::max<std::size_t>(1, keep_one_in));
-  set.candidates.ee = thinned(all.ee, std::max<std::size_t>(1, keep_one_in));
-  for (const VfCandidate& pair : set.candidates.vf) {
-    set.queries.push_back(query_of(motion, PairKind::kVf, pair.vertex, pair.face));
-  }
-  for (const EeCandidate& pair : set.candidates.ee) {
-    set.queries.push_back(query_of(motion, PairKind::kEe, pair.a, pair.b));
+  QuerySet set{name, "", {}, &motion, candidates_of(motion, 0), {}};
+  const auto& [vf, ee] = set.candidates;
+  const std::size_t count = vf.size() + ee.size();
+  constexpr std::size_t kRun = 256;
+  const std::size_t keep_one_in = std::max<std::size_t>(1, (count + most - 1) / std::max<std::size_t>(1, most));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i / kRun % keep_one_in != 0) continue;
+    set.place.push_back(i);
+    if (i < vf.size()) {
+      set.queries.push_back(query_of(motion, PairKind::kVf, vf[i].vertex, vf[i].face));
+    } else {
+      const EeCandidate& pair = ee[i - vf.size()];
+      set.queries.push_back(query_of(motion, PairKind::kEe, pair.a, pair.b));
+    }
   }
   set.what = std::to_string(set.queries.size()) + " of the " + std::to_string(count) + " candidates of " +
              std::to_string(motion.mesh.faces.size()) + " faces";

@@ -15,13 +15,14 @@ namespace selvage::bench {
 struct QuerySet {
   std::string name, what;
   std::vector<MethodQuery> queries;
-  /// Candidates of a mesh's motion, which are also asked in batches: `queries` are the pairs of the list, vf first.
+  /// All candidates of a mesh's motion, which are asked in batches as well; `queries` are some of them.
   const MeshMotion* motion = nullptr;
   Candidates candidates;
+  std::vector<std::size_t> place;  ///< of each query in `candidates`, vf before ee, ascending
 };
 
-/// Runs of 256 neighbours of the candidates, spread evenly over the list, so that at most about `most` remain of both
-/// kinds together: neighbours share their first feature, as batches expect. `motion` must outlive the set.
+/// The queries are runs of 256 neighbours among the candidates, spread evenly over the lists, at most about `most` of
+/// both kinds together. `motion` must outlive the set.
 [[nodiscard]] QuerySet candidate_set(const std::string& name, const MeshMotion& motion, std::size_t most);
 
 struct MethodBenchOptions {
@@ -35,7 +36,7 @@ struct SettingReport {
   std::int64_t gave_up = 0;       ///< of the alarms
   std::int64_t toi_examined = 0;  ///< touching pairs with an alarm, for methods that give a time
   ToiError toi;
-  double ns = 0;     ///< a query: processor time of the best pass
+  double ns = 0;     ///< a query: processor time of the best pass; in batches: over all candidates
   double ratio = 0;  ///< to the baseline's, same set, same run
 };
 

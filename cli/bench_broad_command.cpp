@@ -17,6 +17,7 @@ namespace {
 struct BroadArguments {
   std::string frame_t0, frame_t1, json;
   int largest = 100'000;
+  std::vector<double> pleat_advances{0.1};
   bench::BroadBenchOptions options;
 };
 
@@ -70,7 +71,11 @@ ExitCode bench_broad(const BroadArguments& arguments) {
     run(arguments.frame_t0 + " -> " + arguments.frame_t1,
         bench::mesh_motion(io::read_mesh(arguments.frame_t0), io::read_mesh(arguments.frame_t1)));
   } else {
-    for (const int side : sheet_sides(arguments.largest)) run("crumpled sheet", bench::crumpled_sheet(side));
+    for (const double advance : arguments.pleat_advances) {
+      for (const int side : sheet_sides(arguments.largest)) {
+        run(fmt::format("sheet pleated by {}", advance), bench::crumpled_sheet(side, advance));
+      }
+    }
   }
   fmt::print("processor time of all threads, and wall time of the query; best of {} passes; reach 0\n",
              arguments.options.repeat);
@@ -92,6 +97,12 @@ void add_broad_command(CLI::App& bench, Job& job) {
   broad.add_option("FRAME_T1", arguments->frame_t1, "The same mesh at t = 1");
   broad.add_option("--largest", arguments->largest, "Faces of the largest sheet")
       ->check(CLI::Range(10, 10'000'000))
+      ->capture_default_str();
+  broad
+      .add_option("--pleats", arguments->pleat_advances,
+                  "How far an edge takes a sheet along, in edges: 0.1 is 10 layers")
+      ->delimiter(',')
+      ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
   broad.add_option("--threads", arguments->options.thread_counts, "Numbers of threads")
       ->check(CLI::Range(1, 1024))

@@ -16,7 +16,7 @@ std::vector<bench::QuerySet> hard_query_sets(int count) {
   const std::vector<fuzz::QueryClass>& classes = fuzz::query_classes();
   std::vector<bench::QuerySet> sets;
   for (const fuzz::QueryGroup& group : fuzz::query_groups()) {
-    bench::QuerySet set{std::string(1, group.letter), std::string(group.name), {}, nullptr, {}};
+    bench::QuerySet set{std::string(1, group.letter), std::string(group.name), {}, nullptr, {}, {}};
     const auto is_of_group = [&](const fuzz::QueryClass& of) { return of.group == group.letter; };
     const auto class_count = std::count_if(classes.begin(), classes.end(), is_of_group);
     const std::int64_t share = std::max<std::int64_t>(1, count / (2 * class_count));

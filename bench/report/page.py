@@ -1,0 +1,89 @@
+"""Writes the page: bench/report/page.md with the tables and the circumstances of the measurements filled in."""
+import string
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + " --- |" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def number(value):
+    return "0" if value == 0 else f"{value:.1e}"
+
+
+def ratio(value):
+    return f"{value:.2f}" if value < 100 else f"{value:,.0f}"
+
+
+def cloth_table(methods):
+    rows = []
+    for of in methods["sets"]:
+        if len(of["name"]) == 1:
+            continue
+        for row in of["settings"]:
+            has_toi = row["toi_examined"] > 0
+            rows.append([of["name"], row["method"], row["setting"], row["misses"], row["false_alarms"],
+                         row["late_toi"] if has_toi else "", number(row["early_median"]) if has_toi else "",
+                         number(row["early_p99"]) if has_toi else "", ratio(row["ratio"])])
+    return table(["set", "method", "setting", "missed", "false alarms", "late", "early, median", "early, 99 %", "time"], rows)
+
+
+HARD_SETTINGS = [("textbook", "1e-06 m"), ("additive", "0.9"), ("inclusion", "0.0001 of size"), ("kernel", "0 m"), ("exact", "")]
+
+
+def hard_table(methods):
+    rows = []
+    for of in methods["sets"]:
+        if len(of["name"]) > 1:
+            continue
+        found = {(row["method"], row["setting"]): row for row in of["settings"]}
+        cells = [f"{found[key]['misses']} / {found[key]['false_alarms']} / {ratio(found[key]['ratio'])}" for key in HARD_SETTINGS]
+        rows.append([f"{of['name']}: {of['what']}", of["vf"] + of["ee"], of["touching"], *cells])
+    names = [f"{method} {setting}".strip() for method, setting in HARD_SETTINGS]
+    return table(["class", "queries", "touch", *names], rows)
+
+
+def checker_table(verify):
+    rows = []
+    for sheet in verify["sheets"]:
+        one = {method["name"]: method for method in sheet["methods"] if method["threads"] == 1}
+        frame = one["frame"]
+        for name, method in one.items():
+            exact = f"{100 * method['exact'] / method['examined']:.4f} %" if method["examined"] else ""
+            rows.append([f"{sheet['faces']:,}", "planted" if sheet["planted"] else "clean", name,
+                         ratio(method["check_ns"]["cpu"] / frame["check_ns"]["cpu"]), method["found"],
+                         method["missing"] + method["extra"], exact, f"{method['peak_bytes'] / 2**20:.1f}"])
+    return table(["triangles", "sheet", "check", "time", "found", "differ", "exact", "MiB"], rows)
+
+
+def accuracy_table(sim):
+    rows = []
+    for study, name in (("time_steps", "step"), ("meshes", "mesh and step")):
+        for row in sim[study]:
+            rows.append([name, row["solver"], row["nodes"], row["substeps"], number(row["distance"]),
+                         number(row["energy_drift"]), ratio(row["ratio"])])
+    return table(["refined", "solver", "nodes a side", "steps a frame", "distance", "energy drift", "time"], rows)
+
+
+def conservation_table(sim):
+    rows = [[row["solver"], row["scene"], row["contacts"], number(row["momentum_drift"]), number(row["angular_momentum_drift"]),
+             number(row["energy_gain"]), f"{max(0, 100 * (row['strain'] - 0.1)):.2f} %", row["fail_safe_vertices"]]
+            for row in sim["conservation"]]
+    return table(["solver", "scene", "contacts", "momentum", "angular momentum", "energy gained", "strain over 10 %",
+                  "fail-safe"], rows)
+
+
+def circumstances(machine):
+    start, end = machine["load_before"], machine["load_after"]
+    return (f"Measured on {machine['cpu']}, {machine['threads']} threads, {machine['memory_gib']} GiB, {machine['system']}; "
+            f"{machine['compiler']}, `{machine['flags']}`; commit `{machine['commit']}`"
+            + (f" with {machine['changed_files']} changed files" if machine["changed_files"] else "")
+            + f"; load {start[0]} at the start and {end[0]} at the end of {machine['minutes']:.0f} minutes.")
+
+
+def write(template, reports, machine, results, page):
+    text = string.Template(template.read_text()).substitute(
+        machine=circumstances(machine), cloth_table=cloth_table(reports["methods"]), hard_table=hard_table(reports["methods"]),
+        checker_table=checker_table(reports["verify"]), accuracy_table=accuracy_table(reports["sim"]),
+        conservation_table=conservation_table(reports["sim"]), results=results)
+    page.write_text(text)
