@@ -87,7 +87,7 @@ SettingReport judge(const QuerySet& set, const std::vector<verify::MotionAnswer>
   report.method = contestant.method;
   report.setting = contestant.setting;
   report.ns = contestant.best_ns / static_cast<double>(std::max<std::size_t>(1, contestant.asked));
-  std::vector<double> early;
+  std::vector<double> early, off;
   for (std::size_t i = 0; i < set.queries.size(); ++i) {
     const MethodAnswer& answer = contestant.answers[i];
     report.misses += truth[i].touches && !answer.alarm;
@@ -97,12 +97,15 @@ SettingReport judge(const QuerySet& set, const std::vector<verify::MotionAnswer>
     const MethodQuery& query = set.queries[i];
     const double first = truth[i].first.lower_approx;
     early.push_back(std::max(0.0, first - answer.toi));
+    off.push_back(std::abs(first - answer.toi));
     if (verify::compare_first_touch(query.point_t0, query.point_t1, query.kind == PairKind::kVf, answer.toi) < 0) {
       ++report.toi.late;
       report.toi.late_max = std::max(report.toi.late_max, answer.toi - first);
     }
   }
   std::sort(early.begin(), early.end());
+  std::sort(off.begin(), off.end());
+  report.toi_off_p99 = quantile(off, 0.99);
   report.toi_examined = static_cast<std::int64_t>(early.size());
   report.toi.early_median = quantile(early, 0.5);
   report.toi.early_p99 = quantile(early, 0.99);
@@ -187,6 +190,7 @@ std::string to_json(std::span<const SetReport> reports) {
                           {"early_median", setting.toi.early_median},
                           {"early_p99", setting.toi.early_p99},
                           {"early_max", setting.toi.early_max},
+                          {"off_p99", setting.toi_off_p99},
                           {"ns", setting.ns},
                           {"ratio", setting.ratio}});
     }

@@ -36,8 +36,9 @@ struct SettingReport {
   std::int64_t gave_up = 0;       ///< of the alarms
   std::int64_t toi_examined = 0;  ///< touching pairs with an alarm, for methods that give a time
   ToiError toi;
-  double ns = 0;     ///< a query: processor time of the best pass; in batches: over all candidates
-  double ratio = 0;  ///< to the baseline's, same set, same run
+  double toi_off_p99 = 0;  ///< |answer - first touch|, early or late: 99th percentile
+  double ns = 0;           ///< a query: processor time of the best pass; in batches: over all candidates
+  double ratio = 0;        ///< to the baseline's, same set, same run
 };
 
 struct SetReport {

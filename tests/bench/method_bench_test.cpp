@@ -39,6 +39,7 @@ TEST(MethodBench, CountsWhatEachMethodGetsWrong) {
   EXPECT_EQ(row(report, "inclusion", "1e-06 of size").false_alarms, 0);
   EXPECT_EQ(row(report, "kernel", "0 m").toi_examined, 1);
   EXPECT_LE(row(report, "kernel", "0 m").toi.early_max, 1e-12);
+  EXPECT_NEAR(row(report, "additive", "0.5").toi_off_p99, 0.25, 1e-12);
   EXPECT_NEAR(row(report, "additive", "0.5").toi.early_max, 0.25, 1e-12);  // half of the way to the touch at 1/2
   EXPECT_EQ(row(report, "textbook", "1e-06 m").ratio, 1);
   EXPECT_FALSE(breaks_promise(report));
@@ -46,11 +47,11 @@ TEST(MethodBench, CountsWhatEachMethodGetsWrong) {
 
 TEST(MethodBench, AMissOfAMethodThatPromisesNoneIsSeen) {
   SetReport report;
-  report.settings.push_back({"textbook", "1e-06 m", 5, 0, 0, 0, {}, 1, 1});
+  report.settings.push_back({"textbook", "1e-06 m", 5, 0, 0, 0, {}, 0, 1, 1});
   EXPECT_FALSE(breaks_promise(report));
-  report.settings.push_back({"inclusion", "1e-06 of size", 1, 0, 0, 0, {}, 1, 1});
+  report.settings.push_back({"inclusion", "1e-06 of size", 1, 0, 0, 0, {}, 0, 1, 1});
   EXPECT_TRUE(breaks_promise(report));
-  report.settings.back() = {"kernel", "0 m", 0, 0, 0, 0, {.late = 1}, 1, 1};
+  report.settings.back() = {"kernel", "0 m", 0, 0, 0, 0, {.late = 1}, 0, 1, 1};
   EXPECT_TRUE(breaks_promise(report));
 }
 
