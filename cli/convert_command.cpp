@@ -117,7 +117,7 @@ ExitCode recheck(const io::SequenceReader& input, Conversion conversion, const C
   const verify::SequenceReport report = verify::check_sequence(*written, options);
   verify::ReportContext context{"selvage " SELVAGE_VERSION, {}, {}};
   for (const auto& source : conversion.sources) context.sources.push_back(source.string());
-  for (std::size_t i = 0; i < written->frame_count(); ++i) context.frame_names.push_back(written->frame_name(i));
+  for (std::size_t i = 0; i < written->frame_count(); ++i) context.frame_names.emplace(i, written->frame_name(i));
   fmt::print("as written: ");
   print_report(verify::text_report(report, context, kListed), report.verdict);
   return exit_code(report.verdict);

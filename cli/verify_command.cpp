@@ -25,7 +25,7 @@ verify::ReportContext report_context(const VerifyArguments& arguments, const io:
   verify::ReportContext context{
       std::string("selvage ") + SELVAGE_VERSION, {}, {}, recorded_options(arguments, options)};
   for (const std::filesystem::path& source : arguments.sequence.sources) context.sources.push_back(source.string());
-  for (std::size_t i = 0; i < sequence.frame_count(); ++i) context.frame_names.push_back(sequence.frame_name(i));
+  for (std::size_t i = 0; i < sequence.frame_count(); ++i) context.frame_names.emplace(i, sequence.frame_name(i));
   return context;
 }
 

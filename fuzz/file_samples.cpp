@@ -129,7 +129,7 @@ std::string report_text() {
   report.exempted = {{{"a", "b"}, 3}};
   report.ignored = {{"c", 1}};
   report.welded = {1, 0};
-  return verify::json_report(report, {"x", {"a.obj"}, {"a", "b"}, {{"option", "1"}}});
+  return verify::json_report(report, {"x", {"a.obj"}, {{0, "a"}, {1, "b"}}, {{"option", "1"}}});
 }
 
 std::string campaign_text() {

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <stdexcept>
+
 #include <nlohmann/json.hpp>
 
 #include "fuzz/ledger.h"
@@ -36,30 +39,40 @@ Json json_of(const PropertyLedger& property) {
   return json;
 }
 
+/// Not negative, and so that sums of many do not overflow. The library itself would convert -1 and 1e300 without a
+/// word.
+std::int64_t count(const Json& json) {
+  constexpr std::uint64_t kLargest = std::uint64_t{1} << 53;
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > kLargest) {
+    throw std::invalid_argument("'" + json.dump() + "' is no such count");
+  }
+  return json.get<std::int64_t>();
+}
+
 PropertyLedger property_of(const Json& json) {
   PropertyLedger property;
   property.name = json.at("name").get<std::string>();
-  for (const auto& [begin, end] : json.at("units").get<RangeSet::Ranges>()) {
+  for (const Json& range : json.at("units")) {
+    const std::int64_t begin = count(range.at(0)), end = count(range.at(1));
     if (begin >= end || !property.units.insert(begin, end)) throw std::invalid_argument("units overlap");
   }
   property.counters = json.at("counters").get<std::vector<std::string>>();
   for (const Json& stream : json.at("streams")) {
     property.streams.push_back(stream.at("name").get<std::string>());
     Counts row;
-    row.cases = stream.at("cases").get<std::int64_t>();
-    row.failures = stream.at("failures").get<std::int64_t>();
-    row.nearest_bits = stream.at("nearest_bits").get<std::int64_t>();
-    const auto counts = stream.at("counts").get<std::vector<std::int64_t>>();
+    row.cases = count(stream.at("cases"));
+    row.failures = count(stream.at("failures"));
+    row.nearest_bits = count(stream.at("nearest_bits"));
+    const Json& counts = stream.at("counts");
     if (counts.size() != property.counters.size() || counts.size() > Counts::kCounters) {
       throw std::invalid_argument("a stream has not as many counts as there are counters");
     }
-    std::copy(counts.begin(), counts.end(), row.of.begin());
+    std::transform(counts.begin(), counts.end(), row.of.begin(), count);
     property.rows.push_back(row);
   }
   for (const Json& finding : json.at("findings")) {
     property.findings[{finding.at("stream").get<std::string>(), finding.at("failure").get<std::string>()}] = {
-        finding.at("count").get<std::int64_t>(), finding.at("case").get<std::int64_t>(),
-        finding.at("file").get<std::string>()};
+        count(finding.at("count")), count(finding.at("case")), finding.at("file").get<std::string>()};
   }
   return property;
 }
@@ -86,10 +99,12 @@ Ledger parse_ledger(const std::string& text, const std::string& name) {
     Ledger ledger;
     ledger.version = json.at("version").get<std::string>();
     ledger.target = json.at("target").get<std::string>();
-    ledger.seed = json.at("seed").get<std::uint64_t>();
-    ledger.cases = json.at("cases").get<std::int64_t>();
-    ledger.shard = json.at("shard").at(0).get<std::int64_t>();
-    ledger.shards = json.at("shard").at(1).get<std::int64_t>();
+    const Json& seed = json.at("seed");
+    if (!seed.is_number_unsigned()) throw std::invalid_argument("the seed is no number");
+    ledger.seed = seed.get<std::uint64_t>();
+    ledger.cases = count(json.at("cases"));
+    ledger.shard = count(json.at("shard").at(0));
+    ledger.shards = count(json.at("shard").at(1));
     for (const Json& property : json.at("properties")) ledger.properties.push_back(property_of(property));
     return ledger;
   } catch (const std::exception& error) {  // of nlohmann, or ours

@@ -90,12 +90,7 @@ ParsedReport merge(std::vector<Part> parts) {
   if (report.first_frame != 0) throw MergeError("no part holds " + frames(0, report.first_frame));
   for (std::size_t i = 1; i < parts.size(); ++i) {
     add(report, parts[i].parsed.report);
-    auto& names = merged.context.frame_names;
-    const auto& more = parts[i].parsed.context.frame_names;
-    names.resize(std::max(names.size(), more.size()));
-    for (std::size_t k = 0; k < more.size(); ++k) {
-      if (!more[k].empty()) names[k] = more[k];
-    }
+    merged.context.frame_names.merge(parts[i].parsed.context.frame_names);
   }
   if (report.end_frame != report.frame_count) {
     throw MergeError("no part holds " + frames(report.end_frame, report.frame_count));

@@ -43,8 +43,8 @@ std::string place(const Violation& violation) {
 
 std::string line(const Violation& violation, const ReportContext& context) {
   const auto frame_name = [&](std::int64_t frame) {
-    const auto index = static_cast<std::size_t>(frame);
-    return index < context.frame_names.size() ? context.frame_names[index] : std::to_string(frame);
+    const auto name = context.frame_names.find(frame);
+    return name != context.frame_names.end() ? name->second : std::to_string(frame);
   };
   std::string text = "  frame " + std::to_string(violation.frame);
   if (violation.motion) {

@@ -1,6 +1,7 @@
 // A sequence report for people (text) and for programs (JSON, schema "selvage.verify/1").
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +17,9 @@ inline constexpr const char* kReportSchema = "selvage.verify/1";
 
 /// What the report is about, in the words of the user.
 struct ReportContext {
-  std::string program;                   ///< name and version
-  std::vector<std::string> sources;      ///< as given
-  std::vector<std::string> frame_names;  ///< of all frames
+  std::string program;                              ///< name and version
+  std::vector<std::string> sources;                 ///< as given
+  std::map<std::int64_t, std::string> frame_names;  ///< by number
   /// What was asked for, by name: reports with other options are not about the same thing.
   std::vector<std::pair<std::string, std::string>> options = {};
 };

@@ -142,8 +142,8 @@ std::string json_report(const SequenceReport& report, const ReportContext& conte
   json["violations"] = Json::array();
   for (const Violation& violation : report.violations) {
     Json entry = to_json(violation);
-    const auto frame = static_cast<std::size_t>(violation.frame);
-    if (frame < context.frame_names.size()) entry["frame_name"] = context.frame_names[frame];
+    const auto name = context.frame_names.find(violation.frame);
+    if (name != context.frame_names.end()) entry["frame_name"] = name->second;
     json["violations"].push_back(std::move(entry));
   }
   json["unchecked"] = report.unchecked;

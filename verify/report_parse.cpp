@@ -53,6 +53,23 @@ T named(const Json& json, const std::array<std::pair<const char*, T>, N>& names)
   throw Fault{"unknown word '" + text + "'"};
 }
 
+/// Not negative, and so that sums of many and products with small numbers do not overflow. The library itself would
+/// convert -1, 1e300, and 2^40 to an index, without a word.
+std::int64_t count(const Json& json, std::int64_t largest = std::int64_t{1} << 53) {
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > static_cast<std::uint64_t>(largest)) {
+    throw Fault{"'" + json.dump() + "' is no such count or index"};
+  }
+  return json.get<std::int64_t>();
+}
+std::int32_t index(const Json& json) {
+  return static_cast<std::int32_t>(count(json, std::numeric_limits<std::int32_t>::max()));
+}
+
+std::array<std::int32_t, 2> features(const Json& json) {
+  if (json.size() != 2) throw Fault{"an event has not two features"};
+  return {index(json.at(0)), index(json.at(1))};
+}
+
 std::vector<Point> points(const Json& json) {
   std::vector<Point> result;
   for (const Json& point : json) {
@@ -64,22 +81,22 @@ std::vector<Point> points(const Json& json) {
 bool is_motion(const Json& json) { return named<bool, 2>(json, {{{"motion", true}, {"frame", false}}}); }
 
 ViolationCounts violation_counts(const Json& json) {
-  return {json.at("vf"), json.at("ee"), json.at("overlap"), json.at("self")};
+  return {count(json.at("vf")), count(json.at("ee")), count(json.at("overlap")), count(json.at("self"))};
 }
 
 Violation violation(const Json& json) {
   Violation result;
-  result.frame = json.at("frame");
+  result.frame = count(json.at("frame"));
   result.motion = is_motion(json.at("unit"));
   result.event = named<EventKind, 4>(
       json.at("event"),
       {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}, {"overlap", EventKind::kOverlap}, {"self", EventKind::kSelf}}});
   result.kind = json.at("kind");
-  result.features = json.at("features");
+  result.features = features(json.at("features"));
   result.vertices.fill(-1);
   const Json& vertices = json.at("vertices");
   if (vertices.size() > result.vertices.size()) throw Fault{"a violation has too many vertices"};
-  for (std::size_t i = 0; i < vertices.size(); ++i) result.vertices[i] = vertices[i];
+  for (std::size_t i = 0; i < vertices.size(); ++i) result.vertices[i] = index(vertices.at(i));
   result.at_touch = json.at("positions").get<std::vector<Point>>();
   result.x_t0 = points(json.at("bits_t0"));
   result.x_t1 = result.motion ? points(json.at("bits_t1")) : result.x_t0;
@@ -96,18 +113,17 @@ Violation violation(const Json& json) {
 }
 
 SequenceReport::Counted counted(const Json& json, std::int64_t& expected) {
-  expected = json.at("expected");
-  return {json.at("checked"), json.at("violated")};
+  expected = count(json.at("expected"));
+  return {count(json.at("checked")), count(json.at("violated"))};
 }
 
 void parse_allowances(const Json& json, SequenceReport& report) {
-  for (const Json& entry : json.at("exempted")) report.exempted.push_back({entry.at("groups"), entry.at("pairs")});
-  for (const Json& entry : json.at("ignored")) report.ignored.push_back({entry.at("group"), entry.at("faces")});
+  for (const Json& entry : json.at("exempted"))
+    report.exempted.push_back({entry.at("groups"), count(entry.at("pairs"))});
+  for (const Json& entry : json.at("ignored")) report.ignored.push_back({entry.at("group"), count(entry.at("faces"))});
   const Json& weld = json.at("weld");
-  if (!weld.is_null()) report.welded = {weld.at("vertices"), weld.at("collapsed_faces")};
+  if (!weld.is_null()) report.welded = {count(weld.at("vertices")), count(weld.at("collapsed_faces"))};
 }
-
-constexpr std::int64_t kMostFrames = std::int64_t{1} << 53;  // so that a product with a small number is no overflow
 
 /// The frames that violations are in, also of a motion that leads to the first.
 void require_frame(const SequenceReport& report, std::int64_t frame) {
@@ -118,24 +134,24 @@ void require_frame(const SequenceReport& report, std::int64_t frame) {
 
 void parse_sequence(const Json& json, SequenceReport& report) {
   report.sequence = json.at("identity");
-  report.frame_count = json.at("frames");
-  report.first_frame = json.at("first_frame");
-  report.end_frame = json.at("end_frame");
+  report.frame_count = count(json.at("frames"));
+  report.first_frame = count(json.at("first_frame"));
+  report.end_frame = count(json.at("end_frame"));
   for (const Json& entry : json.at("crc32")) report.frame_crc32.push_back(word(entry));
   const Json& before = json.at("crc32_before");
   if (!before.is_null()) report.crc32_before = word(before);
-  const auto count = static_cast<std::int64_t>(report.frame_crc32.size());
-  if (report.first_frame < 0 || report.first_frame >= report.end_frame || report.end_frame > report.frame_count ||
-      count > report.end_frame - report.first_frame || report.frame_count > kMostFrames) {
+  const std::int64_t checked = std::ssize(report.frame_crc32);
+  if (report.first_frame >= report.end_frame || report.end_frame > report.frame_count ||
+      checked > report.end_frame - report.first_frame) {
     throw Fault{"the range of frames makes no sense"};
   }
 }
 
 void parse_surface(const Json& json, SequenceReport& report) {
-  report.faces = json.at("faces");
-  report.vertices = json.at("vertices");
-  report.unreferenced_vertices = json.at("unreferenced_vertices");
-  report.body_faces = json.at("body_faces");
+  report.faces = count(json.at("faces"));
+  report.vertices = count(json.at("vertices"));
+  report.unreferenced_vertices = count(json.at("unreferenced_vertices"));
+  report.body_faces = count(json.at("body_faces"));
   report.bodies_checked = named<bool, 2>(json.at("body_pairs"), {{{"checked", true}, {"skipped", false}}});
   report.precision = named<io::Precision, 2>(
       json.at("precision"), {{{"float32", io::Precision::kFloat32}, {"float64", io::Precision::kFloat64}}});
@@ -158,37 +174,40 @@ ParsedReport parse(const Json& json) {
   report.frames = counted(json.at("frames"), report.frames_expected);
   report.motions = counted(json.at("motions"), report.motions_expected);
   const Json& pairs = json.at("pairs");
-  report.pairs = {pairs.at("vf"), pairs.at("ee"), pairs.at("overlap"), pairs.at("self"), pairs.at("exact"), 0, 0};
+  report.pairs = {count(pairs.at("vf")),
+                  count(pairs.at("ee")),
+                  count(pairs.at("overlap")),
+                  count(pairs.at("self")),
+                  count(pairs.at("exact")),
+                  0,
+                  0};
   report.violations_total = violation_counts(json.at("violations_total"));
   for (const Json& entry : json.at("violated")) {
-    report.violated.push_back({entry.at("frame"), is_motion(entry.at("unit")), violation_counts(entry)});
+    report.violated.push_back({count(entry.at("frame")), is_motion(entry.at("unit")), violation_counts(entry)});
     require_frame(report, report.violated.back().frame);
   }
   const Json& gap = json.at("gap");
   report.gap_searched = !gap.is_null();
   if (report.gap_searched && !gap.at("lower").is_null()) {
-    report.gap = {hex_float(gap.at("lower_hex")), hex_float(gap.at("upper_hex")), gap.at("frame"),
+    report.gap = {hex_float(gap.at("lower_hex")), hex_float(gap.at("upper_hex")), count(gap.at("frame")),
                   named<EventKind, 2>(gap.at("event"), {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}}}),
-                  gap.at("features")};
+                  features(gap.at("features"))};
   }
   const Json& second = json.at("second_opinion");
   if (!second.is_null()) {
     report.second_opinion = named<SecondOpinionScope, 2>(
         second.at("scope"), {{{"undecided", SecondOpinionScope::kUndecided}, {"all", SecondOpinionScope::kAll}}});
-    report.pairs.asked_again = second.at("asked");
-    report.pairs.disagreed = second.at("disagreed");
+    report.pairs.asked_again = count(second.at("asked"));
+    report.pairs.disagreed = count(second.at("disagreed"));
     for (const Json& entry : second.at("disagreements")) report.disagreements.push_back(violation(entry));
   }
   parse_allowances(json.at("allowed"), report);
-  report.max_violations = json.at("max_violations");
+  report.max_violations = count(json.at("max_violations"));
   for (const Json& entry : json.at("violations")) {
     report.violations.push_back(violation(entry));
     const std::int64_t frame = report.violations.back().frame;
     require_frame(report, frame);
-    if (!entry.contains("frame_name")) continue;
-    auto& names = parsed.context.frame_names;
-    if (names.size() <= static_cast<std::size_t>(frame)) names.resize(static_cast<std::size_t>(frame) + 1);
-    names[static_cast<std::size_t>(frame)] = entry.at("frame_name");
+    if (entry.contains("frame_name")) parsed.context.frame_names[frame] = entry.at("frame_name");
   }
   report.unchecked = json.at("unchecked").get<std::vector<std::string>>();
   parse_surface(json.at("surface"), report);

@@ -78,13 +78,27 @@ TEST(Parts, WhatIsNoReportIsRefused) {
     text.replace(text.find(from), from.size(), to);
     return text;
   };
-  for (const std::string& bad : {std::string("{}"), std::string("[]"), std::string("x"),
-                                 good.substr(0, good.size() / 2), with("selvage.verify/1", "selvage.verify/2"),
-                                 with("\"violated\"", "\"fine\""), with("\"end_frame\": 7", "\"end_frame\": 8"),
-                                 with("\"first_frame\": 0", "\"first_frame\": -1"), with("\"frames\"", "\"frame\""),
-                                 with("\"frame\": 2", "\"frame\": 7"), with("\"vertices\": [", "\"vertices\": [7,")}) {
+  for (const std::string& bad :
+       {std::string("{}"), std::string("[]"), std::string("x"), good.substr(0, good.size() / 2),
+        with("selvage.verify/1", "selvage.verify/2"), with("\"violated\"", "\"fine\""),
+        with("\"end_frame\": 7", "\"end_frame\": 8"), with("\"first_frame\": 0", "\"first_frame\": -1"),
+        with("\"frames\"", "\"frame\""), with("\"frame\": 2", "\"frame\": 7"),
+        with("\"vertices\": [", "\"vertices\": [7,"), with("\"checked\": 7", "\"checked\": 7e300"),
+        with("\"checked\": 7", "\"checked\": -7"), with("\"features\": [", "\"features\": [4294967296,")}) {
     EXPECT_THROW((void)parse_report(bad, "a"), io::Error) << bad.substr(0, 80);
   }
+}
+
+// Found by fuzzing: names were kept in a vector, so one name of a late frame asked for 2^55 bytes.
+TEST(Parts, ANameCostsNoMoreInALateFrame) {
+  SequenceReport report = check_sequence(Frames(frames()), options());
+  const std::int64_t late = std::int64_t{1} << 50;
+  report.violations.resize(1);
+  report.violated.resize(1);
+  report.violations[0].frame = report.violated[0].frame = report.first_frame = late;
+  report.end_frame = report.frame_count = late + std::ssize(report.frame_crc32);
+  const std::string text = json_report(report, {"x", {"memory"}, {{late, "late"}}, {}});
+  EXPECT_EQ(parse_report(text, "a").context.frame_names.at(late), "late");
 }
 
 TEST(Parts, ARunThatIsResumedReportsWhatOneRunWould) {

@@ -175,7 +175,7 @@ TEST(Report, TextAndJsonTellTheSame) {
   SequenceOptions options;
   options.check.max_violations = 2;
   const SequenceReport report = check({sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
-  const ReportContext context{"selvage test", {"a\xff.obj"}, {"first", "second"}};
+  const ReportContext context{"selvage test", {"a\xff.obj"}, {{0, "first"}, {1, "second"}}};
   const auto json = nlohmann::json::parse(json_report(report, context));
   EXPECT_EQ(json["schema"], "selvage.verify/1");
   EXPECT_EQ(json["verdict"], "violated");
