@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "verify/smallest_gap.h"
-
 namespace selvage::bench {
 namespace {
+
+// The gap is followed down in these steps: each costs a check, the exact smallest distance of a frame many.
+constexpr double kGapShrink = 0.5;
 
 const char* name_of(sim::StepStatus status) {
   switch (status) {
@@ -33,12 +34,14 @@ std::vector<verify::Point> points_of(const Positions& x) {
 }
 
 ExactWatch::ExactWatch(Trial& trial, const io::Triangles& triangles, const std::vector<std::uint8_t>& face_is_body,
-                       std::int64_t vertex_count, double tolerance_m)
+                       std::int64_t vertex_count, const sim::CollisionOptions& options)
     : trial_(trial),
       topology_(verify::make_topology({triangles, face_is_body}, static_cast<std::size_t>(vertex_count))),
-      tolerance_m_(tolerance_m) {
+      tolerance_m_(options.tolerance_m) {
   trial.report().vertices = vertex_count;
   trial.report().faces = static_cast<std::int64_t>(triangles.size());
+  double& gap_m = trial.report().gap_at_least_m;
+  gap_m = std::min(gap_m, std::max(options.thickness_m, options.tolerance_m));
 }
 
 void ExactWatch::require_free(const verify::CheckResult& result, const char* what) {
@@ -69,17 +72,25 @@ void ExactWatch::step(const Positions& x_t0, const Positions& x_t1, const sim::C
   watch_gap(x_t1, report);
 }
 
-void ExactWatch::watch_gap(const Positions& x, const sim::CollisionStepReport& report) {
-  const std::optional<verify::Gap> gap = verify::smallest_gap(topology_, points_of(x), false);
-  if (!gap) return;
-  trial_.report().smallest_gap_m = std::min(trial_.report().smallest_gap_m, gap->lower);
-  if (gap->lower >= tolerance_m_) return;
+std::vector<verify::Violation> ExactWatch::near_pairs(const Positions& x, double distance_m) const {
   verify::CheckOptions options;
-  options.min_distance = tolerance_m_;
+  options.min_distance = distance_m;
   options.max_violations = 1'000'000;
+  std::vector<verify::Violation> near = verify::check_frame(topology_, points_of(x), options).violations;
+  std::erase_if(near, [](const verify::Violation& violation) { return violation.kind != "near"; });
+  return near;
+}
+
+void ExactWatch::watch_gap(const Positions& x, const sim::CollisionStepReport& report) {
+  double& gap_m = trial_.report().gap_at_least_m;
+  if (gap_m > 0 && near_pairs(x, gap_m).empty()) return;
+  do {
+    gap_m *= kGapShrink;
+  } while (gap_m > 0 && !near_pairs(x, gap_m).empty());
+  if (gap_m >= tolerance_m_) return;
   std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
   for (const Collision& pair : report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
-  for (const verify::Violation& near : verify::check_frame(topology_, points_of(x), options).violations) {
+  for (const verify::Violation& near : near_pairs(x, tolerance_m_)) {
     const PairKind kind = near.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
     trial_.require(named.contains({kind, near.features}),
                    fmt::format("step {} ends with a pair below the tolerance that its report does not name",

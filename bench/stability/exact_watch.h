@@ -16,7 +16,7 @@ class ExactWatch {
  public:
   /// `face_is_body`: as in verify::Surface; empty: no face is. The trial must outlive it.
   ExactWatch(Trial& trial, const io::Triangles& triangles, const std::vector<std::uint8_t>& face_is_body,
-             std::int64_t vertex_count, double tolerance_m);
+             std::int64_t vertex_count, const sim::CollisionOptions& options);
 
   /// Requires that the state is exactly free of intersections.
   void start(const Positions& x);
@@ -26,6 +26,7 @@ class ExactWatch {
 
  private:
   void require_free(const verify::CheckResult& result, const char* what);
+  [[nodiscard]] std::vector<verify::Violation> near_pairs(const Positions& x, double distance_m) const;
   void watch_gap(const Positions& x, const sim::CollisionStepReport& report);
 
   Trial& trial_;

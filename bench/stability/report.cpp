@@ -57,7 +57,7 @@ nlohmann::ordered_json json_of(const TrialReport& trial) {
           {"faces", trial.faces},
           {"steps", trial.steps},
           {"pairs_examined", trial.pairs_examined},
-          {"smallest_gap_m", trial.smallest_gap_m},  // null where no frame had a pair
+          {"gap_at_least_m", trial.gap_at_least_m},  // null where there was no frame
           {"steps_with_collisions", trial.steps_with_collisions},
           {"pairs_below_tolerance", trial.pairs_below_tolerance},
           {"fail_safe_steps", trial.fail_safe_steps},
@@ -72,12 +72,12 @@ nlohmann::ordered_json json_of(const TrialReport& trial) {
 
 std::string to_markdown(std::span<const StabilityCaseReport> reports) {
   std::string text =
-      "| case | passed | steps | with collisions | fail-safe steps | smallest gap, m | asked, and worst measured |\n"
+      "| case | passed | steps | with collisions | fail-safe steps | gap at least, m | asked, and worst measured |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const StabilityCaseReport& report : reports) {
     const auto passed = std::ranges::count_if(report.trials, [](const auto& trial) { return trial.failure.empty(); });
     double gap_m = std::numeric_limits<double>::infinity();
-    for (const TrialReport& trial : report.trials) gap_m = std::min(gap_m, trial.smallest_gap_m);
+    for (const TrialReport& trial : report.trials) gap_m = std::min(gap_m, trial.gap_at_least_m);
     const std::string figures = worst_figures(report);
     text += fmt::format("| {} | {} of {} | {} | {} | {} | {} | {}{}{} |\n", report.name, passed, report.trials.size(),
                         total(report, &TrialReport::steps), total(report, &TrialReport::steps_with_collisions),

@@ -106,7 +106,7 @@ Stage::Stage(Trial& trial, StageSetup setup)
       mesh_(make_mesh(static_cast<std::int32_t>(setup_.x.rows()), faces_of(setup_.triangles))),
       springs_(setup_.springs, mesh_.vertex_count),
       collision_step_(mesh_, setup_.collision),
-      watch_(trial, setup_.triangles, setup_.face_is_body, mesh_.vertex_count, setup_.collision.tolerance_m),
+      watch_(trial, setup_.triangles, setup_.face_is_body, mesh_.vertex_count, setup_.collision),
       x_(setup_.x),
       v_(setup_.v),
       x_start_(setup_.x) {

@@ -33,8 +33,8 @@ struct TrialReport {
   std::int64_t vertices = 0, faces = 0;
   std::int64_t steps = 0;           ///< each checked exactly: the frame at its end, and the motion
   std::int64_t pairs_examined = 0;  ///< by the exact checker
-  /// The smallest distance of two features at the end of a step, exact to the last bit; infinite without a pair.
-  double smallest_gap_m = std::numeric_limits<double>::infinity();
+  /// All features were at least this far apart at the end of every step, exactly; at most the thickness.
+  double gap_at_least_m = std::numeric_limits<double>::infinity();
   std::int64_t steps_with_collisions = 0;
   std::int64_t pairs_below_tolerance = 0;  ///< named by the step's report
   std::int64_t fail_safe_steps = 0, fail_safe_vertices = 0;

@@ -81,7 +81,9 @@ TEST(StabilitySuite, ARunThatIsEndedHasNoVerdict) {
 TEST(ExactWatch, SeesWhatAStepMustNotDo) {
   const TwoTriangles scene;
   Trial trial({});
-  ExactWatch watch(trial, scene.triangles, {}, 6, 1e-3);
+  sim::CollisionOptions options;
+  options.tolerance_m = options.thickness_m = 1e-3;
+  ExactWatch watch(trial, scene.triangles, {}, 6, options);
   EXPECT_NO_THROW(watch.start(scene.x));
   EXPECT_THROW(watch.start(scene.lowered(1)), CriterionFailed) << "coplanar overlap at the start";
   EXPECT_NO_THROW(watch.step(scene.x, scene.lowered(0.5), scene.report));
@@ -91,7 +93,7 @@ TEST(ExactWatch, SeesWhatAStepMustNotDo) {
   sim::CollisionStepReport stopped;
   stopped.status = sim::StepStatus::kStopped;
   EXPECT_THROW(watch.step(scene.x, scene.x, stopped), CriterionFailed);
-  EXPECT_NEAR(trial.report().smallest_gap_m, 1e-4, 1e-12);
+  EXPECT_EQ(trial.report().gap_at_least_m, 1e-3 / 16);
 }
 
 }  // namespace selvage::bench

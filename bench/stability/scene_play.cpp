@@ -1,0 +1,66 @@
+#include "bench/stability/scene_play.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/scene_reader.h"
+
+namespace selvage::bench {
+namespace {
+
+sim::Scene moved_scene(const std::string& toml, const Vec3& offset) {
+  sim::Scene scene = sim::parse_scene(toml, "stability case", sim::Quality::kDraft);
+  for (sim::ClothSpec& cloth : scene.cloths) cloth.placement.position_m += offset;
+  for (sim::BodySpec& body : scene.bodies) {
+    for (sim::PoseKey& key : body.script.keys) key.pose.position_m += offset;
+  }
+  return scene;
+}
+
+std::vector<std::uint8_t> body_faces(const sim::World& world) {
+  std::vector<std::uint8_t> flags(world.triangles.size(), 0);
+  for (const io::Group& group : world.groups) {
+    if (group.role == io::Group::Role::kBody) {
+      std::fill(flags.begin() + group.face_begin, flags.begin() + group.face_end, std::uint8_t{1});
+    }
+  }
+  return flags;
+}
+
+}  // namespace
+
+ScenePlay::ScenePlay(Trial& trial, const std::string& toml, double length_m)
+    : trial_(trial),
+      offset_(trial.offset(length_m)),
+      simulation_(moved_scene(toml, offset_)),
+      watch_(trial, simulation_.world().triangles, body_faces(simulation_.world()),
+             simulation_.world().mesh.vertex_count, simulation_.scene().collision) {
+  watch_.start(simulation_.x());
+}
+
+const sim::StepResult& ScenePlay::step() {
+  const Positions x_t0 = simulation_.x();
+  last_ = simulation_.step();
+  watch_.step(x_t0, simulation_.x(), last_.report);
+  return last_;
+}
+
+void ScenePlay::run_to(double time_s) {
+  while (simulation_.clock().time_s() < time_s) step();
+}
+
+double ScenePlay::fastest_m_s() const {
+  return simulation_.state().v.topRows(simulation_.world().cloth_vertex_count).rowwise().norm().maxCoeff();
+}
+
+double ScenePlay::largest_strain() const {
+  double largest = 0;
+  for (const sim::Spring& spring : simulation_.world().springs.springs()) {
+    if (spring.kind == sim::SpringKind::kBending) continue;
+    const double length = (x().row(spring.b) - x().row(spring.a)).norm();
+    largest = std::max(largest, std::abs(length / spring.rest_length_m - 1));
+  }
+  return largest;
+}
+
+}  // namespace selvage::bench
