@@ -96,6 +96,11 @@ void print_totals(const sim::RunTotals& totals) {
              totals.steps_with_collisions, totals.impulse_rounds, totals.zone_rounds, totals.largest_zone_vertices);
   fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}\n", totals.fail_safe_vertices,
              totals.pairs_below_tolerance, totals.waiting_bodies);
+  if (totals.dynamics_solves > 0) {
+    fmt::print("implicit solves {}, Newton rounds {}, iterations {}, largest residual {:.2g} m, not converged {}\n",
+               totals.dynamics_solves, totals.newton_rounds, totals.cg_iterations, totals.largest_residual_m,
+               totals.unconverged_solves);
+  }
   fmt::print("seconds: dynamics {:.1f}, collision step {:.1f}, final velocity {:.1f}, recording {:.1f}\n",
              totals.dynamics_s, totals.collision_s, totals.velocity_s, totals.record_s);
 }
@@ -164,8 +169,10 @@ void add_sim_command(CLI::App& program, Job& job) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, sim::Quality>{{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}}));
   command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");
-  command.add_flag("--strict", arguments->strict,
-                   "Exit code 1 also where the fail-safe was needed, the tolerance was missed or a body waited");
+  command.add_flag(
+      "--strict", arguments->strict,
+      "Exit code 1 also where the fail-safe was needed, the tolerance was missed, a body waited or an implicit "
+      "solve did not converge");
   command.callback([arguments, &job] { job = [arguments] { return simulate(*arguments); }; });
 }
 

@@ -92,8 +92,8 @@ void CentralDifferences::march(const VelocitySystem& system, std::span<const dou
   march_velocity(acceleration, rate_1_s, time_s, 1, v);
 }
 
-void CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_t1,
-                                 std::span<const double> inverse_mass, double dt_s) {
+DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_t1,
+                                           std::span<const double> inverse_mass, double dt_s) {
   const int step_count = static_cast<int>(std::ceil(dt_s / options_.step_s));
   const double h = dt_s / step_count;
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
@@ -114,6 +114,7 @@ void CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) = scripted_x_t1.row(i);
   }
+  return {};
 }
 
 void CentralDifferences::final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) {

@@ -30,8 +30,8 @@ class CentralDifferences : public Dynamics {
   CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options);  ///< springs outlive it
 
   /// As many equal internal steps as options.step_s asks for.
-  void advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
-               double dt_s) override;
+  DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
+                         double dt_s) override;
 
   /// v(n+1) of the line above with h = dt_s. A collision step is longer than what is stable for explicit springs, so
   /// here they act where the velocity carries the ends in half a step: (dt/2)^2 k n n^T is added to the matrix. For

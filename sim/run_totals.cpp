@@ -22,6 +22,11 @@ void RunTotals::add(const StepResult& step) {
   fail_safe_vertices += report.fail_safe_vertices;
   pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
   waiting_bodies += static_cast<std::int64_t>(report.waiting_bodies.size());
+  dynamics_solves += step.dynamics.solves;
+  newton_rounds += step.dynamics.newton_rounds;
+  cg_iterations += step.dynamics.cg_iterations;
+  unconverged_solves += step.dynamics.unconverged;
+  largest_residual_m = std::max(largest_residual_m, step.dynamics.residual_m);
   dynamics_s += step.seconds.dynamics;
   collision_s += step.seconds.collision;
   velocity_s += step.seconds.velocity;
@@ -35,6 +40,7 @@ std::string RunTotals::shortfalls() const {
   add_clause(fail_safe_vertices, "vertices were held back by the fail-safe");
   add_clause(pairs_below_tolerance, "pairs ended a step nearer than the tolerance");
   add_clause(waiting_bodies, "times a body waited");
+  add_clause(unconverged_solves, "implicit solves did not converge");
   return text;
 }
 

@@ -16,12 +16,14 @@ struct RunTotals {
   std::int64_t impulse_rounds = 0, zone_rounds = 0, largest_zone_vertices = 0;
   std::int64_t fail_safe_rounds = 0, fail_safe_vertices = 0;
   std::int64_t pairs_below_tolerance = 0, waiting_bodies = 0;
+  std::int64_t dynamics_solves = 0, newton_rounds = 0, cg_iterations = 0, unconverged_solves = 0;
+  double largest_residual_m = 0;  ///< of an implicit solve
   double dynamics_s = 0, collision_s = 0, velocity_s = 0, record_s = 0;
 
   void add(const StepResult& step);
   /// One clause for each thing that went less well than the scene asked for, "" where nothing did: the fail-safe was
-  /// needed, pairs ended a step nearer than the tolerance, bodies waited. No intersection is among them: these end
-  /// runs.
+  /// needed, pairs ended a step nearer than the tolerance, bodies waited, equations were not solved. No intersection is
+  /// among them: these end runs.
   [[nodiscard]] std::string shortfalls() const;
 };
 
@@ -43,6 +45,11 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("fail_safe_vertices", totals.fail_safe_vertices);
   visit("pairs_below_tolerance", totals.pairs_below_tolerance);
   visit("waiting_bodies", totals.waiting_bodies);
+  visit("dynamics_solves", totals.dynamics_solves);
+  visit("newton_rounds", totals.newton_rounds);
+  visit("cg_iterations", totals.cg_iterations);
+  visit("unconverged_solves", totals.unconverged_solves);
+  visit("largest_residual_m", totals.largest_residual_m);
   visit("dynamics_s", totals.dynamics_s);
   visit("collision_s", totals.collision_s);
   visit("velocity_s", totals.velocity_s);

@@ -14,6 +14,9 @@
 
 namespace selvage::sim {
 
+/// How the springs are integrated: central differencing (central_differences.h), or implicitly (implicit_dynamics.h).
+enum class Solver : std::uint8_t { kExplicit, kImplicit };
+
 /// Which of the two values holds where a scene file has {draft = ..., full = ...}.
 enum class Quality : std::uint8_t { kDraft, kFull };
 
@@ -68,16 +71,18 @@ struct BodySpec {
 
 struct TimeSpec {
   double frames_per_s = 30;
-  std::int64_t frame_count = 0;           ///< after the initial one
-  std::optional<double> dynamics_step_s;  ///< none: from the springs' stability limit
-  std::optional<double> min_step_s;       ///< none: the dynamics' step
-  std::optional<double> max_step_s;       ///< none: one frame
+  std::int64_t frame_count = 0;  ///< after the initial one
+  std::optional<double>
+      dynamics_step_s;               ///< none: from the springs' stability limit, or the collision step where implicit
+  std::optional<double> min_step_s;  ///< none: the dynamics' step, or an eighth of max_step_s where implicit
+  std::optional<double> max_step_s;  ///< none: one frame
 };
 
 struct Scene {
   std::filesystem::path file;
   Quality quality = Quality::kDraft;
   TimeSpec time;
+  Solver solver = Solver::kExplicit;
   Vec3 gravity_m_s2 = Vec3::Zero();
   double drag_1_s = 0, quadratic_drag_1_m = 0;
   StrainLimits strain;

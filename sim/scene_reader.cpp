@@ -247,9 +247,15 @@ Scene read_root(TomlTable root) {
   scene.drag_1_s = root.number("drag_1_s", {0, 1e6}, 0);
   scene.quadratic_drag_1_m = root.number("quadratic_drag_1_m", {0, 1e6}, 0);
   scene.strain.strain = root.number("strain_limit", {0, 0.9}, scene.strain.strain);
-  scene.strain.strain_rate = root.number("strain_rate_limit", {0, 0.9}, scene.strain.strain_rate);
   scene.squeeze = root.choice("squeeze", {"stop", "yield"}) == 0 ? SqueezePolicy::kStop : SqueezePolicy::kYield;
-  root.choice("solver", {"explicit"});
+  scene.solver = root.choice("solver", {"explicit", "implicit"}) == 0 ? Solver::kExplicit : Solver::kImplicit;
+  if (scene.solver == Solver::kExplicit) {
+    scene.strain.strain_rate = root.number("strain_rate_limit", {0, 0.9}, scene.strain.strain_rate);
+  } else if (root.has("strain_rate_limit")) {
+    root.fail("strain_rate_limit", "strain_rate_limit is for solver = \"explicit\" alone; leave it out");
+  } else {
+    scene.strain.strain_rate = 0;
+  }
   std::optional<TomlTable> collision = root.table("collision");
   const bool stiffness_given = collision && collision->has("repulsion_stiffness_n_m");
   if (collision) scene.collision = read_collision(std::move(*collision));

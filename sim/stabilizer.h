@@ -56,6 +56,16 @@ class StabilizerSystem {
   [[nodiscard]] double diagonal(VertexId i, double stiffness_share, double damping_share) const;
   /// Sum of the magnitudes of row i of the same matrix: Gershgorin's bound.
   [[nodiscard]] double row_sum(VertexId i, double stiffness_share, double damping_share) const;
+  /// Calls visit(j, stiffness, damping) with both parts of c_ij for every j that vertex i shares a stabiliser with, in
+  /// increasing order.
+  template <class Visit>
+  void for_each_at(VertexId i, Visit visit) const {
+    if (empty()) return;
+    const auto row = static_cast<std::size_t>(i);
+    for (std::size_t n = begin_[row]; n < begin_[row + 1]; ++n) {
+      visit(neighbours_[n].vertex, neighbours_[n].stiffness, neighbours_[n].damping);
+    }
+  }
 
  private:
   struct Neighbour {

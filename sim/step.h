@@ -23,8 +23,10 @@ struct PhaseSeconds {
 
 struct StepResult {
   CollisionStepReport report;  ///< of the step that was taken, or that could not be
+  DynamicsReport dynamics;     ///< of the step that was taken
   double dt_s = 0;
-  std::int32_t halvings = 0;  ///< tries thrown away because repulsions were not enough
+  /// Tries thrown away because repulsions were not enough, or the equations of implicit dynamics were not solved.
+  std::int32_t halvings = 0;
   PhaseSeconds seconds;
 };
 
@@ -45,7 +47,7 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
-  Positions candidate_positions(double dt_s, Motion& end);
+  Positions candidate_positions(double dt_s, Motion& end, DynamicsReport& report);
   void commit(const CollisionStepResult& safe, Motion end, double dt_s);
 
   Scene scene_;

@@ -158,10 +158,11 @@ World build_world(const Scene& scene) {
   const std::int32_t cloth_vertex_count = builder.vertex_count();
   for (const BodySpec& body : scene.bodies) builder.add_body(body);
   World world = builder.take(cloth_vertex_count);
-  if (scene.time.dynamics_step_s && !(*scene.time.dynamics_step_s < world.stable_step_s)) {
+  if (scene.solver == Solver::kExplicit && scene.time.dynamics_step_s &&
+      !(*scene.time.dynamics_step_s < world.stable_step_s)) {
     throw io::Error(io::ErrorKind::kBadInput,
                     fmt::format("{}: dynamics_step_s = {} is not stable for these springs; lower it below {:.3g} or "
-                                "leave it out",
+                                "leave it out, or set solver = \"implicit\"",
                                 scene.file.string(), *scene.time.dynamics_step_s, world.stable_step_s));
   }
   return world;
@@ -190,6 +191,7 @@ std::string describe(const Scene& scene, const World& world) {
   }
   if (scene.drag_1_s > 0) line("air", fmt::format("drag {:g} 1/s", scene.drag_1_s));
   if (scene.quadratic_drag_1_m > 0) line("air", fmt::format("drag {:g} 1/m, quadratic", scene.quadratic_drag_1_m));
+  if (scene.solver == Solver::kImplicit) line("solver", "implicit");
   for (std::size_t n = static_cast<std::size_t>(world.body_count); n < world.colliders.size(); ++n) {
     line("pin", fmt::format("{}, {} vertices", world.colliders[n].name(), world.colliders[n].vertices().size()));
   }

@@ -50,6 +50,8 @@ const BadScene kBadScenes[] = {
     {"kinetic above static", kScene + "[collision]\nfriction_static = 0.2\nfriction_kinetic = 0.3\n", 11,
      "must not exceed friction_static"},
     {"an unknown policy", "squeeze = \"explode\"\n" + kScene, 1, "\"stop\", \"yield\""},
+    {"an unknown solver", "solver = \"magic\"\n" + kScene, 1, "\"explicit\", \"implicit\""},
+    {"a limit of the other solver", "solver = \"implicit\"\nstrain_rate_limit = 0.1\n" + kScene, 2, "leave it out"},
     {"two surfaces", kScene + "[[body]]\nsphere = {radius_m = 1}\nbox = {size_m = [1, 1, 1]}\n", 11, "second surface"},
     {"no surface", kScene + "[[body]]\nname = \"air\"\n", 9, "no surface"},
     {"a name twice", kScene + "[[body]]\nname = \"cloth\"\nsphere = {radius_m = 1}\n", 10, "a second \"cloth\""},
