@@ -49,4 +49,10 @@ ReplayOutcome OverlapReplay::outcome() const {
   return touches == kept.touches ? ReplayOutcome::kAgree : ReplayOutcome::kContradicted;
 }
 
+KeptReplay replay_kept(const std::string& name, fuzz::ParsedCase parsed) {
+  fuzz::Retrial retrial = parsed.kept->retry();
+  if (!retrial.unfit.empty()) throw io::Error(io::ErrorKind::kBadInput, name + ": " + retrial.unfit);
+  return {std::move(parsed), std::move(retrial)};
+}
+
 }  // namespace selvage::cli

@@ -7,6 +7,7 @@
 
 #include "bench/textbook.h"
 #include "fuzz/case_file.h"
+#include "fuzz/kept_case.h"
 #include "fuzz/overlap_case.h"
 #include "fuzz/query_oracle.h"
 #include "verify/explain.h"
@@ -16,7 +17,7 @@ namespace selvage::cli {
 
 enum class ReplayOutcome {
   kAgree,         ///< no promise is broken (an unresolved answer breaks none)
-  kBroken,        ///< the kernel breaks a promise
+  kBroken,        ///< a promise is broken
   kContradicted,  ///< the exact answer is not the one that the file expects
   kDivided,       ///< the two exact deciders disagree
 };
@@ -43,6 +44,17 @@ struct OverlapReplay {
 };
 [[nodiscard]] OverlapReplay replay_overlap(const fuzz::OverlapCase& kept);
 
+struct KeptReplay {
+  fuzz::ParsedCase parsed;
+  fuzz::Retrial retrial;
+
+  [[nodiscard]] ReplayOutcome outcome() const {
+    return retrial.failure.empty() ? ReplayOutcome::kAgree : ReplayOutcome::kBroken;
+  }
+};
+/// Throws io::Error(kBadInput) where nothing is promised about the case.
+[[nodiscard]] KeptReplay replay_kept(const std::string& name, fuzz::ParsedCase parsed);
+
 struct Explanation {
   std::string name;  ///< the file
   std::string text, json;
@@ -50,5 +62,6 @@ struct Explanation {
 };
 [[nodiscard]] Explanation explain(const std::string& name, const MotionReplay& replay);
 [[nodiscard]] Explanation explain(const std::string& name, const OverlapReplay& replay);
+[[nodiscard]] Explanation explain(const std::string& name, const KeptReplay& replay);
 
 }  // namespace selvage::cli

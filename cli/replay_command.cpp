@@ -1,5 +1,6 @@
 #include "cli/replay_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,12 +20,16 @@ struct Arguments {
   std::string json;
 };
 
-constexpr std::size_t kLargestCase = 1 << 16;
+constexpr std::size_t kLargestCase = 1 << 20;
 
 Explanation replay(const std::filesystem::path& file) {
   const std::string text = io::read_file(file, kLargestCase), name = file.string();
-  if (fuzz::is_overlap_case(text, name)) return explain(name, replay_overlap(fuzz::parse_overlap_case(text, name)));
-  return explain(name, replay_motion(fuzz::parse_case(text, name)));
+  const std::string kind = fuzz::kind_of_case(text, name);
+  if (kind == "overlap") return explain(name, replay_overlap(fuzz::parse_overlap_case(text, name)));
+  const auto is_motion = [&](PairKind pair) { return fuzz::name_of(pair) == kind; };
+  if (std::ranges::any_of(fuzz::kPairKinds, is_motion))
+    return explain(name, replay_motion(fuzz::parse_case(text, name)));
+  return explain(name, replay_kept(name, fuzz::parse_kept_case(text, name)));
 }
 
 /// The gravest one counts.
@@ -73,12 +78,13 @@ ExitCode run(const Arguments& arguments) {
 }  // namespace
 
 void add_replay_command(CLI::App& program, Job& job) {
-  CLI::App& command = add_command(program, "replay",
-                                  "Explain kept cases: the kernel's answer, the exact one and the textbook's, and "
-                                  "where they differ. Exit code 1 if "
-                                  "the kernel breaks a promise, 3 if a case expects another answer than the exact one, "
-                                  "7 if two exact deciders differ",
-                                  "selvage replay failure.case");
+  CLI::App& command =
+      add_command(program, "replay",
+                  "Explain kept cases: of a query the kernel's answer, the exact one and the textbook's, "
+                  "and where they differ; of a step, a mesh, a scene or a file what happens when it is "
+                  "run again, and which promise breaks. Exit code 1 if a promise is broken, 3 if a case "
+                  "expects another answer than the exact one, 7 if two exact deciders differ",
+                  "selvage replay failure.case");
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("CASE", arguments->cases, "Case files, or folders of them")->required();
   command.add_option("--json", arguments->json, "Write the explanations as JSON")->type_name("FILE");

@@ -15,7 +15,7 @@ const char* sentence(ReplayOutcome outcome) {
     case ReplayOutcome::kAgree:
       return "no promise is broken";
     case ReplayOutcome::kBroken:
-      return "THE KERNEL BREAKS A PROMISE";
+      return "A PROMISE IS BROKEN";
     case ReplayOutcome::kContradicted:
       return "THE FILE EXPECTS ANOTHER ANSWER";
     case ReplayOutcome::kDivided:
@@ -203,6 +203,27 @@ Explanation explain(const std::string& name, const OverlapReplay& replay) {
                      {"positions", replay.kept.x},
                      {"exact", {{"touches", replay.exact != verify::OverlapKind::kNone}, {"kind", exact}}},
                      {"second", {{"touches", replay.second}}},
+                     {"outcome", name_of(result.outcome)}};
+  result.json = json.dump(1, ' ', false, Json::error_handler_t::replace);
+  return result;
+}
+
+Explanation explain(const std::string& name, const KeptReplay& replay) {
+  const auto& [parsed, retrial] = replay;
+  Explanation result{name, {}, {}, replay.outcome()};
+  result.text = fmt::format("{}: {} (from {})\n", name, parsed.kept->kind(), parsed.origin);
+  result.text += fmt::format("  promise:  {}\n  kept for: {}\n", parsed.kept->promise(), parsed.failure);
+  for (const std::string& fact : retrial.facts) result.text += fmt::format("  {}\n", fact);
+  result.text += fmt::format("  {}", sentence(result.outcome));
+  if (!retrial.failure.empty()) result.text += fmt::format(" ({})", retrial.failure);
+  result.text += "\n";
+  const Json json = {{"case", name},
+                     {"kind", parsed.kept->kind()},
+                     {"seed", parsed.origin},
+                     {"promise", parsed.kept->promise()},
+                     {"kept_for", parsed.failure},
+                     {"facts", retrial.facts},
+                     {"failure", retrial.failure.empty() ? "none" : retrial.failure},
                      {"outcome", name_of(result.outcome)}};
   result.json = json.dump(1, ' ', false, Json::error_handler_t::replace);
   return result;

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include "io/error.h"
@@ -18,6 +19,8 @@ std::size_t word_start(std::string_view line) { return std::min(line.find_first_
 }  // namespace
 
 std::string hex(double x) {
+  if (std::isnan(x)) return "nan";
+  if (std::isinf(x)) return x < 0 ? "-inf" : "inf";
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::hex).ptr;
   return (std::signbit(x) ? "-0x" : "0x") + std::string(text.data(), end);
@@ -69,6 +72,30 @@ double CaseLines::number(std::string_view word) const {
     fail("'" + std::string(word) + "' is not a finite number");
   }
   return negative ? -x : x;
+}
+
+double CaseLines::any_number(std::string_view word) const {
+  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (word == "inf") return std::numeric_limits<double>::infinity();
+  if (word == "-inf") return -std::numeric_limits<double>::infinity();
+  return number(word);
+}
+
+std::int64_t CaseLines::integer(std::string_view word, std::int64_t lowest, std::int64_t highest,
+                                std::string_view what) const {
+  std::int64_t x = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+  if (error != std::errc() || end != word.data() + word.size() || x < lowest || x > highest) {
+    fail(std::string(what) + ": '" + std::string(word) + "' is not an integer from " + std::to_string(lowest) + " to " +
+         std::to_string(highest));
+  }
+  return x;
+}
+
+std::string_view CaseLines::rest_of_line() {
+  const std::string_view rest = line_.substr(word_start(line_));
+  line_ = {};
+  return rest;
 }
 
 void CaseLines::fail(const std::string& what) const {

@@ -1,12 +1,13 @@
 // The text of case files: lines of words, hex floats, comments from '#' to the end of a line.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace selvage::fuzz {
 
-/// The shortest hex float that reads back as x.
+/// The shortest hex float that reads back as x; or nan, inf, -inf.
 [[nodiscard]] std::string hex(double x);
 
 /// Reads one line after another, and within a line one word after another. `text` and `name` must outlive it. Whatever
@@ -23,6 +24,13 @@ class CaseLines {
   void expect_end_of_line();
   /// A finite number, hexadecimal or decimal, from a word.
   [[nodiscard]] double number(std::string_view word) const;
+  /// The same, or nan, inf, -inf.
+  [[nodiscard]] double any_number(std::string_view word) const;
+  /// An integer in [lowest, highest], from a word; `what` names it where it is none.
+  [[nodiscard]] std::int64_t integer(std::string_view word, std::int64_t lowest, std::int64_t highest,
+                                     std::string_view what) const;
+  /// What is left of the line, from the next word on.
+  [[nodiscard]] std::string_view rest_of_line();
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -61,6 +61,7 @@ std::uint32_t ChoiceSource::n(std::uint32_t k) {
   if (k == 1) return 0;
   const std::uint32_t answer = next_word(k) % k;  // keeps small words small; the bias, k/2^32, does not matter
   if (record_ != nullptr) record(answer, k);
+  if (words_record_ != nullptr) words_record_->push_back(answer);
   return answer;
 }
 

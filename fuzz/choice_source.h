@@ -22,6 +22,8 @@ class ChoiceSource {
   /// From now on appends to `bytes`, for each answer, what makes from_bytes() answer the same: so the case of any feed
   /// becomes an input of the byte engines. A copy goes on appending; ask one of the two only.
   void record_to(std::vector<std::uint8_t>& bytes) { record_ = &bytes; }
+  /// The same for from_words().
+  void record_to(std::vector<std::uint32_t>& words) { words_record_ = &words; }
 
   /// 0 .. k-1. REQUIRES k >= 1.
   std::uint32_t n(std::uint32_t k);
@@ -50,6 +52,7 @@ class ChoiceSource {
   std::span<const std::uint8_t> bytes_;
   std::size_t next_ = 0;
   std::vector<std::uint8_t>* record_ = nullptr;
+  std::vector<std::uint32_t>* words_record_ = nullptr;
 };
 
 /// A well mixed 64-bit hash of two numbers (splitmix64): seeds of cases from (campaign seed, case number).

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include "fuzz/file_case.h"
 #include "fuzz/file_formats.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
+
+constexpr std::int64_t kTrials = 5000;
 
 /// Words that parsers trip over: numbers at the edge of their types, separators, names of things.
 constexpr std::array<std::string_view, 24> kWords{"-1",    "0",   "4294967296", "-9223372036854775809",
@@ -48,7 +51,7 @@ void edit(ChoiceSource& source, std::string& bytes) {
 
 class FileCampaign final : public Property {
  public:
-  FileCampaign() : Property("files", "every parser refuses damaged files or reads what is sound; it never crashes") {
+  FileCampaign() : Property("files", std::string(file_kind().promise)) {
     for (const FileFormat& format : file_formats()) streams_.push_back({std::string(format.name), 0, 300});
     counters_ = {"accepted", "refused"};
   }
@@ -74,9 +77,10 @@ class FileCampaign final : public Property {
     return counts.cases > 200 && counts.of[1] == 0 ? "nothing is refused" : "";
   }
 
-  std::string kept(const Stream& stream, ChoiceSource source, const std::string& /*origin*/,
-                   const std::string& /*failure*/, bool /*shrunk*/) override {
-    return damaged(stream, source);
+  std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
+                   bool shrunk) override {
+    const ByteCase kept = file_case(stream.name, damaged(stream, source));
+    return kept_text(KeptBytes(shrunk ? shrink(kept, failure, kTrials) : kept), origin, failure);
   }
 
  private:

@@ -70,11 +70,4 @@ OverlapCase parse_overlap_case(std::string_view text, const std::string& name) {
   return kept;
 }
 
-bool is_overlap_case(std::string_view text, const std::string& name) {
-  CaseLines lines(text, name);
-  lines.advance();
-  for (const char* wanted : {"selvage-case", "1"}) lines.expect_word(wanted);
-  return lines.word() == "overlap";
-}
-
 }  // namespace selvage::fuzz

@@ -25,7 +25,5 @@ struct OverlapCase {
 [[nodiscard]] std::string format_overlap_case(const OverlapCase& kept);
 /// Throws io::Error naming `name` and the line.
 [[nodiscard]] OverlapCase parse_overlap_case(std::string_view text, const std::string& name);
-/// Whether the text says that it is such a case; it may still be a bad one.
-[[nodiscard]] bool is_overlap_case(std::string_view text, const std::string& name);
 
 }  // namespace selvage::fuzz

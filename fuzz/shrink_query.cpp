@@ -1,27 +1,14 @@
 #include "fuzz/shrink_query.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <set>
 
+#include "fuzz/short_numbers.h"
+
 namespace selvage::fuzz {
 namespace {
-
-/// Bits of the mantissa up to the last that is set.
-int mantissa_bits(double x) {
-  const std::uint64_t mantissa = std::bit_cast<std::uint64_t>(x) & ((std::uint64_t{1} << 52) - 1);
-  return x == 0 ? 0 : mantissa == 0 ? 1 : 53 - std::countr_zero(mantissa);
-}
-
-/// To so many bits; ties away from zero.
-double round_to_bits(double x, int bits) {
-  if (x == 0) return x;
-  int exponent = 0;
-  const double fraction = std::frexp(x, &exponent);
-  return std::ldexp(std::round(std::ldexp(fraction, bits)), exponent - bits);
-}
 
 /// The coordinates that mean something: both ends of every point of the kind.
 class Coordinates {
@@ -128,8 +115,7 @@ class Shrinker {
   }
 
   void rounding() {
-    static constexpr std::array<int, 12> kBits{1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 32, 40};
-    for (const int bits : kBits) {  // all at once, then one by one
+    for (const int bits : kShortBits) {  // all at once, then one by one
       MotionQuery rounded = best_.query;
       for (std::size_t i = 0; i < all_.size(); ++i) {
         double& x = Coordinates::at(rounded, i);
@@ -138,7 +124,7 @@ class Shrinker {
       if (offer(rounded)) break;
     }
     for (std::size_t i = 0; i < all_.size(); ++i) {
-      for (const int bits : kBits) {
+      for (const int bits : kShortBits) {
         if (set(i, round_to_bits(Coordinates::at(best_.query, i), bits))) break;
       }
     }

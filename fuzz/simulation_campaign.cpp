@@ -1,59 +1,31 @@
 #include "fuzz/simulation_campaign.h"
 
+#include <algorithm>
+
 #include "fuzz/random_scene.h"
-#include "fuzz/step_world.h"
-#include "sim/scene_reader.h"
-#include "sim/step.h"
-#include "verify/check.h"
+#include "fuzz/scene_case.h"
+#include "fuzz/shrink_choices.h"
 
 namespace selvage::fuzz {
 namespace {
 
-constexpr int kSteps = 80;  ///< of a case at most
-
-verify::Topology topology_of(const sim::World& world) {
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    for (std::int32_t face = group.face_begin; face < group.face_end; ++face)
-      is_body[static_cast<std::size_t>(face)] = 1;
-  }
-  return verify::make_topology({world.triangles, is_body}, static_cast<std::size_t>(world.x_t0.rows()));
-}
+constexpr std::int64_t kSteps = 80;  ///< of a case at most
+/// A trial takes tenths of a second.
+constexpr std::int64_t kChoiceTrials = 100, kTextTrials = 300;
 
 class SimulationCampaign final : public Property {
  public:
-  SimulationCampaign()
-      : Property("simulation", "random scenes stay free of intersections, frame by frame and step by step (S1, S4)") {
+  SimulationCampaign() : Property("simulation", std::string(scene_kind().promise)) {
     weight_ = 2;
     for (const std::string_view name : scene_classes()) streams_.push_back({std::string(name), 0, 1});
     counters_ = {"steps", "collisions", "zones", "fail-safe", "stopped", "not started"};
   }
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
-    const sim::Scene scene = sim::parse_scene(random_scene(stream.name, source), "random scene");
-    sim::Simulation simulation(scene);
-    const verify::Topology topology = topology_of(simulation.world());
-    Outcome outcome{{1, 0, {}, 0}, {}};
-    auto& [steps, collisions, zones, fail_safe, stopped, not_started, unused_0, unused_1] = outcome.counts.of;
-    if (check(topology, simulation.x(), simulation.x()) != 0) {
-      not_started = 1;  // the scene begins in contact, which the program refuses
-      return outcome;
-    }
-    while (steps < kSteps && simulation.clock().state().frame < scene.time.frame_count) {
-      const Positions x_t0 = simulation.x();
-      const sim::CollisionStepReport report = simulation.step().report;
-      if (report.status == sim::StepStatus::kInvalidInput) return failed(outcome, "invalid-candidates");
-      ++steps;
-      collisions += report.first_collisions > 0;
-      zones += report.zone_rounds > 0;
-      fail_safe += report.fail_safe_vertices > 0;
-      if (check(topology, x_t0, simulation.x()) != 0) return failed(outcome, "touches");
-      if (report.status == sim::StepStatus::kStopped) {
-        stopped = 1;
-        return outcome;
-      }
-    }
+    const SceneTrial trial = try_scene(random_scene(stream.name, source), kSteps);
+    Outcome outcome{{1, trial.retrial.failure.empty() ? 0 : 1, {}, 0}, trial.retrial.failure};
+    outcome.counts.of = {trial.steps,          trial.with_collisions, trial.with_zones,
+                         trial.with_fail_safe, trial.stopped,         !trial.retrial.unfit.empty()};
     return outcome;
   }
 
@@ -62,22 +34,14 @@ class SimulationCampaign final : public Property {
   }
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
-                   bool /*shrunk*/) override {
-    return "# " + origin + ": " + failure + "\n" + random_scene(stream.name, source);
-  }
-
- private:
-  static Outcome failed(Outcome outcome, std::string what) {
-    outcome.counts.failures = 1;
-    outcome.failure = std::move(what);
-    return outcome;
-  }
-
-  /// Violations of the motion and of the frame at its end.
-  static std::int64_t check(const verify::Topology& topology, const Positions& x_t0, const Positions& x_t1) {
-    const std::vector<verify::Point> before = raw_points(x_t0), after = raw_points(x_t1);
-    return verify::check_motion(topology, before, after, {}).violations_total.total() +
-           verify::check_frame(topology, after, {}).violations_total.total();
+                   bool shrunk) override {
+    if (!shrunk) return kept_text(KeptBytes(scene_case(random_scene(stream.name, source), kSteps)), origin, failure);
+    const Choices choices = shrink_choices(
+        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
+    ChoiceSource again = ChoiceSource::from_words(choices);
+    const std::string scene = random_scene(stream.name, again);
+    const ByteCase simplest = scene_case(scene, std::max<std::int64_t>(1, try_scene(scene, kSteps).steps));
+    return kept_text(KeptBytes(shrink(simplest, failure, kTextTrials)), origin, failure);
   }
 };
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
-#include "fuzz/case_text.h"
-#include "fuzz/step_oracle.h"
+#include "fuzz/drawn_case.h"
+#include "fuzz/shrink_choices.h"
+#include "fuzz/shrink_mesh.h"
+#include "fuzz/step_case.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
@@ -15,14 +17,11 @@ const SurfaceClass& surface_of(const Stream& stream) {
   return *found;
 }
 
-void append_row(std::string& text, const Positions& x, Eigen::Index row) {
-  for (int axis = 0; axis < 3; ++axis) text += " " + hex(x(row, axis));
-}
+constexpr std::int64_t kChoiceTrials = 300;  // each takes milliseconds
 
 class StepCampaign final : public Property {
  public:
-  StepCampaign()
-      : Property("step", "no step touches, loses momentum or leaves its script, whatever the candidates (S1 to S4)") {
+  StepCampaign() : Property("step", std::string(step_kind().promise)) {
     weight_ = 2;
     for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 4});
     counters_ = {"steps", "collisions", "zones", "fail-safe", "stopped"};
@@ -43,23 +42,15 @@ class StepCampaign final : public Property {
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
                    bool shrunk) override {
-    std::string text = "selvage-step 1 " + stream.name + "\nseed " + origin + "\nfailure " + failure + "\n";
-    if (!shrunk) return text;  // the code under test does not survive this case
-    ChoiceSource again = source;
+    // Which of its steps failed is known only when they are run.
+    if (!shrunk) return kept_text(DrawnCase(origin), origin, failure);
+    const Choices choices = shrink_choices(
+        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
+    ChoiceSource again = ChoiceSource::from_words(choices);
     const StepWorld world = make_step_world(again, surface_of(stream));
     const StepObservation seen = run_steps(again, world, selvage_step);
-    text += "candidate " + std::string(seen.candidate) + "\n";
-    for (const auto& face : world.mesh.faces) {
-      text += "f " + std::to_string(face[0]) + " " + std::to_string(face[1]) + " " + std::to_string(face[2]) + "\n";
-    }
-    for (Eigen::Index row = 0; row < seen.x_t0.rows(); ++row) {  // before, candidate, answer
-      text += "v";
-      for (const Positions* x : {&seen.x_t0, &seen.x_candidate, &seen.x_t1}) {
-        if (row < x->rows()) append_row(text, *x, row);  // a refused step has no answer
-      }
-      text += "\n";
-    }
-    return text;
+    const MeshCase simplest = step_case(world, seen.x_t0, seen.x_candidate);
+    return kept_text(KeptMesh(shrink(simplest, failure)), origin, failure);
   }
 
  private:

@@ -151,6 +151,9 @@ sim::CollisionStepResult selvage_step(const StepWorld& world, const Positions& x
 StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
                       const sim::CollisionStepResult& result) {
   const sim::CollisionStepReport& report = result.report;
+  if (!candidate.allFinite()) {
+    return report.status == sim::StepStatus::kInvalidInput ? StepDefect::kNone : StepDefect::kNotRefused;
+  }
   switch (report.status) {
     case sim::StepStatus::kInvalidInput:
       return StepDefect::kRejected;
@@ -180,12 +183,12 @@ StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Posit
 
 namespace {
 
-/// One candidate coordinate is no number: nothing may be done.
-bool refuses_nan(ChoiceSource& source, const StepWorld& world, const Positions& x, const StepFunction& step) {
+/// One coordinate is no number.
+Positions no_candidate(ChoiceSource& source, const Positions& x) {
   Positions candidate = x;
   const auto place = static_cast<Eigen::Index>(source.n(static_cast<std::uint32_t>(x.size())));
   candidate.reshaped()[place] = source.coin() ? std::numeric_limits<double>::infinity() : std::nan("");
-  return step(world, x, candidate).report.status == sim::StepStatus::kInvalidInput;
+  return candidate;
 }
 
 }  // namespace
@@ -211,7 +214,11 @@ StepObservation run_steps(ChoiceSource& source, const StepWorld& world, const St
     if (seen.defect != StepDefect::kNone) return seen;
     seen.x_t0 = result.x;
   }
-  if (source.one_in(8) && !refuses_nan(source, world, seen.x_t0, step)) seen.defect = StepDefect::kNotRefused;
+  if (source.one_in(8)) {
+    seen.x_candidate = no_candidate(source, seen.x_t0);
+    const sim::CollisionStepResult result = step(world, seen.x_t0, seen.x_candidate);
+    seen.defect = judge_step(world, seen.x_t0, seen.x_candidate, result);
+  }
   return seen;
 }
 

@@ -33,7 +33,7 @@ using StepFunction =
 [[nodiscard]] sim::CollisionStepResult selvage_step(const StepWorld& world, const Positions& x_t0,
                                                     const Positions& candidate);
 
-/// REQUIRES that x_t0 is free of intersections.
+/// REQUIRES that x_t0 is free of intersections. A candidate that is not finite must be refused.
 [[nodiscard]] StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
                                     const sim::CollisionStepResult& result);
 

@@ -87,17 +87,12 @@ void choose_masses(ChoiceSource& source, const SurfaceDraft& draft, StepWorld& w
 }
 
 /// Whether all corners of the face are scripted: what such faces do to each other is not the step's business.
-std::vector<std::uint8_t> body_faces(const StepWorld& world, const SurfaceDraft& draft) {
+std::vector<std::uint8_t> body_faces(const StepWorld& world, const Triples& faces) {
   std::vector<std::uint8_t> flags;
-  for (const auto& face : draft.faces) {
+  for (const auto& face : faces) {
     flags.push_back(world.is_scripted(face[0]) && world.is_scripted(face[1]) && world.is_scripted(face[2]));
   }
   return flags;
-}
-
-bool is_clean(const StepWorld& world, const Positions& x) {
-  if (!x.allFinite()) return false;  // beyond the largest float32
-  return cloth_violations(world, verify::check_frame(world.topology, raw_points(x), {})) == 0;
 }
 
 }  // namespace
@@ -120,6 +115,24 @@ std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult&
   return count + result.violations_total.total() - static_cast<std::int64_t>(result.violations.size());
 }
 
+Mesh mesh_of(const Triples& triples, std::size_t vertex_count) {
+  Faces faces(static_cast<Eigen::Index>(triples.size()), 3);
+  for (std::size_t i = 0; i < triples.size(); ++i) {
+    for (int k = 0; k < 3; ++k) faces(static_cast<Eigen::Index>(i), k) = triples[i][static_cast<std::size_t>(k)];
+  }
+  return make_mesh(static_cast<std::int32_t>(vertex_count), faces);
+}
+
+void connect(StepWorld& world, const Triples& faces) {
+  world.mesh = mesh_of(faces, world.inverse_mass.size());
+  world.topology = verify::make_topology({faces, body_faces(world, faces)}, world.inverse_mass.size());
+}
+
+bool is_clean(const StepWorld& world, const Positions& x) {
+  if (!x.allFinite()) return false;  // beyond the largest float32
+  return cloth_violations(world, verify::check_frame(world.topology, raw_points(x), {})) == 0;
+}
+
 StepWorld make_step_world(ChoiceSource& source) {
   const std::vector<SurfaceClass>& classes = surface_classes();
   return make_step_world(source, classes[source.n(static_cast<std::uint32_t>(classes.size()))]);
@@ -138,12 +151,7 @@ StepWorld make_step_world(ChoiceSource& source, const SurfaceClass& surface) {
   world.dt_s = std::ldexp(1.0, -source.range(0, 10));
   choose_masses(source, draft, world);
 
-  Faces faces(static_cast<Eigen::Index>(draft.faces.size()), 3);
-  for (std::size_t i = 0; i < draft.faces.size(); ++i) {
-    for (int k = 0; k < 3; ++k) faces(static_cast<Eigen::Index>(i), k) = draft.faces[i][static_cast<std::size_t>(k)];
-  }
-  world.mesh = make_mesh(static_cast<std::int32_t>(draft.x.size()), faces);
-  world.topology = verify::make_topology({draft.faces, body_faces(world, draft)}, draft.x.size());
+  connect(world, draft.faces);
 
   const auto on_lattice = [&] { return world.options.precision == sim::CollisionOptions::Precision::kFloat32; };
   world.x = placed(draft, setting, on_lattice());

@@ -32,6 +32,13 @@ struct StepWorld {
   [[nodiscard]] sim::CollisionBodies bodies() const { return {inverse_mass, body, policy}; }
 };
 
+using Triples = std::vector<std::array<std::int32_t, 3>>;
+[[nodiscard]] Mesh mesh_of(const Triples& faces, std::size_t vertex_count);
+/// Sets mesh and topology. REQUIRES that the masses are set, which say what is scripted.
+void connect(StepWorld& world, const Triples& faces);
+/// Whether nothing of the cloth intersects, exactly.
+[[nodiscard]] bool is_clean(const StepWorld& world, const Positions& x);
+
 /// Surfaces: sheets, crumpled grid, soup of separate triangles, nested closed shells, needles, stack of cards, cloth
 /// between bodies; with noise, offset 2^k, scale 2^k, masses, tolerances and thicknesses chosen from `source`.
 /// What rounding would make intersect is made again without noise and offset, so the state is always clean.

@@ -77,6 +77,8 @@ TEST(ReportKeys, OfReplayAreDocumented) {
   spit(frame, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 0\nv 2 1 0\nv 1 2 0\nf 4 5 6\n");
   ASSERT_EQ(run_program(folder, {"verify", frame, "--cases", cases}).exit_code, 1);
   const char* kept_cases = SELVAGE_SOURCE_DIR "/tests/fuzz/cases";  // motions of all kinds, some without a touch
+  const auto file = cases / "file.case";
+  spit(file, "selvage-case 1 file\nseed files:obj:1:2\nfailure unsound\nformat obj\n| v 0 0 0\\n\n");
   ASSERT_EQ(run_program(folder, {"replay", cases, kept_cases, "--json", json}).exit_code, 0);
   Keys keys;
   collect(nlohmann::json::parse(slurp(json)), "", keys);

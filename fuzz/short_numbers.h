@@ -1,0 +1,16 @@
+// What makes a number simple: few bits. Shared by the shrinkers.
+#pragma once
+
+#include <array>
+
+namespace selvage::fuzz {
+
+/// Lengths to round to, the shortest first.
+inline constexpr std::array<int, 12> kShortBits{1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 32, 40};
+
+/// Bits of the mantissa up to the last that is set; 0 for 0. REQUIRES finite.
+[[nodiscard]] int mantissa_bits(double x);
+/// To so many bits; ties away from zero. REQUIRES finite.
+[[nodiscard]] double round_to_bits(double x, int bits);
+
+}  // namespace selvage::fuzz
