@@ -37,10 +37,7 @@ std::string reproduce(const fuzz::Property& property, const std::string& stream,
   std::ranges::replace(name, ' ', '/');
   std::string text =
       fmt::format("      selvage fuzz {} --seed {} --only {}:{}\n", property.name(), ledger.seed, name, finding.number);
-  if (!finding.file.empty()) {
-    const char* use = property.keeps_queries() ? "selvage replay" : "kept as";
-    text = fmt::format("      {} {}/{}\n", use, folder, finding.file) + text;
-  }
+  if (!finding.file.empty()) text = fmt::format("      selvage replay {}/{}\n", folder, finding.file) + text;
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include "fuzz/mesh_case.h"
 #include "fuzz/scene_case.h"
 #include "fuzz/step_case.h"
+#include "fuzz/subdivision_case.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -28,7 +29,7 @@ std::string parse_head(CaseLines& lines) {
 
 /// Of those that hold their case.
 const MeshKind* mesh_kind(const std::string& name) {
-  for (const MeshKind* kind : {&step_kind(), &broad_kind()}) {
+  for (const MeshKind* kind : {&step_kind(), &broad_kind(), &subdivision_kind()}) {
     if (kind->name == name) return kind;
   }
   return nullptr;

@@ -36,8 +36,6 @@ class Property {
   [[nodiscard]] const std::string& promise() const { return promise_; }  ///< one line for people
   [[nodiscard]] const std::vector<Stream>& streams() const { return streams_; }
   [[nodiscard]] const std::vector<std::string>& counters() const { return counters_; }
-  /// Whether kept() writes a query, which `selvage replay` explains.
-  [[nodiscard]] bool keeps_queries() const { return keeps_queries_; }
   /// Share of a campaign's processor time, relative to the other properties.
   [[nodiscard]] int weight() const { return weight_; }
 
@@ -48,8 +46,8 @@ class Property {
   [[nodiscard]] virtual Outcome run(const Stream& stream, ChoiceSource source) = 0;
   /// Why these counts say that a stream has gone dead or an answer is useless (F1), or nothing.
   [[nodiscard]] virtual std::string complaint(const Stream& /*stream*/, const Counts& /*counts*/) const { return {}; }
-  /// A file that keeps the case. With `shrunk` it is made simpler first, as long as it fails with the same word; the
-  /// code under test runs for that. `origin` says where it came from.
+  /// A file that keeps the case and that `selvage replay` explains. With `shrunk` it is made simpler first, as long as
+  /// it fails with the same word; the code under test runs for that. `origin` says where it came from.
   [[nodiscard]] virtual std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin,
                                          const std::string& failure, bool shrunk) = 0;
 
@@ -57,7 +55,6 @@ class Property {
   std::vector<Stream> streams_;
   std::vector<std::string> counters_;
   int weight_ = 1;
-  bool keeps_queries_ = false;
 
  private:
   std::string name_, promise_;

@@ -22,7 +22,6 @@ class QueryCampaign final : public Property {
         is_judged_exactly_(property.name == "ccd") {
     // The oracle is where the findings are; the others are cheap.
     weight_ = is_judged_exactly_ ? 32 : 1;
-    keeps_queries_ = true;
     streams_ = query_streams(kPairKinds, is_judged_exactly_ ? 1 : 8);
     counters_ = {"touches", "hits", "alarms", "unresolved", "undecided", "exact"};
   }
