@@ -1,5 +1,10 @@
 #include "cli/replay.h"
 
+#include <algorithm>
+
+#include "fuzz/query_property.h"
+#include "kernel/assert.h"
+
 namespace selvage::cli {
 namespace {
 
@@ -8,11 +13,16 @@ std::array<verify::Point, 3> first_three(const std::array<verify::Point, 4>& x) 
 }  // namespace
 
 MotionReplay replay_motion(const fuzz::Case& kept) {
-  MotionReplay replay{kept, fuzz::selvage_kernel(kept.query), {}, {}, {}, {}, {}};
+  MotionReplay replay{kept, fuzz::selvage_kernel(kept.query), {}, {}, {}, {}, {}, {}};
   const fuzz::MotionQuery& query = kept.query;
   const auto x_t0 = fuzz::raw(query.x_t0), x_t1 = fuzz::raw(query.x_t1);
   replay.exact = fuzz::exact_motion(query, verify::Detail::kFirstTime);
   replay.judgement = fuzz::judge(query, replay.kernel);
+  fuzz::ChoiceSource source = fuzz::ChoiceSource::from_words(kept.choices);
+  const auto& properties = fuzz::query_properties();
+  const auto property = std::ranges::find(properties, kept.property, &fuzz::QueryProperty::name);
+  SELVAGE_ASSERT(property != properties.end());
+  replay.failure = property->check(query, fuzz::selvage_kernel, source).failure;
   switch (query.kind) {
     case PairKind::kVf:
       replay.second = verify::second_opinion_vf(x_t0, x_t1);
@@ -35,7 +45,8 @@ MotionReplay replay_motion(const fuzz::Case& kept) {
 ReplayOutcome MotionReplay::outcome() const {
   if (exact.touches != second.touches) return ReplayOutcome::kDivided;
   if (exact.touches != kept.touches) return ReplayOutcome::kContradicted;
-  return judgement.disagreement == fuzz::Disagreement::kNone ? ReplayOutcome::kAgree : ReplayOutcome::kBroken;
+  const bool agrees = judgement.disagreement == fuzz::Disagreement::kNone && failure.empty();
+  return agrees ? ReplayOutcome::kAgree : ReplayOutcome::kBroken;
 }
 
 OverlapReplay replay_overlap(const fuzz::OverlapCase& kept) {

@@ -29,6 +29,7 @@ struct MotionReplay {
   verify::SecondOpinion second;
   std::optional<bench::TextbookAnswer> textbook;  ///< it has no answer for a vertex and its own face
   fuzz::Judgement judgement;
+  std::string failure;  ///< of the property that the case is about, or empty
   std::vector<verify::ExplainedPolynomial> polynomials;
 
   [[nodiscard]] ReplayOutcome outcome() const;

@@ -157,6 +157,8 @@ Explanation explain(const std::string& name, const MotionReplay& replay) {
   result.text += fmt::format("  kernel:   {}\n", kernel_text(replay.kernel));
   result.text += fmt::format("  textbook: {}\n", textbook_text(replay));
   for (const auto& polynomial : replay.polynomials) result.text += text_of(polynomial);
+  result.text +=
+      fmt::format("  property: {}: {}\n", replay.kept.property, replay.failure.empty() ? "holds" : replay.failure);
   const fuzz::Disagreement disagreement = replay.judgement.disagreement;
   result.text += fmt::format("  {}", sentence(result.outcome));
   if (disagreement != fuzz::Disagreement::kNone) result.text += fmt::format(" ({})", fuzz::name_of(disagreement));
@@ -177,6 +179,8 @@ Explanation explain(const std::string& name, const MotionReplay& replay) {
                {"textbook", nullptr},
                {"polynomials", Json::array()},
                {"disagreement", fuzz::name_of(disagreement)},
+               {"property", replay.kept.property},
+               {"failure", replay.failure.empty() ? "none" : replay.failure},
                {"outcome", name_of(result.outcome)}};
   if (replay.exact.touches) json["exact"]["t"] = json_of(replay.exact.first);
   if (replay.textbook) {

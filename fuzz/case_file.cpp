@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "fuzz/case_text.h"
+#include "fuzz/query_property.h"
 #include "io/atomic_file.h"
 
 namespace selvage::fuzz {
@@ -41,6 +42,23 @@ std::int32_t parse_count(CaseLines& lines, std::string_view word) {
   return count;
 }
 
+std::string parse_property(const CaseLines& lines, std::string_view word) {
+  const auto known = std::ranges::find(query_properties(), word, &QueryProperty::name);
+  if (known == query_properties().end()) lines.fail("there is no property '" + std::string(word) + "' of queries");
+  return std::string(word);
+}
+
+std::vector<std::uint32_t> parse_choices(const CaseLines& lines, std::string_view list) {
+  std::vector<std::uint32_t> choices;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const std::string_view word = list.substr(begin, end - begin);
+    choices.push_back(static_cast<std::uint32_t>(lines.integer(word, 0, 0xffffffff, "choices")));
+    begin = end + 1;
+  }
+  return choices;
+}
+
 PairKind parse_kind(CaseLines& lines, std::string_view word) {
   const auto* kind = std::find_if(kPairKinds.begin(), kPairKinds.end(), [&](PairKind k) { return name_of(k) == word; });
   if (kind == kPairKinds.end())
@@ -61,7 +79,12 @@ std::string format_case(const Case& kept) {
   std::string text = "selvage-case 1 " + std::string(name_of(query.kind)) + "\n";
   text += "seed " + kept.seed + "\n";
   text += "options tolerance=" + hex(query.options.tolerance) +
-          " max_intervals=" + std::to_string(query.options.max_intervals) + "\n";
+          " max_intervals=" + std::to_string(query.options.max_intervals);
+  if (kept.property != Case().property) text += " property=" + kept.property;
+  for (std::size_t i = 0; i < kept.choices.size(); ++i) {
+    text += (i == 0 ? " choices=" : ",") + std::to_string(kept.choices[i]);
+  }
+  text += "\n";
   const std::string_view names = point_names(query.kind);
   for (std::size_t i = 0; i < names.size(); ++i) {
     text += std::string(1, names[i]) + " " + format_point(query.x_t0[i]) + "  " + format_point(query.x_t1[i]) + "\n";
@@ -85,6 +108,8 @@ Case parse_case(std::string_view text, const std::string& name) {
   lines.expect_word("options");
   kept.query.options.tolerance = lines.number(option_value(lines, "tolerance"));
   kept.query.options.max_intervals = parse_count(lines, option_value(lines, "max_intervals"));
+  if (!lines.is_at_end_of_line()) kept.property = parse_property(lines, option_value(lines, "property"));
+  if (!lines.is_at_end_of_line()) kept.choices = parse_choices(lines, option_value(lines, "choices"));
   lines.expect_end_of_line();
   const std::string_view names = point_names(kept.query.kind);
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -1,7 +1,8 @@
 // A query kept as bits: text with hex floats, so that a failure survives compilers, generators and shrinkers (F3).
 //   selvage-case 1 vf                                   format version, kind of pair
 //   seed prop_ccd_no_miss:77123                         where it came from
-//   options tolerance=0x1p-20 max_intervals=4096
+//   options tolerance=0x1p-20 max_intervals=4096        and, where it is about another promise than K1 to K3,
+//                                                       property=scale, and what that chose: choices=1403
 //   p 0x1.9p+6 -0x1.2p+3 0x0p+0  0x1.8p+6 0x0p+0 0x1p-4 a point at t = 0, then at t = 1; vf: p a b c, ee: a b c d,
 //   ...                                                 self: p a b
 //   expect touches                                      the exact answer: touches, or apart
@@ -21,7 +22,9 @@ namespace selvage::fuzz {
 struct Case {
   MotionQuery query;
   std::string seed;
-  bool touches = false;  ///< whether the features touch at some t in [0,1], exactly
+  bool touches = false;                     ///< whether the features touch at some t in [0,1], exactly
+  std::string property = "ccd";             ///< one of query_properties()
+  std::vector<std::uint32_t> choices = {};  ///< what the property chooses besides the query; others are 0
 };
 
 [[nodiscard]] std::string format_case(const Case& kept);

@@ -55,8 +55,10 @@ void CaseLines::expect_word(std::string_view wanted) {
   if (word() != wanted) fail("expected '" + std::string(wanted) + "'");
 }
 
+bool CaseLines::is_at_end_of_line() const { return word_start(line_) == line_.size(); }
+
 void CaseLines::expect_end_of_line() {
-  if (word_start(line_) != line_.size()) fail("unexpected '" + std::string(word()) + "'");
+  if (!is_at_end_of_line()) fail("unexpected '" + std::string(word()) + "'");
 }
 
 double CaseLines::number(std::string_view word) const {

@@ -21,6 +21,7 @@ class CaseLines {
   [[nodiscard]] bool only_blank_left();
   [[nodiscard]] std::string_view word();
   void expect_word(std::string_view wanted);
+  [[nodiscard]] bool is_at_end_of_line() const;
   void expect_end_of_line();
   /// A finite number, hexadecimal or decimal, from a word.
   [[nodiscard]] double number(std::string_view word) const;

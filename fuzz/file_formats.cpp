@@ -7,6 +7,7 @@
 
 #include "fuzz/case_file.h"
 #include "fuzz/file_samples.h"
+#include "fuzz/kept_case.h"
 #include "fuzz/ledger.h"
 #include "fuzz/overlap_case.h"
 #include "io/mesh_reader.h"
@@ -151,6 +152,14 @@ ParseResult parse_campaign(std::string_view bytes) {
   });
 }
 
+ParseResult parse_kept(std::string_view bytes) {
+  return guarded([&] {
+    const ParsedCase parsed = parse_kept_case(bytes, kName);
+    const std::string text = kept_text(*parsed.kept, parsed.origin, parsed.failure);
+    return kept_text(*parse_kept_case(text, kName).kept, parsed.origin, parsed.failure) == text;
+  });
+}
+
 std::vector<FileFormat> make_formats() {
   std::vector<FileFormat> formats = {{"obj", {}, parse_obj},
                                      {"ply", {}, parse_ply},
@@ -166,6 +175,7 @@ std::vector<FileFormat> make_formats() {
                                      {"scene", {}, parse_scene},
                                      {"case", {}, parse_case},
                                      {"overlap", {}, parse_overlap},
+                                     {"kept", {}, parse_kept},
                                      {"report", {}, parse_report},
                                      {"campaign", {}, parse_campaign}};
   for (FileFormat& format : formats) format.samples = file_samples(format.name);

@@ -38,6 +38,12 @@ const std::string kCase =
     "selvage-case 1 self\nseed x:1\noptions tolerance=0x1p-20 max_intervals=4096\np 0x1p+0 1 -0x1.8p-3  0 0 0\n"
     "a 0 0 0  1 0 0\nb 0 1 0  0 1 1\nexpect apart\n";
 
+const std::string kKeptMesh =
+    "selvage-case 1 subdivision\nseed subdivision:soup:1:2\nfailure touches\nset levels 1\nvertices 3\nv 0 0 0  0\n"
+    "v 0x1p+0 0 0  1\nv 0 -0x1.8p-3 0  0\nfaces 1\nf 0 1 2\n";
+const std::string kKeptFile =
+    "selvage-case 1 file\nseed files:obj:1:2\nfailure unsound\nformat obj\n| v 0 0\\x20\n| \\\\0 \\n\n| f 1\n";
+
 std::string overlap_text() {
   OverlapCase kept;
   kept.faces = {{{0, 1, 2}, {3, 4, 5}}};
@@ -164,6 +170,7 @@ std::vector<std::string> file_samples(std::string_view format) {
       {"scene", {kScene}},
       {"case", {kCase}},
       {"overlap", {overlap_text()}},
+      {"kept", {kKeptMesh, kKeptFile}},
       {"report", {report_text()}},
       {"campaign", {campaign_text()}}};
   for (const auto& [name, samples] : all) {

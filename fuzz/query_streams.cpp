@@ -4,11 +4,14 @@
 
 #include "fuzz/campaign.h"
 #include "fuzz/case_file.h"
+#include "fuzz/shrink_choices.h"
 #include "fuzz/shrink_query.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
+
+constexpr std::int64_t kChoiceTrials = 100;  // the only choice is an exponent
 
 Tally tally_of(const Counts& counts) {
   return {counts.cases, counts.of[0], counts.of[1], counts.of[2], counts.of[3], counts.of[4], counts.failures};
@@ -52,8 +55,16 @@ class QueryCampaign final : public Property {
       ChoiceSource again = source;  // the property's own choices stay the same
       return property_.check(simpler, selvage_kernel, again).failure == failure;
     };
-    if (shrunk) query = shrink(query, still_fails).query;
-    return format_case({query, origin, exact_motion(query, verify::Detail::kDecision).touches});
+    Choices choices;
+    if (shrunk) {
+      query = shrink(query, still_fails).query;
+      const auto failure_of = [&](ChoiceSource simpler) {
+        return std::string(property_.check(query, selvage_kernel, simpler).failure);
+      };
+      choices = shrink_choices(source, failure, failure_of, kChoiceTrials);
+    }
+    const bool touches = exact_motion(query, verify::Detail::kDecision).touches;
+    return format_case({query, origin, touches, name(), choices});
   }
 
  private:

@@ -77,7 +77,22 @@ TEST(CaseFile, KeepsEveryBitOfEveryClass) {
   }
 }
 
+TEST(CaseFile, KeepsThePropertyAndWhatItChose) {
+  Case kept = parse_case(kGood, "x.case");
+  EXPECT_EQ(kept.property, "ccd");
+  kept.property = "scale";
+  EXPECT_EQ(parse_case(format_case(kept), "again").choices, std::vector<std::uint32_t>());
+  kept.choices = {1403, 0, 4294967295};
+  const Case again = parse_case(format_case(kept), "again");
+  EXPECT_EQ(again.property, "scale");
+  EXPECT_EQ(again.choices, kept.choices);
+}
+
 TEST(CaseFile, NamesTheLineOfWhatIsWrong) {
+  expect_error(replaced(kGood, "=64", "=64 property=scala"), "x.case:4: there is no property 'scala' of queries");
+  expect_error(replaced(kGood, "=64", "=64 choices=1"), "x.case:4: expected 'property=...'");
+  expect_error(replaced(kGood, "=64", "=64 property=scale choices=1,"), "x.case:4: choices: '' is not an integer");
+  expect_error(replaced(kGood, "=64", "=64 property=scale choices=1,-2"), "x.case:4: choices: '-2' is not an integer");
   expect_error("", "x.case:0: the case ends too early");
   expect_error(replaced(kGood, "selvage-case 1", "selvage-case 2"), "x.case:1: expected '1'");
   expect_error(replaced(kGood, " vf", " fv"), "x.case:1: the kind of pair");
