@@ -120,6 +120,29 @@ TEST(ReplayCommand, TheTextbooksMissIsNamed) {
   EXPECT_NE(replayed.out.find("separated: A MISS"), std::string::npos) << replayed.out;
 }
 
+TEST(ReplayCommand, CasesOfOtherLevelsAreRunAgain) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.case";
+  const std::string surface =
+      "selvage-case 1 subdivision\nseed hand\nfailure touches\nset levels 1\nvertices 6\nv 0 0 0 0\nv 4 0 0 0\n"
+      "v 0 4 0 0\nv 1 1 HEIGHT 0\nv 2 1 1 0\nv 1 2 1 0\nfaces 2\nf 0 1 2\nf 3 4 5\n";
+  const auto replay = [&](const std::string& height) {
+    std::string text = surface;
+    spit(file, text.replace(text.find("HEIGHT"), 6, height));
+    return run_program(folder, {"replay", file});
+  };
+  const auto holds = replay("1");
+  EXPECT_EQ(holds.exit_code, 0) << holds.err;
+  EXPECT_NE(holds.out.find("exactly, the frame after level 1 is free of touching"), std::string::npos) << holds.out;
+  EXPECT_NE(holds.out.find("no promise is broken"), std::string::npos) << holds.out;
+  const auto unfit = replay("-1");
+  EXPECT_EQ(unfit.exit_code, 3);
+  EXPECT_NE(unfit.err.find("a.case: the surface intersects itself at the start"), std::string::npos) << unfit.err;
+  const auto hostile = replay("1e999");
+  EXPECT_EQ(hostile.exit_code, 3);
+  EXPECT_NE(hostile.err.find("a.case:9: '1e999' is not a finite number"), std::string::npos) << hostile.err;
+}
+
 TEST(ReplayCommand, BadCasesAreThreeAndNamed) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.case";
