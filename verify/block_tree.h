@@ -1,4 +1,4 @@
-// A flat tree of eight-fold nodes over blocks of eight elements, and the order that puts near elements into one block.
+// A flat tree of eight-fold nodes over blocks of eight elements.
 // The checker's own; it shares nothing with the kernel's hierarchy (V2).
 #pragma once
 
@@ -6,31 +6,26 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "verify/box_block.h"
+#include "verify/set_bits.h"
 
 namespace selvage::verify {
 
-/// Morton code of a point of the lattice; which code it is affects speed alone.
-[[nodiscard]] std::uint64_t morton_code(const std::array<std::int32_t, 3>& point);
-
-/// The elements' numbers in ascending order of their codes, equal ones in ascending order. code(i) is called once for
-/// every i < count, in parallel; deterministic. O(n log n).
-[[nodiscard]] std::vector<std::int32_t> order_by_code(std::size_t count,
-                                                      const std::function<std::uint64_t(std::size_t)>& code);
-
 class BlockTree {
  public:
-  static constexpr std::size_t kWidth = BoxBlock::kWidth;
+  static constexpr std::size_t kWidth = BoxBlock::kWidth, kMostVisited = 32;
 
   BlockTree() = default;
   /// Over blocks with these bounds.
   explicit BlockTree(std::span<const LatticeBox> bounds);
 
-  /// Calls visit(b) for the blocks b >= first that overlap `box`, in ascending order.
+  /// What holds the blocks 8 i, ..., 8 i + 7.
+  [[nodiscard]] LatticeBox bounds(std::size_t i) const { return levels_.front()[i].bounds(); }
+
+  /// Calls visit(blocks) with the blocks >= first that overlap `box`, in ascending order, at most kMostVisited at once.
   template <class Visit>
   void visit(const LatticeBox& box, std::size_t first, Visit&& visit) const;
 
@@ -48,6 +43,8 @@ void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) c
   // 8^11 > 2^31 blocks: at most 11 levels, each leaves at most 7 siblings waiting.
   std::array<Node, 12 * kWidth> stack;
   std::size_t depth = 0;
+  std::array<std::uint32_t, kMostVisited> found;
+  std::size_t found_count = 0;
   stack[depth++] = {levels_.size() - 1, 0};
   while (depth > 0) {
     const Node node = stack[--depth];
@@ -56,7 +53,14 @@ void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) c
     const std::size_t first_child = first >> (3 * node.level);
     if (first_child > kWidth * node.block) mask &= ~0U << std::min(first_child - kWidth * node.block, kWidth);
     if (node.level == 0) {
-      for (; mask != 0; mask &= mask - 1) visit(kWidth * node.block + static_cast<std::size_t>(std::countr_zero(mask)));
+      for (std::size_t i = 0; i < kWidth; ++i) {
+        found[found_count + i] = static_cast<std::uint32_t>(kWidth * node.block + kSetBits[mask][i]);
+      }
+      found_count += kBitCount[mask];
+      if (found_count + kWidth > kMostVisited) {
+        visit(std::span(found).first(found_count));
+        found_count = 0;
+      }
       continue;
     }
     for (; mask != 0; mask &= ~std::bit_floor(mask)) {  // pushed from the last, popped from the first
@@ -64,6 +68,7 @@ void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) c
       stack[depth++] = {node.level - 1, kWidth * node.block + child};
     }
   }
+  if (found_count > 0) visit(std::span(found).first(found_count));
 }
 
 }  // namespace selvage::verify

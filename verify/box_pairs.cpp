@@ -5,6 +5,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "verify/curve_order.h"
 #include "verify/fp_guard.h"
 
 namespace selvage::verify {
@@ -23,7 +24,7 @@ BoxTree::BoxTree(std::span<const Box> boxes, const Lattice& lattice)
     const LatticeBox box = quantized(boxes[i]);
     std::array<std::int32_t, 3> middle{};
     for (std::size_t k = 0; k < 3; ++k) middle[k] = std::midpoint(box.min[k], box.max[k]);
-    return morton_code(middle);
+    return hilbert_code(middle);
   });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
     const FpGuard guard;  // all threads must round alike: boxes are compared on the lattice only

@@ -23,14 +23,16 @@ class BoxTree {
   /// `block`; over all blocks: every unordered pair i != j once, in a fixed order.
   template <class Visit>
   void visit_pairs_within(std::size_t block, Visit&& visit) const {
-    tree_.visit(block_bounds_[block], block,
-                [&](std::size_t other) { visit_block_pair<true>(block, *this, other, visit); });
+    tree_.visit(block_bounds_[block], block, [&](std::span<const std::uint32_t> others) {
+      for (const std::uint32_t other : others) visit_block_pair<true>(block, *this, other, visit);
+    });
   }
   /// Calls visit(i, j) once for every box i of `block` and box j of `other` that overlap.
   template <class Visit>
   void visit_pairs_between(std::size_t block, const BoxTree& other, Visit&& visit) const {
-    other.tree_.visit(block_bounds_[block], 0,
-                      [&](std::size_t other_block) { visit_block_pair<false>(block, other, other_block, visit); });
+    other.tree_.visit(block_bounds_[block], 0, [&](std::span<const std::uint32_t> others) {
+      for (const std::uint32_t theirs : others) visit_block_pair<false>(block, other, theirs, visit);
+    });
   }
 
  private:

@@ -1,4 +1,5 @@
-// The first filter of the frame check: a face against eight others at once, in single precision with proved bounds.
+// Faces as the first filter of the frame check reads them, in single precision with proved bounds: one, or eight side
+// by side.
 #pragma once
 
 #include <array>
@@ -23,8 +24,6 @@ struct FloatFace {
   FloatFace(const std::array<std::int32_t, 3>& triangle, std::span<const Point> V, const FloatFrame& frame);
 };
 
-struct FaceQuery;
-
 /// Eight of them side by side; places that are not used overlap nothing.
 struct alignas(32) FaceBlock {
   static constexpr std::size_t kWidth = 8;
@@ -38,27 +37,16 @@ struct alignas(32) FaceBlock {
 
   FaceBlock();
   void set(std::size_t place, const FloatFace& face);
-  [[nodiscard]] FloatFace get(std::size_t place) const;
-
-  /// About one face and the eight: bit i is about the face at place i.
-  struct Masks {
-    /// The stored boxes have a point in common: so do all whose exact boxes have.
-    unsigned meet = 0;
-    /// Of these: proved that the exact boxes have, and that the faces have none but corners shared by index.
-    unsigned apart = 0;
-  };
-  /// masks[i], for all bits i of the result, is about face i of `query`; for the others no boxes meet. `min`, `max`: a
-  /// box that holds all eight. The same on every processor.
-  [[nodiscard]] unsigned compare(const FaceQuery& query, const std::array<float, 3>& min,
-                                 const std::array<float, 3>& max, std::array<Masks, kWidth>& masks) const;
 };
 
-/// The faces of a block, one by one and their boxes side by side: what is asked about against many other blocks.
-struct FaceQuery {
-  std::array<FloatFace, FaceBlock::kWidth> faces;
-  std::array<FaceBlock::Lanes<float>, 3> min, max;
+/// The box of all faces of a block.
+struct FaceBounds {
+  std::array<float, 3> min{2, 2, 2}, max{-2, -2, -2};  ///< of none: beyond the frame
+};
 
-  explicit FaceQuery(const FaceBlock& block);
+/// Eight boxes side by side.
+struct alignas(32) FaceBoxes {
+  std::array<FaceBlock::Lanes<float>, 3> min, max;
 };
 
 }  // namespace selvage::verify

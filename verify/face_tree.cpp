@@ -5,17 +5,18 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "verify/curve_order.h"
 #include "verify/fp_guard.h"
 
 namespace selvage::verify {
 namespace {
 
 /// Exact: a number of [-1, 1] times 2^30, towards zero. Does not reverse an order.
-LatticeBox on_lattice(const std::array<float, 3>& min, const std::array<float, 3>& max) {
+LatticeBox on_lattice(const FaceBounds& bounds) {
   LatticeBox box{};
   for (std::size_t k = 0; k < 3; ++k) {
-    box.min[k] = static_cast<std::int32_t>(min[k] * 0x1p30f);
-    box.max[k] = static_cast<std::int32_t>(max[k] * 0x1p30f);
+    box.min[k] = static_cast<std::int32_t>(bounds.min[k] * 0x1p30f);
+    box.max[k] = static_cast<std::int32_t>(bounds.max[k] * 0x1p30f);
   }
   return box;
 }
@@ -35,9 +36,11 @@ FaceTree::FaceTree(std::span<const std::int32_t> faces, std::span<const std::arr
     std::array<std::int32_t, 3> middle{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto stored = [&](std::int32_t v) { return frame(k, V[static_cast<std::size_t>(v)][k]); };
-      middle[k] = static_cast<std::int32_t>((stored(a) + stored(b) + stored(c)) * 0x1p28f);
+      const std::array<float, 3> x = {stored(a), stored(b), stored(c)};
+      const auto [min, max] = std::minmax_element(x.begin(), x.end());
+      middle[k] = static_cast<std::int32_t>((*min + *max) * 0x1p29f);
     }
-    return morton_code(middle);
+    return hilbert_code(middle);
   });
   for (std::int32_t& f : order_) f = faces[static_cast<std::size_t>(f)];
   blocks_.resize((faces.size() + kWidth - 1) / kWidth);
@@ -45,7 +48,7 @@ FaceTree::FaceTree(std::span<const std::int32_t> faces, std::span<const std::arr
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
     const FpGuard guard;
     for (std::size_t b = range.begin(); b < range.end(); ++b) {
-      Bounds bounds{{2, 2, 2}, {-2, -2, -2}};  // beyond all faces
+      FaceBounds bounds;
       for (std::size_t i = b * kWidth; i < std::min((b + 1) * kWidth, faces.size()); ++i) {
         const FloatFace face(triangles[static_cast<std::size_t>(order_[i])], V, frame);
         blocks_[b].set(i % kWidth, face);
@@ -58,12 +61,8 @@ FaceTree::FaceTree(std::span<const std::int32_t> faces, std::span<const std::arr
     }
   });
   std::vector<LatticeBox> lattice_boxes(blocks_.size());
-  for (std::size_t b = 0; b < blocks_.size(); ++b) lattice_boxes[b] = lattice_bounds(b);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) lattice_boxes[b] = on_lattice(bounds_[b]);
   tree_ = BlockTree(lattice_boxes);
-}
-
-LatticeBox FaceTree::lattice_bounds(std::size_t block) const {
-  return on_lattice(bounds_[block].min, bounds_[block].max);
 }
 
 bool FaceTree::boxes_overlap(std::int32_t f, std::int32_t g) const {

@@ -17,14 +17,14 @@ class ElementTree {
   ElementTree(const std::vector<std::int32_t>& elements, const Lattice& lattice, const BoxOf& box)
       : elements_(&elements), tree_(boxes(elements, box), lattice) {}
 
-  [[nodiscard]] std::size_t block_count() const { return tree_.block_count(); }
+  [[nodiscard]] std::size_t group_count() const { return tree_.block_count(); }
   template <class Visit>
-  void visit_pairs_within(std::size_t block, const Visit& visit) const {
-    tree_.visit_pairs_within(block, [&](std::int32_t i, std::int32_t j) { visit(element(i), element(j)); });
+  void visit_pairs_within(std::size_t group, const Visit& visit) const {
+    tree_.visit_pairs_within(group, [&](std::int32_t i, std::int32_t j) { visit(element(i), element(j)); });
   }
   template <class Visit>
-  void visit_pairs_between(std::size_t block, const ElementTree& other, const Visit& visit) const {
-    tree_.visit_pairs_between(block, other.tree_,
+  void visit_pairs_between(std::size_t group, const ElementTree& other, const Visit& visit) const {
+    tree_.visit_pairs_between(group, other.tree_,
                               [&](std::int32_t i, std::int32_t j) { visit(element(i), other.element(j)); });
   }
 
@@ -70,15 +70,15 @@ class PartTrees {
  private:
   template <class Work, class... Options>
   static void within(const Tree& tree, std::size_t limit, Tally& tally, const Work& work, Options... options) {
-    tally_in_parallel(tree.block_count(), limit, tally, [&](std::size_t block, Tally& chunk) {
-      tree.visit_pairs_within(block, options..., [&](auto... found) { work(chunk, found...); });
+    tally_in_parallel(tree.group_count(), limit, tally, [&](std::size_t group, Tally& chunk) {
+      tree.visit_pairs_within(group, options..., [&](auto... found) { work(chunk, found...); });
     });
   }
   template <class Work, class... Options>
   static void between(const Tree& a, const Tree& b, std::size_t limit, Tally& tally, const Work& work,
                       Options... options) {
-    tally_in_parallel(a.block_count(), limit, tally, [&](std::size_t block, Tally& chunk) {
-      a.visit_pairs_between(block, b, options..., [&](auto... found) { work(chunk, found...); });
+    tally_in_parallel(a.group_count(), limit, tally, [&](std::size_t group, Tally& chunk) {
+      a.visit_pairs_between(group, b, options..., [&](auto... found) { work(chunk, found...); });
     });
   }
 

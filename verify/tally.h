@@ -81,7 +81,7 @@ template <class Work>
 void tally_in_parallel(std::size_t count, std::size_t limit, Tally& tally, const Work& work) {
   // Chunks are fixed by the count, so that what a chunk counts does not depend on the scheduler; and so many at most
   // that their memory is no matter.
-  constexpr std::size_t kLeast = 16, kMostChunks = 4096;
+  constexpr std::size_t kLeast = 16, kMostChunks = 1024;
   const std::size_t size = std::max(kLeast, (count + kMostChunks - 1) / kMostChunks);
   std::vector<Tally> chunks((count + size - 1) / size, Tally(limit));
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {

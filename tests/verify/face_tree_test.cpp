@@ -101,11 +101,11 @@ Found find(const Mesh& mesh, const std::vector<std::int32_t>& a, const std::vect
   Found found;
   const auto other =
       b == nullptr ? FaceTree({}, mesh.triangles, mesh.V, frame) : FaceTree(*b, mesh.triangles, mesh.V, frame);
-  for (std::size_t block = 0; block < tree.block_count(); ++block) {
+  for (std::size_t group = 0; group < tree.group_count(); ++group) {
     if (b == nullptr) {
-      tree.visit_pairs_within(block, each, Visit{found});
+      tree.visit_pairs_within(group, each, Visit{found});
     } else {
-      tree.visit_pairs_between(block, other, each, Visit{found});
+      tree.visit_pairs_between(group, other, each, Visit{found});
     }
   }
   return found;
@@ -142,6 +142,10 @@ std::vector<Mesh> meshes() {
     }
   }
   all.push_back(placed(all.front(), 0, 5));  // all vertices at one point
+  // Several groups, and more blocks that overlap than are compared at once.
+  all.push_back(random_mesh(random, 200, 280, [&] {
+    return Point{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)};
+  }));
   return all;
 }
 
