@@ -1,10 +1,15 @@
 // A cloth simulator that knows nothing of contact, made safe by one call. The integrator is position-based: it moves
 // vertices where it likes, through the table and through itself. CollisionStep turns what it wants into what is safe.
+//
+//   foreign_integrator [STEPS [FOLDER]]     120 steps; into FOLDER goes every step, for `selvage verify FOLDER`
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 #include <vector>
 
+#include <selvage/io/sequence.h>
 #include <selvage/kernel/kernel.h>
 #include <selvage/sim/collision_step.h>
 
@@ -70,9 +75,34 @@ void build(Positions& x, std::vector<Edge>& edges, selvage::Faces& F) {
   for (std::size_t f = 0; f < faces.size(); ++f) F.row(static_cast<Eigen::Index>(f)) = faces[f];
 }
 
+// Every position that was certified, bit for bit.
+class StepRecorder {
+ public:
+  StepRecorder(const char* folder, const selvage::Faces& F) : writer_(folder, header_of(F)) {}
+  void append(int step, const Positions& x) {
+    selvage::io::Points points;
+    for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
+    writer_.append(step * kStep, points);
+  }
+
+ private:
+  static selvage::io::SequenceHeader header_of(const selvage::Faces& F) {
+    selvage::io::SequenceHeader header;
+    for (Eigen::Index f = 0; f < F.rows(); ++f) header.triangles.push_back({F(f, 0), F(f, 1), F(f, 2)});
+    const int end = static_cast<int>(F.rows()), table = end - 2;
+    header.groups = {{"cloth", selvage::io::Group::Role::kCloth, 0, table},
+                     {"table", selvage::io::Group::Role::kBody, table, end}};
+    header.kind = selvage::io::SequenceKind::kSteps;
+    header.producer = "foreign_integrator";
+    return header;
+  }
+  selvage::io::SequenceWriter writer_;
+};
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const int steps = argc > 1 ? std::atoi(argv[1]) : 120;
   Positions x, candidate;
   std::vector<Edge> edges;
   selvage::Faces F;
@@ -87,9 +117,15 @@ int main() {
   std::vector<int> body(kClothVertices, -1);
   body.resize(static_cast<std::size_t>(x.rows()), 0);
 
+  std::optional<StepRecorder> recorder;
+  if (argc > 2) {
+    recorder.emplace(argv[2], F);
+    recorder->append(0, x);
+  }
+
   Positions v = Positions::Zero(x.rows(), 3);
   long collisions = 0;
-  for (int step = 0; step < 120; ++step) {
+  for (int step = 0; step < steps; ++step) {
     integrate(edges, x, v, candidate);
     const auto safe = make_safe(x, candidate, {inverse_mass, body}, kStep);
     if (safe.report.status != selvage::sim::StepStatus::kSafe) {
@@ -98,12 +134,13 @@ int main() {
     }
     v = (safe.x - x) / kStep;
     x = safe.x;
+    if (recorder) recorder->append(step + 1, x);
     collisions += safe.report.first_collisions;
   }
   const double lowest = x.topRows(kClothVertices).col(2).minCoeff();
   const double middle = x(kClothVertices / 2, 2);
-  std::printf("after 1 s: middle of the cloth at %.4f m, lowest corner at %.3f m, %ld collisions resolved\n", middle,
-              lowest, collisions);
+  std::printf("after %d steps: middle of the cloth at %.4f m, lowest corner at %.3f m, %ld collisions resolved\n",
+              steps, middle, lowest, collisions);
   // On the table, not through it; over its edges, not stuck on it.
   return middle > 0 && middle < 0.01 && lowest < -0.05 ? 0 : 1;
 }

@@ -1,6 +1,9 @@
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <random>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -123,6 +126,57 @@ TEST_F(SimCommand, AnInterruptedRunExits75AndResumesWithTheSameBits) {
     const std::string name = "/frame_0000" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".npy";
     EXPECT_EQ(slurp(path("out") + name), slurp(path("whole") + name)) << name;
     EXPECT_FALSE(slurp(path("out") + name).empty()) << name;
+  }
+}
+
+namespace {
+
+/// Frames and their list; run.json and the checkpoint hold seconds, which differ.
+std::map<std::string, std::string> recorded(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "run.json" && name != "checkpoint.bin") files[name] = slurp(entry.path());
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_F(SimCommand, ARunKilledAtRandomMomentsResumesWithTheSameBits) {
+  // S5. SELVAGE_KILLS=50 is the long form. A run is killed until it is done, then begun again.
+  const char* asked = std::getenv("SELVAGE_KILLS");
+  const int kills = asked != nullptr ? std::stoi(asked) : 4;
+  using Clock = std::chrono::steady_clock;
+  for (const std::string solver : {"explicit", "implicit"}) {
+    spit(path("scene.toml"), "solver = \"" + solver + "\"\n" + scene(8, 0.2, 0.2));
+    const std::vector<std::string> whole = {"sim", path("scene.toml"), "--record", "steps", "-o", path("whole")};
+    const Clock::time_point start = Clock::now();
+    ASSERT_EQ(run_program(folder_, whole).exit_code, 0);
+    const std::chrono::duration<double> whole_s = Clock::now() - start;
+    const auto expected = recorded(path("whole"));
+    ASSERT_GT(expected.size(), 10u);
+    const std::vector<std::string> resume = {"sim", path("scene.toml"), "--record", "steps",
+                                             "-o",  path("out"),        "--resume"};
+    std::mt19937 random(50);
+    int killed = 0, resumed = 0;
+    for (bool done = false; !done || killed < kills / 2;) {
+      const pid_t child = testing::start_program(folder_.path(), resume);
+      if (killed < kills / 2) {
+        std::this_thread::sleep_for(whole_s * (double(random() % 1000) / 1000));
+        kill(child, SIGKILL);
+      }
+      const auto run = testing::wait_for_program(folder_.path(), child);
+      resumed += run.err.find("resumed") != std::string::npos ? 1 : 0;
+      killed += run.exit_code == -1 ? 1 : 0;
+      done = run.exit_code == 0;
+      ASSERT_TRUE(done || run.exit_code == -1) << run.err;
+      if (!done) continue;
+      ASSERT_EQ(recorded(path("out")), expected) << solver << ", after " << killed << " kills";
+      std::filesystem::remove_all(path("out"));
+    }
+    EXPECT_GT(resumed, 0) << "no run was killed late enough to have anything to resume";
+    std::filesystem::remove_all(path("whole"));
   }
 }
 

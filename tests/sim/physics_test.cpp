@@ -184,6 +184,69 @@ TEST(Physics, CollidingSheetsKeepBothMomentaInEveryStep) {
   EXPECT_GT(contacts, 200) << "they have met";
 }
 
+namespace {
+
+/// Kinetic, elastic, and of height.
+double energy_j(const Simulation& simulation) {
+  const SimulationState state = simulation.state();
+  double sum = 0;
+  for (Eigen::Index i = 0; i < simulation.world().cloth_vertex_count; ++i) {
+    const Vec3 x = state.x.row(i), v = state.v.row(i);
+    sum += (v.squaredNorm() / 2 - simulation.scene().gravity_m_s2.dot(x)) /
+           simulation.world().inverse_mass[static_cast<std::size_t>(i)];
+  }
+  for (const Spring& spring : simulation.world().springs.springs()) {
+    const double elongation = (state.x.row(spring.b) - state.x.row(spring.a)).norm() - spring.rest_length_m;
+    sum += spring.stiffness_n_m * elongation * elongation / 2;
+  }
+  return sum;
+}
+
+struct EnergyRun {
+  double start_j = 0, end_j = 0;
+  double rise_j = 0;  ///< sum over the steps in which it rose
+  std::int64_t contacts = 0;
+};
+EnergyRun run_energy(const std::string& solver, const std::string& max_step_s, const std::string& more) {
+  Simulation simulation(parse_scene("solver = \"" + solver + "\"\n" + (more.empty() ? "" : tilted_gravity(0.05)) +
+                                        "[time]\nframes_per_s = 50\nduration_s = 0.3\nmax_step_s = " + max_step_s +
+                                        "\n[collision]\nthickness_m = 0.003\nfriction_static = 0.5\n" +
+                                        sheet("upper", 0.02, -0.7) + (more.empty() ? sheet("lower", 0, 0.4) : more),
+                                    "energy.toml"));
+  EnergyRun run;
+  run.start_j = run.end_j = energy_j(simulation);
+  while (simulation.clock().time_s() < 0.3 - 1e-9) {
+    run.contacts += simulation.step().report.repulsions;
+    const double after_j = energy_j(simulation);
+    run.rise_j += std::max(0.0, after_j - run.end_j);
+    run.end_j = after_j;
+  }
+  return run;
+}
+
+}  // namespace
+
+TEST(Physics, EnergyNeverRisesInContactOfClothWithCloth) {
+  for (const std::string solver : {"explicit", "implicit"}) {
+    const EnergyRun run = run_energy(solver, "0.005", "");
+    EXPECT_GT(run.contacts, 200) << "they have met";
+    EXPECT_LT(run.end_j, 0.5 * run.start_j) << "inelastic";
+    EXPECT_LE(run.rise_j, 1e-12 * run.start_j) << solver;
+  }
+}
+
+TEST(Physics, EnergyRisesByWhatThePlaneLiftsAlone) {
+  // A repulsion takes a tenth of the overlap away in a step (7.2), and cloth on a plane rises by it. What it costs
+  // falls with the step, as the overlap that a step makes does.
+  for (const std::string solver : {"explicit", "implicit"}) {
+    const EnergyRun coarse = run_energy(solver, "0.005", plane()), fine = run_energy(solver, "0.00125", plane());
+    EXPECT_GT(coarse.contacts, 500);
+    EXPECT_LT(coarse.end_j, 0.3 * coarse.start_j);
+    EXPECT_LT(coarse.rise_j, 0.03 * coarse.start_j) << solver;
+    EXPECT_LT(fine.rise_j, coarse.rise_j / 4) << solver;
+  }
+}
+
 TEST(Physics, SheetComesToRestAndStays) {
   Simulation simulation(
       parse_scene(tilted_gravity(0.1) +
