@@ -11,7 +11,7 @@ namespace {
 /// Three sheets above each other, 1 cm apart.
 StageSetup three_sheets(Trial& trial) {
   StageSetup setup;
-  const int side = trial.pick(4, 8, 16);
+  const int side = trial.pick(3, 4, 6);
   for (int layer = 0; layer < 3; ++layer) {
     setup.add_cloth(sim::make_sheet(side, side, 1, 1), Vec3(0.013 * layer, 0.007 * layer, 0.01 * layer));
   }
@@ -22,7 +22,7 @@ StageSetup three_sheets(Trial& trial) {
 template <class Flatten>
 void collapse(Trial& trial, Flatten flatten) {
   Stage stage(trial, three_sheets(trial));
-  for (int step = 0; step < trial.steps(8, 2); ++step) {
+  for (int step = 0; step < trial.steps(4, 2); ++step) {
     Positions candidate = stage.x();
     for (Eigen::Index i = 0; i < candidate.rows(); ++i) {
       candidate.row(i) = (flatten(Vec3(candidate.row(i).transpose() - stage.offset())) + stage.offset()).transpose();
@@ -44,9 +44,9 @@ void collapse_to_plane(Trial& trial) {
 
 void inside_out(Trial& trial) {
   StageSetup setup;
-  setup.add_cloth(sim::make_sphere(1, trial.pick(0, 1, 2)), Vec3::Zero());
+  setup.add_cloth(sim::make_box(Vec3(1, 1.1, 1.2), trial.pick(1, 2, 3)), Vec3::Zero());
   Stage stage(trial, setup);
-  for (int step = 0; step < trial.steps(8, 3); ++step) {
+  for (int step = 0; step < trial.steps(4, 2); ++step) {
     const Vec3 centre = stage.x().colwise().mean();
     stage.step_to((-stage.x()).rowwise() + 2 * centre.transpose());
   }
@@ -214,10 +214,10 @@ void almost_nothing(Trial& trial) {
   }
 }
 
-void thousand_pieces(Trial& trial) {
+void many_pieces(Trial& trial) {
   // Separate triangles that all fly to one point.
   StageSetup setup;
-  const int side = trial.pick(4, 7, 10);
+  const int side = trial.pick(3, 5, 7);
   sim::Shape piece;
   piece.x.resize(3, 3);
   piece.x << 0, 0, 0, 0.5, 0.1, 0.2, 0.1, 0.5, 0.3;
@@ -227,7 +227,7 @@ void thousand_pieces(Trial& trial) {
     setup.add_cloth(piece, place, {}, 20 * (Vec3::Constant(0.5 * side) - place));
   }
   Stage stage(trial, setup);
-  for (int step = 0; step < trial.steps(10, 6); ++step) stage.step();
+  for (int step = 0; step < trial.steps(8, 5); ++step) stage.step();
   stage.require_balances();
   trial.at_least("steps with collisions", double(trial.report().steps_with_collisions), 1);
 }
@@ -248,8 +248,7 @@ std::vector<StabilityCase> degenerate_cases() {
       {"book", "many pages share an edge, and are asked to shut into one plane", "pages stay apart", book},
       {"bow-ties", "faces that share one vertex and nothing else fly at it", "momentum and energy kept", bow_ties},
       {"almost-nothing", "no face, one face, loose vertices", "no candidate is changed by a bit", almost_nothing},
-      {"thousand-pieces", "up to 1000 separate triangles fly to one point", "momentum and energy kept",
-       thousand_pieces},
+      {"many-pieces", "up to 343 separate triangles fly to one point", "momentum and energy kept", many_pieces},
   };
 }
 

@@ -146,7 +146,7 @@ std::vector<VertexId> ring_of(int facets, int ring) {
 }
 
 void twisted_tube(Trial& trial) {
-  const int facets = trial.pick(8, 12, 18), rings = 2 * facets;
+  const int facets = trial.pick(6, 9, 12), rings = 2 * facets;
   StageSetup setup;
   setup.dt_s = 5e-3;
   setup.drag_1_s = 2;
