@@ -10,6 +10,7 @@
 #include "sim/friction.h"
 #include "sim/impact_zone.h"
 #include "sim/impulse.h"
+#include "sim/local_proximities.h"
 #include "sim/repulsion.h"
 #include "sim/scripted_groups.h"
 #include "sim/step_input.h"
@@ -74,13 +75,13 @@ class Attempt {
   CollisionStepReport report_;
 };
 
-/// Sections 7.2 and 7.3: every proximity at the start of the step.
+/// Sections 7.2 and 7.3: every contact at the start of the step.
 void Attempt::repel() {
   const std::vector<PairProximity> proximities =
       find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
   report_.proximities = static_cast<std::int64_t>(proximities.size());
   std::vector<RepulsionContact> contacts;
-  for (const PairProximity& pair : proximities) {
+  for (const PairProximity& pair : local_proximities(mesh_, motion_.V_t0(), proximities)) {
     if (auto contact = make_contact(pair, motion_.V_t0(), bodies_.inverse_mass)) contacts.push_back(*contact);
   }
   const RepulsionCount count = repel_contacts(contacts, options_, dt_s_, motion_);

@@ -39,6 +39,21 @@ void resting_contact(Trial& trial) {
   trial.at_most("fail-safe steps", double(trial.report().fail_safe_steps), 0);
 }
 
+void internal_edges(Trial& trial) {
+  // Cloth slides over a flat ground of many faces, without friction: their edges must not be felt.
+  StageSetup setup;
+  setup.dt_s = 2e-3;
+  setup.add_body(sim::make_sheet(trial.pick(10, 20, 40), trial.pick(10, 20, 40), 4, 4), Vec3::Zero());
+  const Part sheet = setup.add_cloth(sim::make_sheet(5, 5, 0.4, 0.4), Vec3(-1.013, -0.507, 0.6e-3), {1e-3, 100, 0, 0.2},
+                                     Vec3(2, 1, 0));
+  Stage stage(trial, setup);
+  for (int step = 0; step < trial.steps(400, 20); ++step) stage.step();
+  trial.at_least("steps near the ground", double(trial.report().steps), 1);
+  const Vec3 change = stage.mean_velocity(sheet) - Vec3(2, 1, 0);
+  trial.at_most("change of velocity along the ground, m/s", change.head(2).norm(), 1e-9);
+  trial.at_most("velocity off the ground, m/s", std::abs(change.z()), 1e-9);
+}
+
 void cliff_edge(Trial& trial) {
   const int n = trial.pick(8, 12, 18);
   ScenePlay play(trial,
@@ -341,6 +356,8 @@ std::vector<StabilityCase> long_cases() {
   return {
       {"resting-contact", "a sheet lies on the ground for 100,000 steps", "no energy gained, no drift, no fail-safe",
        resting_contact},
+      {"internal-edges", "a sheet slides over the inner edges of a flat ground", "it does not feel them",
+       internal_edges},
       {"cliff-edge", "cloth hangs over the edge of a box", "it comes to rest", cliff_edge},
       {"twisted-strip", "a strip twisted by four turns, its ends moving in", "no pin waits", twisted_strip},
       {"twisted-tube", "a tube twisted by three turns: its wall meets itself everywhere", "every step is taken",

