@@ -9,7 +9,7 @@
 namespace selvage::verify {
 
 /// How far along Hilbert's curve a point of the lattice lies, all coordinates rounded to 16 bits; which curve it is
-/// affects speed alone. With this one a block has a third fewer others beside it than in Morton's order (measured).
+/// affects speed alone. With this one a block meets a quarter fewer others than in Morton's order (measured).
 [[nodiscard]] std::uint64_t hilbert_code(const std::array<std::int32_t, 3>& point);
 
 /// The elements' numbers in ascending order of their codes; where few differ in the last bits alone, in ascending order
