@@ -32,6 +32,17 @@ const char* name_of(RunEnd end) {
   return "";
 }
 
+// What a killed run left of the two files that are written here; the sequence's writer, which holds the lock, removes
+// its own.
+void remove_temporaries(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    const bool is_ours = file.starts_with("checkpoint.bin.") || file.starts_with("run.json.");
+    std::error_code status;  // what cannot be removed is in nobody's way
+    if (is_ours && io::is_temporary_name(file)) std::filesystem::remove(entry.path(), status);
+  }
+}
+
 }  // namespace
 
 Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
@@ -42,6 +53,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
       kind_(kind),
       writer_(folder_, header_of(simulation, kind, producer_), resume),
       fingerprint_(scene_fingerprint(simulation.scene(), simulation.world())) {
+  if (resume) remove_temporaries(folder_);
   const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / "checkpoint.bin") : std::nullopt;
   if (!checkpoint) {
     if (writer_.frame_count() > 1) {
