@@ -18,8 +18,8 @@ class ChoiceShrinker {
     while (progress && left_ > 0) {
       const Choices before = best_;
       cut_off();
-      for (const std::size_t length : {32, 16, 8, 4, 2, 1}) cut_out(length);
-      for (const std::size_t length : {8, 1}) zero(length);
+      for (const std::size_t length : {32U, 16U, 8U, 4U, 2U, 1U}) cut_out(length);
+      for (const std::size_t length : {8U, 1U}) zero(length);
       lower();
       progress = best_ != before;
     }
