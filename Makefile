@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz mutants agreement cluster bench format tidy clean
+.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz mutants agreement cluster bench micro instructions format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -88,6 +88,18 @@ BENCH_PAGE    := $(if $(QUICK),build/bench/speed-against-error.md,docs/speed-aga
 bench: build  ## speed against error: bench/results and docs/speed-against-error.md; QUICK=1: two minutes, into build/bench
 	@cmake/setup packages-bench.txt
 	bench/report/run.py --build build/release --results $(BENCH_RESULTS) --page $(BENCH_PAGE) $(if $(QUICK),--quick)
+
+micro: setup  ## Google Benchmark of the smallest pieces of work, beside the textbook method
+	@cmake/setup packages-bench.txt
+	cmake --preset release --log-level=WARNING
+	cmake --build --preset release --target selvage_micro
+	build/release/bench/selvage_micro
+
+instructions: setup  ## instructions of three workloads against those in bench/results; WRITE=1 keeps the new ones
+	@cmake/setup packages-bench.txt
+	cmake --preset release --log-level=WARNING
+	cmake --build --preset release --target selvage_instructions
+	bench/report/instructions.py build/release/bench/selvage_instructions bench/results/instructions.json $(if $(WRITE),--write)
 
 format:  ## rewrite the sources in the house style
 	@cmake/setup packages-clang.txt

@@ -57,7 +57,14 @@ double support_error(const Triple<Real>& n, const Double3& extent) {
 template <class Real>
 bool separates(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin, const DifferencePolygon<Real>& end,
                const Triple<Real>& n) {
-  return leading(support(motion, begin, end, n).least) > support_error(n, motion.extent);
+  const double error = support_error(n, motion.extent);
+  const auto count = static_cast<std::size_t>(corner_count(motion.kind));
+  for (const DifferencePolygon<Real>* polygon : {&begin, &end}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(leading(dot(n, polygon->corner[i])) > error)) return false;
+    }
+  }
+  return true;
 }
 
 // n . D_j is linear in time; it must stay above its error bound, twice that to leave room for the rounding of the

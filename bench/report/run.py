@@ -25,13 +25,13 @@ SOURCE = HERE.parent.parent
 
 # name of the report: arguments in full, arguments when quick
 RUNS = {
-    "methods": ("methods --sheet 100 --most 60000 --hard 2000 --repeat 5",
+    "methods": ("methods --sheet 100 --most 40000 --hard 1000 --repeat 3",
                 "methods --sheet 40 --most 10000 --hard 200 --repeat 2"),
-    "verify": ("verify --faces 20000,100000,500000 --motion --repeat 2", "verify --faces 5000,20000 --motion --repeat 1"),
-    "broad": ("broad --largest 300000 --repeat 3", "broad --largest 20000 --repeat 1"),
+    "verify": ("verify --faces 20000,100000,500000 --motion --repeat 1", "verify --faces 5000,20000 --motion --repeat 1"),
+    "broad": ("broad --largest 100000 --repeat 3", "broad --largest 20000 --repeat 1"),
     "crumple": ("broad --largest 30000 --pleats 1,0.5,0.2,0.1,0.05 --repeat 3",
                 "broad --largest 10000 --pleats 1,0.2,0.05 --repeat 1"),
-    "sim": ("sim --growth 30,60,120,240,400 --finest-mesh 33 --repeat 2",
+    "sim": ("sim --growth 30,60,120,240,400 --steps 2 --finest-mesh 33 --repeat 2",
             "sim --growth 20,40 --finest-mesh 17 --module-nodes 20 --repeat 1"),
 }
 
