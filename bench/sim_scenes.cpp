@@ -38,10 +38,10 @@ std::string falling() {
 
 sim::Scene swing_scene(const SolverName& solver, int nodes, int substeps) {
   const double step_s = 1 / kFramesPerSecond / substeps;
-  return parse(solver, std::string(kGravity) + "strain_limit = 0\nstrain_rate_limit = 0\n" +
-                           time_table(8, fmt::format("dynamics_step_s = {}\n", step_s)) +
-                           "[collision]\nrepulsion = false\n" + sheet(nodes, 0.5, 60) +
-                           "[[cloth.pin]]\nedge = \"top\"\n");
+  return parse(solver,
+               std::string(kGravity) + "strain_limit = 0\n" + (solver == "explicit" ? "strain_rate_limit = 0\n" : "") +
+                   time_table(8, fmt::format("dynamics_step_s = {}\n", step_s)) + "[collision]\nrepulsion = false\n" +
+                   sheet(nodes, 0.5, 60) + "[[cloth.pin]]\nedge = \"top\"\n");
 }
 
 sim::Scene meeting_scene(const SolverName& solver) {

@@ -101,6 +101,8 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
       motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
     }
   }
+  internal_step_s_ = h;
+  const Positions x_t0 = motion.x;
   find_forces(motion.x);
   find_damping(motion.v, inverse_mass);
   for (int step = 0; step < step_count; ++step) {
@@ -108,19 +110,28 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     strain_.limit_strain(inverse_mass, motion.x, stretch_, h, motion.v);
     strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, h, motion.v);
     motion.x += h * motion.v;
+    if (step + 1 == step_count) last_midstep_v_ = motion.v;
     find_forces(motion.x);
     implicit_half_kick(motion, inverse_mass, h, 0);
   }
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) = scripted_x_t1.row(i);
   }
+  average_v_ = (motion.x - x_t0) / dt_s;
   return {};
 }
 
 void CentralDifferences::final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) {
+  double h = dt_s;
+  if (internal_step_s_ > 0) {
+    h = internal_step_s_;
+    parallel_each(motion.v.rows(), [&](Eigen::Index i) {
+      if (inverse_mass[static_cast<std::size_t>(i)] > 0) motion.v.row(i) += last_midstep_v_.row(i) - average_v_.row(i);
+    });
+  }
   find_forces(motion.x);
-  implicit_half_kick(motion, inverse_mass, dt_s, 1);
-  strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, dt_s, motion.v);
+  implicit_half_kick(motion, inverse_mass, h, 1);
+  strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, h, motion.v);
 }
 
 }  // namespace selvage::sim

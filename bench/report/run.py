@@ -31,8 +31,8 @@ RUNS = {
     "broad": ("broad --largest 100000 --repeat 3", "broad --largest 20000 --repeat 1"),
     "crumple": ("broad --largest 30000 --pleats 1,0.5,0.2,0.1,0.05 --repeat 3",
                 "broad --largest 10000 --pleats 1,0.2,0.05 --repeat 1"),
-    "sim": ("sim --growth 30,60,120,240,400 --steps 2 --finest-mesh 33 --repeat 2",
-            "sim --growth 20,40 --finest-mesh 17 --module-nodes 20 --repeat 1"),
+    "sim": ("sim --solvers explicit,implicit --growth 30,60,120,240,400 --steps 1 --finest-mesh 33 --repeat 1",
+            "sim --solvers explicit,implicit --growth 20,40 --finest-mesh 17 --module-nodes 20 --repeat 1"),
 }
 
 
