@@ -76,6 +76,6 @@ def plot_broad(growth, crumple, folder):
     crumpled.set_ylabel("multiple of the flattest sheet's")
     crumpled.legend(fontsize=8)
     style.save(figure, folder, "broad",
-               "Low is best. See that pairs a triangle hardly depend on the size, that the libraries stay ten times and more "
+               "Low is best. See that pairs a triangle hardly depend on the size, that the libraries stay nine times and more "
                "behind at every size,\nand that time grows more slowly than the number of pairs as the sheet is crumpled: a pair "
                "costs less where there are many.")
