@@ -53,7 +53,7 @@ std::string overlap_text() {
 
 std::string little_endian(std::uint64_t value, int byte_count) {
   std::string bytes;
-  for (int i = 0; i < byte_count; ++i) bytes += static_cast<char>(value >> (8 * i));
+  for (int i = 0; i < byte_count; ++i) bytes += static_cast<char>(i < 8 ? value >> (8 * i) : 0);
   return bytes;
 }
 
