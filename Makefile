@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz mutants agreement cluster bench micro instructions format tidy clean
+.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz libfuzzer afl mutants agreement cluster bench micro instructions format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -58,6 +58,21 @@ coverage: setup  ## every line and branch of the kernel is tested, but for those
 fuzz: build  ## a minute of fuzzing against the exact checker
 	rm -rf build/artifacts
 	$(SELVAGE) fuzz --time 60s --artifacts build/artifacts
+
+FUZZ_SECONDS := 10
+FUZZ_TARGETS :=
+libfuzzer: setup  ## coverage-guided fuzzing of every parser, of queries and of steps; FUZZ_SECONDS=600 for ten minutes each
+	@cmake/setup packages-clang.txt
+	cmake --preset libfuzzer --log-level=WARNING
+	cmake --build --preset libfuzzer
+	fuzz/harness/campaign libfuzzer $(FUZZ_SECONDS) $(FUZZ_TARGETS)
+
+afl: setup  ## the same with AFL++
+	@cmake/setup packages-clang.txt
+	@cmake/setup packages-afl.txt
+	cmake --preset afl --log-level=WARNING
+	cmake --build --preset afl
+	fuzz/harness/campaign afl $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
 mutants: build  ## plant a hundred defects, one at a time: a property must find each of them (docs/mutants.md)
 	cmake --build --preset release --target selvage_mutants
