@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
@@ -9,7 +11,9 @@
 #include "kernel/assert.h"
 #include "kernel/box.h"
 #include "kernel/ccd_batch.h"
+#include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
+#include "kernel/lane_cull.h"
 
 namespace selvage {
 
@@ -120,19 +124,62 @@ class CollisionFinder {
   CollisionReport report_;
 };
 
-/// The proximities of one kind of pairs, in the order of the candidates.
-template <typename Candidate, typename Query>
-void append_proximities(const Mesh& mesh, const PositionsRef& V, double reach, PairKind kind,
-                        const std::vector<Candidate>& candidates, const Query& query, std::vector<PairProximity>& out) {
-  using Block = std::vector<PairProximity>;
-  const auto blocks = for_each_block<Block>(candidates.size(), [&](std::size_t i, Block& block) {
-    const auto [first, second] = candidates[i];
-    const auto vertices = pair_vertices(mesh, kind, first, second);
-    const Proximity proximity = query(points<4>(V, vertices));
-    if (!(proximity.distance_lower >= reach)) block.push_back({kind, first, second, vertices, proximity});
-  });
-  for (const Block& block : blocks) out.insert(out.end(), block.begin(), block.end());
-}
+/// Proximities at one instant.
+class ProximityFinder {
+ public:
+  ProximityFinder(const Mesh& mesh, const PositionsRef& V, double reach, std::size_t query_count)
+      : mesh_(mesh), V_(V), reach_(reach) {
+    if (query_count * kVerticesPerQuery < static_cast<std::size_t>(V.rows())) return;
+    lanes_.emplace(V, V);
+    if (!lanes_->is_valid()) lanes_.reset();
+  }
+
+  /// Appends those of one kind of pairs, in the order of the candidates.
+  template <typename Candidate, typename Query>
+  void append(PairKind kind, const std::vector<Candidate>& candidates, const Query& query,
+              std::vector<PairProximity>& out) const {
+    std::vector<std::vector<PairProximity>> blocks((candidates.size() + kBatchSize - 1) / kBatchSize);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+      const FpEnvGuard guard;
+      const std::size_t end = std::min(candidates.size(), (b + 1) * kBatchSize);
+      detail::PairNumbers left;
+      for (std::size_t first = b * kBatchSize; first < end; first += detail::kPairBlock) {
+        const auto pairs = std::span(candidates).subspan(first, std::min(detail::kPairBlock, end - first));
+        cull(pairs, left);
+        for (const std::uint32_t i : std::span(left.place).first(left.count)) ask(kind, pairs[i], query, blocks[b]);
+      }
+    });
+    for (const auto& block : blocks) out.insert(out.end(), block.begin(), block.end());
+  }
+
+ private:
+  /// As in CcdBatch: preparing the lanes costs 35 ns a vertex, a query that they spare 400 ns.
+  static constexpr std::size_t kVerticesPerQuery = 4;
+
+  /// A pair that does not move and is PROVED farther apart than the reach at the end is so all along.
+  template <typename Candidate>
+  void cull(std::span<const Candidate> pairs, detail::PairNumbers& left) const {
+    if (lanes_) {
+      cull_in_lanes(*lanes_, detail::LanePairs(mesh_, pairs), reach_, left);
+      return;
+    }
+    left.count = pairs.size();
+    std::iota(left.place.begin(), left.place.begin() + static_cast<std::ptrdiff_t>(left.count), 0U);
+  }
+
+  template <typename Candidate, typename Query>
+  void ask(PairKind kind, const Candidate& pair, const Query& query, std::vector<PairProximity>& found) const {
+    const auto [first, second] = pair;
+    const auto vertices = pair_vertices(mesh_, kind, first, second);
+    const Proximity proximity = query(points<4>(V_, vertices));
+    if (!(proximity.distance_lower >= reach_)) found.push_back({kind, first, second, vertices, proximity});
+  }
+
+  const Mesh& mesh_;
+  const PositionsRef& V_;
+  double reach_;
+  std::optional<detail::LaneMotion> lanes_;  ///< none: every pair is asked
+};
 
 }  // namespace
 
@@ -164,8 +211,9 @@ std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hier
   hierarchy.refit(V, V, {reach, active});
   const Candidates candidates = hierarchy.candidates();
   std::vector<PairProximity> found;
-  append_proximities(mesh, V, reach, PairKind::kVf, candidates.vf, vf_proximity, found);
-  append_proximities(mesh, V, reach, PairKind::kEe, candidates.ee, ee_proximity, found);
+  const ProximityFinder finder(mesh, V, reach, candidates.vf.size() + candidates.ee.size());
+  finder.append(PairKind::kVf, candidates.vf, detail::vf_proximity_unguarded, found);
+  finder.append(PairKind::kEe, candidates.ee, detail::ee_proximity_unguarded, found);
   return found;
 }
 

@@ -50,12 +50,15 @@ void SpringSystem::stretch(const PositionsRef& x, SpringStretch& stretch) const 
 void SpringSystem::elastic_forces(const SpringStretch& stretch, Positions& force) const {
   force.resize(vertex_count(), 3);
   parallel_each(force.rows(), [&](Eigen::Index i) {
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    double sum_x = 0, sum_y = 0, sum_z = 0;
     for (const End& end : ends_at(static_cast<VertexId>(i))) {
-      const double tension = stretch.tension[end.spring];
-      sum += (end.is_b ? -tension : tension) * stretch.direction.row(end.spring);
+      const double* const n = stretch.direction.data() + 3 * std::ptrdiff_t{end.spring};
+      const double pull = end.is_b ? -stretch.tension[end.spring] : stretch.tension[end.spring];
+      sum_x += pull * n[0];
+      sum_y += pull * n[1];
+      sum_z += pull * n[2];
     }
-    force.row(i) = sum;
+    force.row(i) << sum_x, sum_y, sum_z;
   });
 }
 

@@ -41,16 +41,20 @@ class StabilizerSystem {
   /// What it adds to row i.
   [[nodiscard]] Eigen::RowVector3d force_at(const Positions& X, VertexId i, double stiffness_share,
                                             double damping_share) const {
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    if (empty()) return sum;
+    if (empty()) return Eigen::RowVector3d::Zero();
     const auto row = static_cast<std::size_t>(i);
-    const Eigen::RowVector3d X_i = X.row(i);
+    const double* const X_i = X.data() + 3 * std::ptrdiff_t{i};
+    const double x_i = X_i[0], y_i = X_i[1], z_i = X_i[2];
+    double x = 0, y = 0, z = 0;
     for (std::size_t n = begin_[row]; n < begin_[row + 1]; ++n) {
       const Neighbour& neighbour = neighbours_[n];
-      sum +=
-          (stiffness_share * neighbour.stiffness + damping_share * neighbour.damping) * (X_i - X.row(neighbour.vertex));
+      const double* const X_j = X.data() + 3 * std::ptrdiff_t{neighbour.vertex};
+      const double c = stiffness_share * neighbour.stiffness + damping_share * neighbour.damping;
+      x += c * (x_i - X_j[0]);
+      y += c * (y_i - X_j[1]);
+      z += c * (z_i - X_j[2]);
     }
-    return sum;
+    return {x, y, z};
   }
   /// Element (i, i) of stiffness_share K + damping_share D, one for all three axes.
   [[nodiscard]] double diagonal(VertexId i, double stiffness_share, double damping_share) const;
