@@ -41,8 +41,8 @@ class LocalTest {
 
   /// The pairs of the vertex with faces.
   [[nodiscard]] std::span<const PairProximity> faces_near(VertexId vertex) const {
-    const auto range = std::ranges::equal_range(vf_, vertex, {}, &PairProximity::first);
-    return {range.begin(), range.end()};
+    const auto begin = std::ranges::lower_bound(vf_, vertex, {}, &PairProximity::first);
+    return {begin, std::ranges::upper_bound(vf_, vertex, {}, &PairProximity::first)};
   }
   [[nodiscard]] bool face_holds(const PairProximity& vf, VertexId vertex) const {
     return holds(mesh_.faces[static_cast<std::size_t>(vf.second)], vertex);
@@ -64,7 +64,9 @@ class LocalTest {
     for (const PairProximity& other : faces_near(vertex)) {
       if (nearer(other) && all_corners([&](VertexId v) { return face_holds(other, v); })) return false;
     }
-    for (const auto& [_, other] : std::ranges::equal_range(ee_at_, vertex, {}, &VertexEdgePair::first)) {
+    const auto first_edge = std::ranges::lower_bound(ee_at_, vertex, {}, &VertexEdgePair::first);
+    for (auto it = first_edge; it != ee_at_.end() && it->first == vertex; ++it) {
+      const PairProximity* other = it->second;
       const std::size_t across = other->vertices[0] == vertex || other->vertices[1] == vertex ? 2 : 0;
       const std::array<VertexId, 2> edge{other->vertices[across], other->vertices[across + 1]};
       if (nearer(*other) && all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) return false;

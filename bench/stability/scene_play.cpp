@@ -30,8 +30,7 @@ std::vector<std::uint8_t> body_faces(const sim::World& world) {
 }  // namespace
 
 ScenePlay::ScenePlay(Trial& trial, const std::string& toml, double length_m)
-    : trial_(trial),
-      offset_(trial.offset(length_m)),
+    : offset_(trial.offset(length_m)),
       simulation_(moved_scene(toml, offset_)),
       watch_(trial, simulation_.world().triangles, body_faces(simulation_.world()),
              simulation_.world().mesh.vertex_count, simulation_.scene().collision) {

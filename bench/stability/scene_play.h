@@ -27,7 +27,6 @@ class ScenePlay {
   [[nodiscard]] double largest_strain() const;
 
  private:
-  Trial& trial_;
   Vec3 offset_;
   sim::Simulation simulation_;
   ExactWatch watch_;
