@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "fuzz/records.h"
+
 namespace selvage::fuzz {
 namespace {
 
@@ -39,6 +41,9 @@ std::string stats_line(const Ledger& ledger, const DriverStatus& status) {
     one["cases"] = total.cases;
     for (std::size_t i = 0; i < property.counters.size(); ++i) one[property.counters[i]] = total.of[i];
     one["nearest_bits"] = total.nearest_bits;
+    for (const SharpnessRecord& record : sharpness_records(property)) {
+      one["records"][record.measure][record.kind] = {{"value", record.value}, {"classes", record.classes}};
+    }
     std::map<std::string, std::int64_t> failures;
     add_failures(property, failures);
     one["failures"] = failures;

@@ -8,7 +8,7 @@
 namespace selvage::fuzz {
 
 /// A JSON object and a line end: seconds and rate of this run; of the whole campaign, for each property, cases, the
-/// counters by name, the nearest miss, and failures by kind.
+/// counters by name, the nearest miss, sharpness records by measure and kind of pairs, and failures by kind.
 [[nodiscard]] std::string stats_line(const Ledger& ledger, const DriverStatus& status);
 
 /// Without a line end: time, cases and rate of this run; of the whole campaign hits, alarms and exact decisions where
