@@ -132,6 +132,7 @@ MotionQuery needle(ChoiceSource& source, PairKind kind) {
 }
 
 MotionQuery sliver(ChoiceSource& source, PairKind kind) {
+  if (kind != PairKind::kSelf && source.one_in(8)) return near_coplanar(source, kind);
   AnyContact contact = choose_contact(source, kind, kSmall);
   const std::int64_t length = std::int64_t{1} << source.n(31);
   contact.x.span[0] *= length;

@@ -34,10 +34,6 @@ double move_by_ulps(double x, std::int64_t ulps) {
 
 }  // namespace
 
-MotionQuery lattice(ChoiceSource& source, PairKind kind, std::uint32_t radius) {
-  return to_query(kind, random_motion(source, radius));
-}
-
 void nudge(ChoiceSource& source, MotionQuery& query, std::uint32_t ulps) {
   for (int moves = source.range(1, 3); moves > 0; --moves) {
     double& coordinate = choose_coordinate(source, query);
@@ -46,9 +42,10 @@ void nudge(ChoiceSource& source, MotionQuery& query, std::uint32_t ulps) {
 }
 
 MotionQuery lattice_ulp(ChoiceSource& source, PairKind kind) {
+  if (source.one_in(8)) return source.coin() ? near_miss(source, kind) : rounded_contact(source, kind);
   MotionQuery query;
   if (source.coin()) {
-    query = lattice(source, kind, kSmall);
+    query = to_query(kind, random_motion(source, static_cast<std::uint32_t>(source.range(1, 3))));
   } else {
     query = contact(source, kind, choose_any_time(source), choose_any_place(source), Grid::kLattice);
   }

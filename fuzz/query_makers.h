@@ -24,21 +24,23 @@ MotionQuery short_motion(ChoiceSource& source, PairKind kind);
 MotionQuery huge_motion(ChoiceSource& source, PairKind kind);
 /// Sides 1 : 2^30 apart.
 MotionQuery needle(ChoiceSource& source, PairKind kind);
-/// Nearly parallel sides: a triangle that is almost a segment, edges that are almost parallel, or exactly so.
+/// Nearly parallel sides: a triangle that is almost a segment, edges that are almost parallel, or exactly so. One in
+/// eight is near-coplanar instead.
 MotionQuery sliver(ChoiceSource& source, PairKind kind);
 /// Never touches, and ends at a distance that is the tolerance exactly, or one ulp above it.
 MotionQuery end_at_tolerance(ChoiceSource& source, PairKind kind);
 
 // lattice_makers.cpp: ties and degeneracies by chance, on small integers
-MotionQuery lattice(ChoiceSource& source, PairKind kind, std::uint32_t radius);
 /// Moves one to three coordinates by up to so many ulps.
 void nudge(ChoiceSource& source, MotionQuery& query, std::uint32_t ulps);
-/// A lattice query or contact with one to three coordinates moved by up to three ulps.
+/// Integers up to 1, 2 or 3, or a contact on them, with one to three coordinates moved by up to three ulps; one in
+/// eight is a near miss or a rounded contact.
 MotionQuery lattice_ulp(ChoiceSource& source, PairKind kind);
 /// Duplicate vertices, collinear corners, zero-length edges.
 MotionQuery degenerate(ChoiceSource& source, PairKind kind);
 /// All points stay in one moving plane: the cubic is identically zero.
 MotionQuery in_plane(ChoiceSource& source, PairKind kind);
+/// All points within a little of one plane.
 MotionQuery near_coplanar(ChoiceSource& source, PairKind kind);
 MotionQuery same_velocity(ChoiceSource& source, PairKind kind);
 MotionQuery no_motion(ChoiceSource& source, PairKind kind);
@@ -47,7 +49,7 @@ MotionQuery rigid_rotation(ChoiceSource& source, PairKind kind);
 
 // scale_makers.cpp: the exponent range
 MotionQuery scaled(ChoiceSource& source, PairKind kind, int exponent_first, int exponent_last);
-/// Axes with units of their own: contacts stay contacts.
+/// Axes with units of their own, or one of 2^-340 to 2^340 for all: contacts stay contacts.
 MotionQuery mixed_axes(ChoiceSource& source, PairKind kind);
 /// Every coordinate with an exponent of its own.
 MotionQuery mixed_coordinates(ChoiceSource& source, PairKind kind, int exponent_radius);

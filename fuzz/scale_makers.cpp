@@ -24,6 +24,7 @@ MotionQuery scaled(ChoiceSource& source, PairKind kind, int exponent_first, int 
 
 MotionQuery mixed_axes(ChoiceSource& source, PairKind kind) {
   const LatticeMotion motion = small_contact(source, kind);
+  if (source.one_in(4)) return to_query(kind, motion, source.range(-340, 340));
   std::array<int, 3> exponents{};
   for (int& exponent : exponents) exponent = static_cast<int>(source.zigzag(60));
   return to_query(kind, motion, exponents);

@@ -1,10 +1,13 @@
 #include "tests/mutants/class_ranking.h"
 
 #include <algorithm>
-#include <map>
+#include <cstdio>
 #include <sstream>
+#include <stdexcept>
 
 #include "fuzz/campaign.h"
+#include "fuzz/query_streams.h"
+#include "fuzz/records.h"
 #include "tests/mutants/child_processes.h"
 #include "tests/mutants/planted.h"
 
@@ -12,6 +15,8 @@ namespace selvage::mutants {
 namespace {
 
 constexpr std::uint64_t kSeed = 4;
+/// More cases for the records, which are searched for once.
+constexpr long kRecordShare = 3;
 
 const fuzz::QueryProperty* query_property(const std::string& name) {
   const auto& all = fuzz::query_properties();
@@ -19,34 +24,92 @@ const fuzz::QueryProperty* query_property(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// In a process of its own: the share of failing cases for each class, in order.
-std::string shares(const Mutant& mutant, const fuzz::QueryProperty& property, long cases) {
+/// In a process of its own: cases and failures of each chunk, in order.
+std::string count_failures(const Mutant& mutant, const fuzz::QueryProperty& property, long cases) {
   planted = mutant.number;
-  std::map<const fuzz::QueryClass*, fuzz::Tally> tallies;
-  for (const fuzz::Chunk& chunk : fuzz::make_chunks(0, cases)) {
-    tallies[chunk.query_class] +=
-        fuzz::run_chunk(property, fuzz::selvage_kernel, kSeed, chunk, [](const fuzz::Failure&) {});
-  }
   std::string text;
-  for (const fuzz::QueryClass& one : fuzz::query_classes()) {
-    const fuzz::Tally& tally = tallies[&one];
-    text +=
-        std::to_string(static_cast<double>(tally.failures) / static_cast<double>(std::max<long>(tally.cases, 1))) + " ";
+  for (const fuzz::Chunk& chunk : fuzz::make_chunks(0, cases)) {
+    const auto tally = fuzz::run_chunk(property, fuzz::selvage_kernel, kSeed, chunk, [](const fuzz::Failure&) {});
+    text += std::to_string(tally.cases) + " " + std::to_string(tally.failures) + " ";
   }
   return text;
 }
 
-void add(const Mutant& mutant, const std::string& text, std::vector<ClassWorth>& classes) {
+/// In a process of its own: the records of unchanged code, each "CLASS MEASURE KIND" in a line.
+std::string find_records(long cases) {
+  const auto campaign = fuzz::make_query_campaign(fuzz::query_properties().front());
+  fuzz::PropertyLedger ledger{campaign->name(), {}, {}, campaign->counters(), {}, {}};
+  for (const fuzz::Stream& stream : campaign->streams()) {
+    ledger.streams.push_back(stream.name);
+    fuzz::Counts& counts = ledger.rows.emplace_back();
+    const long count = cases / fuzz::query_stream(stream).query_class->dilution;
+    for (long number = 0; number < count; ++number) {
+      const std::uint64_t seed = fuzz::case_seed(kSeed, stream, number);
+      counts += campaign->run(stream, fuzz::ChoiceSource::from_seed(seed)).counts;
+    }
+  }
+  std::string text;
+  for (const fuzz::SharpnessRecord& record : fuzz::sharpness_records(ledger)) {
+    for (const std::string& holder : record.classes) {
+      text += holder + " " + record.measure + " " + record.kind + "\n";
+    }
+  }
+  return text;
+}
+
+/// Of one mutant, by class.
+struct Shares {
+  std::vector<double> of_kind[3];  ///< of the queries of one kind
+  std::vector<double> of_unit;     ///< failures in a work unit
+  std::vector<bool> kills;
+};
+
+Shares shares_of(const std::string& text, long cases) {
+  const auto& classes = fuzz::query_classes();
+  Shares shares;
+  for (auto& of_kind : shares.of_kind) of_kind.resize(classes.size());
+  shares.of_unit.resize(classes.size());
+  shares.kills.resize(classes.size());
   std::istringstream in(text);
-  std::vector<double> share(classes.size());
-  for (double& s : share) in >> s;
-  const double most = *std::ranges::max_element(share);
-  const auto killers = std::ranges::count_if(share, [](double s) { return s > 0; });
-  for (std::size_t i = 0; i < share.size(); ++i) {
-    if (!(share[i] > 0)) continue;
+  for (const fuzz::Chunk& chunk : fuzz::make_chunks(0, cases)) {
+    double asked = 0, failures = 0;
+    in >> asked >> failures;
+    const auto i = static_cast<std::size_t>(chunk.query_class - classes.data());
+    shares.of_kind[static_cast<std::size_t>(chunk.kind)][i] = failures / asked;
+    shares.of_unit[i] += failures / asked * static_cast<double>(chunk.query_class->per_unit);
+    if (failures > 0) shares.kills[i] = true;
+  }
+  return shares;
+}
+
+/// Calls body(i) for each class that reaches the largest value, if that is above zero.
+template <typename Body>
+void for_each_first(const std::vector<double>& values, const Body& body) {
+  const double most = *std::ranges::max_element(values);
+  for (std::size_t i = 0; i < values.size() && most > 0; ++i) {
+    if (values[i] == most) body(i);
+  }
+}
+
+void add(const Mutant& mutant, const Shares& shares, std::vector<ClassWorth>& classes) {
+  for (const PairKind kind : fuzz::kPairKinds) {
+    const std::string name = mutant.name + " " + std::string(fuzz::name_of(kind));
+    for_each_first(shares.of_kind[static_cast<std::size_t>(kind)],
+                   [&](std::size_t i) { classes[i].first.push_back(name); });
+  }
+  for_each_first(shares.of_unit, [&](std::size_t i) { classes[i].first_in_campaign.push_back(mutant.name); });
+  const auto killers = std::ranges::count(shares.kills, true);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (!shares.kills[i]) continue;
     classes[i].kills.push_back(mutant.name);
-    if (share[i] == most) classes[i].leads.push_back(mutant.name);
     if (killers == 1) classes[i].alone.push_back(mutant.name);
+  }
+}
+
+void add_records(const std::string& text, std::vector<ClassWorth>& classes) {
+  std::istringstream in(text);
+  for (std::string holder, measure, kind; in >> holder >> measure >> kind;) {
+    std::ranges::find(classes, holder, &ClassWorth::name)->records.push_back(measure + " " + kind);
   }
 }
 
@@ -54,18 +117,25 @@ void add(const Mutant& mutant, const std::string& text, std::vector<ClassWorth>&
 
 std::vector<ClassWorth> rank_classes(const std::vector<Mutant>& mutants, long cases, int jobs) {
   std::vector<ClassWorth> classes;
-  for (const fuzz::QueryClass& one : fuzz::query_classes()) classes.push_back({one.name, {}, {}, {}});
+  for (const fuzz::QueryClass& one : fuzz::query_classes()) classes.push_back({one.name, {}, {}, {}, {}, {}});
   std::vector<const Mutant*> asked;
-  std::vector<std::function<std::string()>> work;
+  std::vector<std::function<std::string()>> work{[cases] { return find_records(kRecordShare * cases); }};
   for (const Mutant& mutant : mutants) {
     const fuzz::QueryProperty* property = query_property(mutant.killer);
     if (property == nullptr) continue;
     asked.push_back(&mutant);
-    work.emplace_back([&mutant, property, cases] { return shares(mutant, *property, cases); });
+    work.emplace_back([&mutant, property, cases] { return count_failures(mutant, *property, cases); });
   }
   const auto results = run_children(work, jobs, [](std::size_t, const ChildResult&) {});
+  if (results[0].end != ChildEnd::kDone) throw std::runtime_error("the search for records did not come to its end");
+  add_records(results[0].text, classes);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (results[i].end == ChildEnd::kDone) add(*asked[i], results[i].text, classes);
+    const ChildResult& result = results[i + 1];
+    if (result.end == ChildEnd::kDone) {
+      add(*asked[i], shares_of(result.text, cases), classes);
+    } else {
+      std::fprintf(stderr, "%s crashes or hangs: no class is ranked by it\n", asked[i]->name.c_str());
+    }
   }
   return classes;
 }

@@ -94,10 +94,11 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string class_table(const std::vector<ClassWorth>& classes) {
   if (classes.empty()) return "";
-  std::string text = "| class | mutants killed | kills soonest | kills alone |\n| --- | --- | --- | --- |\n";
+  std::string text =
+      "| class | kills | first in cases | first in a campaign | records |\n| --- | --- | --- | --- | --- |\n";
   for (const ClassWorth& worth : classes) {
-    text += "| " + worth.name + " | " + std::to_string(worth.kills.size()) + " | " + joined(worth.leads) + " | " +
-            joined(worth.alone) + " |\n";
+    text += "| " + worth.name + " | " + std::to_string(worth.kills.size()) + " | " + joined(worth.first) + " | " +
+            joined(worth.first_in_campaign) + " | " + joined(worth.records) + " |\n";
   }
   return text;
 }
@@ -121,8 +122,12 @@ std::string json_report(const Report& report) {
     json["mutants"].push_back(std::move(entry));
   }
   for (const ClassWorth& worth : report.classes) {
-    json["classes"].push_back(
-        {{"name", worth.name}, {"kills", worth.kills}, {"leads", worth.leads}, {"alone", worth.alone}});
+    json["classes"].push_back({{"name", worth.name},
+                               {"kills", worth.kills},
+                               {"first", worth.first},
+                               {"first_in_campaign", worth.first_in_campaign},
+                               {"alone", worth.alone},
+                               {"records", worth.records}});
   }
   return json.dump(2) + "\n";
 }

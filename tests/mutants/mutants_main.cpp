@@ -1,5 +1,6 @@
 // selvage_mutants LISTS: runs mutants of the lists under their properties and three seeds, the base first. Exit code 0
-// if all are killed within their cases, or proven equivalent and not killed; else 1.
+// if all are killed within their cases, or proven equivalent and not killed, and every class of queries has its worth
+// (class_ranking.h, with --classes); else 1.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -91,7 +92,14 @@ int run(const Arguments& arguments) {
   if (!arguments.markdown.empty()) io::write_atomically(arguments.markdown, markdown_report(report));
   const auto open = std::ranges::count_if(report.outcomes, [](const MutantOutcome& o) { return !o.is_settled(); });
   std::printf("%zu mutants, %td not settled\n", report.outcomes.size(), open);
-  return open == 0 ? 0 : 1;
+  bool all_earn = true;
+  for (const ClassWorth& worth : report.classes) {
+    if (worth.earns_its_place()) continue;
+    all_earn = false;
+    std::printf("class %s is the first to kill nothing and holds no record: find its defect, or drop it\n",
+                worth.name.c_str());
+  }
+  return open == 0 && all_earn ? 0 : 1;
 }
 
 }  // namespace

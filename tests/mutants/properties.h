@@ -27,6 +27,7 @@ struct Property {
 
 [[nodiscard]] std::vector<Property> query_properties();
 [[nodiscard]] std::vector<Property> bound_properties();
+[[nodiscard]] std::vector<Property> cull_properties();
 [[nodiscard]] std::vector<Property> mesh_properties();
 [[nodiscard]] std::vector<Property> checker_properties();
 [[nodiscard]] std::vector<Property> step_properties();
