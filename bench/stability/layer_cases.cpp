@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bench/stability/cases.h"
@@ -139,15 +140,17 @@ void card_shuffle(Trial& trial) {
   setup.dt_s = 2e-3;
   setup.collision.friction_static = setup.collision.friction_kinetic = 0.2;
   setup.add_body(sim::make_sheet(2, 2, 6, 6), Vec3(0, 0, -1.5e-3));
-  std::vector<Part> cards;
+  std::array<std::vector<Part>, 2>
+      halves;  // left, right: only within one do cards lie with all of their area on each other
   const sim::Shape card = sim::make_sheet(3, 3, 1, 1);
   for (int i = 0; i < trial.pick(8, 16, 24); ++i) {
     const double side = i % 2 == 0 ? -1 : 1;  // overlapping by a fifth, driven into each other
-    cards.push_back(setup.add_cloth(card, Vec3(0.4 * side, 0, i * 1.5e-3), kPaper, Vec3(-2 * side, 0, 0)));
+    halves[static_cast<std::size_t>(i % 2)].push_back(
+        setup.add_cloth(card, Vec3(0.4 * side, 0, i * 1.5e-3), kPaper, Vec3(-2 * side, 0, 0)));
   }
   Stage stage(trial, setup);
   for (int step = 0; step < trial.steps(200, 10); ++step) stage.step();
-  trial.require(keeps_order(stage, cards), "cards changed places");
+  for (const std::vector<Part>& cards : halves) trial.require(keeps_order(stage, cards), "cards changed places");
 }
 
 }  // namespace
@@ -167,7 +170,8 @@ std::vector<StabilityCase> layer_cases() {
       {"layer-reversal", "six layers are asked to swap places", "they keep their order; momentum and energy kept",
        layer_reversal},
       {"card-stack", "10 to 40 cards rest on each other", "cards keep their order and their place", card_stack},
-      {"card-shuffle", "two half stacks are pushed into each other", "cards keep their order", card_shuffle},
+      {"card-shuffle", "two half stacks are pushed into each other", "the cards of each half keep their order",
+       card_shuffle},
   };
 }
 
