@@ -10,6 +10,8 @@ namespace {
 
 /// Beyond this, squares and sums of momenta leave the range of double: the balances are not looked at.
 constexpr double kBalanceLimit = 0x1p+400;
+/// Nor beyond this with float32: what goes to the edge of its range, 2^128, is cut there, and so is its momentum.
+constexpr double kFloatBalanceLimit = 0x1p+100;
 
 bool has_scripted(const StepWorld& world) {
   return std::any_of(world.inverse_mass.begin(), world.inverse_mass.end(), [](double w) { return w == 0; });
@@ -80,7 +82,9 @@ double mass_of(const StepWorld& world, Eigen::Index vertex) {
 StepDefect check_balances(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
                           const sim::CollisionStepResult& result) {
   const double largest = std::max(candidate.cwiseAbs().maxCoeff(), x_t0.cwiseAbs().maxCoeff());
-  if (largest > kBalanceLimit || result.report.fail_safe_vertices > 0 || result.report.cut_candidates > 0)
+  const bool float32 = world.options.precision == sim::CollisionOptions::Precision::kFloat32;
+  const double limit = float32 ? kFloatBalanceLimit : kBalanceLimit;
+  if (largest > limit || result.report.fail_safe_vertices > 0 || result.report.cut_candidates > 0)
     return StepDefect::kNone;
   const Positions before = (candidate - x_t0) / world.dt_s;
   Eigen::RowVector3d change = Eigen::RowVector3d::Zero();

@@ -141,6 +141,7 @@ TEST(Driver, SaysWhereItIs) {
   Ledger ledger;
   PropertyLedger property;
   property.counters = {"touches", "hits", "alarms", "exact"};
+  property.streams = {"one", "two"};
   property.rows = {{40, 2, {9, 12'345, 6, 5}, 51}, {60, 0, {1, 0, 1, 0}, 53}};
   property.findings[{"one", "missed"}] = {2, 7, {}};
   ledger.properties = {property};

@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/case_file.h"
+#include "fuzz/kept_case.h"
 #include "fuzz/query_property.h"
+#include "tests/cli/run_program.h"
 
 namespace selvage::fuzz {
 namespace {
 
 const char* const kFolder = SELVAGE_SOURCE_DIR "/tests/fuzz/cases";
+const char* const kLevels = SELVAGE_SOURCE_DIR "/tests/fuzz/cases/levels";  // of all levels but the query's
 
 TEST(KeptCases, EveryPromiseHoldsOnThem) {
   const std::vector<std::filesystem::path> files = case_files(kFolder);
@@ -21,6 +24,18 @@ TEST(KeptCases, EveryPromiseHoldsOnThem) {
         EXPECT_EQ(property.check(kept.query, selvage_kernel, source).failure, "") << file << " " << property.name;
       }
     }
+  }
+}
+
+TEST(KeptCases, NoLevelBreaksItsPromiseOnThem) {
+  const std::vector<std::filesystem::path> files = case_files(kLevels);
+  ASSERT_FALSE(files.empty());
+  for (const std::filesystem::path& file : files) {
+    const std::string text = testing::slurp(file);
+    const ParsedCase parsed = parse_kept_case(text, file.string());
+    const Retrial retrial = parsed.kept->retry();
+    EXPECT_EQ(retrial.unfit, "") << file;
+    EXPECT_EQ(retrial.failure, "") << file;
   }
 }
 
