@@ -14,8 +14,9 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
   -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/${PROGRAM} ${ARGUMENTS})
-# What it wrote, if it wrote a sequence, is exactly free of intersections.
-if(VERIFY)
+if(VERIFY)  # so many steps that it records are exactly free of intersections
+  run(${WORK}/build/${PROGRAM} ${STEPS} ${WORK}/steps)
   run(${VERIFY} verify ${WORK}/steps)
+else()
+  run(${WORK}/build/${PROGRAM})
 endif()
