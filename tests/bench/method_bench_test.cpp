@@ -22,10 +22,9 @@ const SettingReport& row(const SetReport& report, const std::string& method, con
 
 TEST(MethodBench, CountsWhatEachMethodGetsWrong) {
   // Through the face, past it, and to 1e-4 above it: an alarm for tolerances above that, and for those alone.
-  const QuerySet set{"three",
-                     "",
-                     {falling_point(0.25, 0.25, -1), falling_point(3, 3, -1), falling_point(0.25, 0.25, 1e-4)},
-                     nullptr, {}, {}};
+  const QuerySet set{
+      "three", "", {falling_point(0.25, 0.25, -1), falling_point(3, 3, -1), falling_point(0.25, 0.25, 1e-4)},
+      nullptr, {}, {}};
   const SetReport report = run_method_bench(set, {.repeat = 2});
   EXPECT_EQ(report.vf, 3);
   EXPECT_EQ(report.touching, 1);
