@@ -4,14 +4,11 @@
 #include <cmath>
 
 #include "fuzz/broad_case.h"
-#include "fuzz/shrink_choices.h"
-#include "fuzz/shrink_mesh.h"
+#include "fuzz/mesh_property.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
-
-constexpr std::int64_t kChoiceTrials = 300;  // each takes milliseconds
 
 double choose_reach(ChoiceSource& source, const StepWorld& world) {
   return source.coin() ? std::ldexp(world.gap_m, source.range(-20, 3)) : 0;
@@ -25,9 +22,9 @@ std::vector<std::uint8_t> choose_active(ChoiceSource& source, const StepWorld& w
   return active;
 }
 
-class BroadCampaign final : public Property {
+class BroadCampaign final : public MeshProperty {
  public:
-  BroadCampaign() : Property("broad", std::string(broad_kind().promise)) {
+  BroadCampaign() : MeshProperty("broad", std::string(broad_kind().promise)) {
     for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 40});
     counters_ = {"motions", "pairs"};
   }
@@ -41,17 +38,8 @@ class BroadCampaign final : public Property {
     return counts.cases > 50 && counts.of[1] < counts.cases ? "hardly any pairs" : "";
   }
 
-  std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
-                   bool shrunk) override {
-    if (!shrunk) return kept_text(KeptMesh(drawn(stream, source)), origin, failure);
-    const Choices choices = shrink_choices(
-        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
-    const MeshCase simplest = drawn(stream, ChoiceSource::from_words(choices));
-    return kept_text(KeptMesh(shrink(simplest, failure)), origin, failure);
-  }
-
  private:
-  static MeshCase drawn(const Stream& stream, ChoiceSource source) {
+  [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
     const auto surface = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
     SELVAGE_ASSERT(surface != surface_classes().end());
     const StepWorld world = make_step_world(source, *surface);

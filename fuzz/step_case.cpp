@@ -11,18 +11,6 @@ constexpr double kMost = 0x1p+1000;  ///< of masses and times: their products wi
 
 using Precision = sim::CollisionOptions::Precision;
 
-std::string_view name_of(sim::StepStatus status) {
-  switch (status) {
-    case sim::StepStatus::kSafe:
-      return "safe";
-    case sim::StepStatus::kStopped:
-      return "stopped";
-    case sim::StepStatus::kInvalidInput:
-      break;
-  }
-  return "called invalid";
-}
-
 StepWorld world_of(const MeshCase& kept) {
   StepWorld world;
   world.x = kept.x[0];

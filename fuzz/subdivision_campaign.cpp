@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/shrink_choices.h"
-#include "fuzz/shrink_mesh.h"
+#include "fuzz/mesh_property.h"
 #include "fuzz/step_oracle.h"
 #include "fuzz/subdivision_case.h"
 #include "kernel/assert.h"
@@ -13,8 +12,6 @@ namespace selvage::fuzz {
 namespace {
 
 constexpr const char* kTents = "tents";
-
-constexpr std::int64_t kChoiceTrials = 300;  // each takes milliseconds
 
 struct Surface {
   io::Triangles faces;
@@ -51,9 +48,9 @@ Surface tents(ChoiceSource& source) {
   return surface;
 }
 
-class SubdivisionCampaign final : public Property {
+class SubdivisionCampaign final : public MeshProperty {
  public:
-  SubdivisionCampaign() : Property("subdivision", std::string(subdivision_kind().promise)) {
+  SubdivisionCampaign() : MeshProperty("subdivision", std::string(subdivision_kind().promise)) {
     for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 1});
     streams_.push_back({kTents, 0, 8});
     counters_ = {"levels", "stopped", "rounded"};
@@ -72,17 +69,8 @@ class SubdivisionCampaign final : public Property {
     return stream.name == kTents && counts.of[1] * 20 < counts.of[0] ? "hardly anything has to stop" : "";
   }
 
-  std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
-                   bool shrunk) override {
-    if (!shrunk) return kept_text(KeptMesh(drawn(stream, source)), origin, failure);
-    const Choices choices = shrink_choices(
-        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
-    const MeshCase simplest = drawn(stream, ChoiceSource::from_words(choices));
-    return kept_text(KeptMesh(shrink(simplest, failure)), origin, failure);
-  }
-
  private:
-  static MeshCase drawn(const Stream& stream, ChoiceSource source) {
+  [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
     const Surface surface = first_surface(stream, source);
     return subdivision_case(surface.faces, surface.x, surface.is_scripted, source.range(1, 2));
   }

@@ -157,6 +157,18 @@ Positions average_velocity(const Positions& displacement, double dt_s) {
 
 }  // namespace
 
+std::string_view name_of(StepStatus status) {
+  switch (status) {
+    case StepStatus::kSafe:
+      return "safe";
+    case StepStatus::kStopped:
+      return "stopped";
+    case StepStatus::kInvalidInput:
+      break;
+  }
+  return "called invalid";
+}
+
 struct CollisionStep::Impl {
   Impl(const Mesh& step_mesh, const CollisionOptions& step_options)
       : mesh(step_mesh), options(step_options), hierarchy(step_mesh), parts(step_mesh) {}

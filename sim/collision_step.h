@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/kernel.h"
@@ -50,6 +51,7 @@ enum class StepStatus : std::uint8_t {
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kInvalidInput  ///< NaN, sizes, domain: nothing was done
 };
+[[nodiscard]] std::string_view name_of(StepStatus status);
 
 struct CollisionStepReport {
   StepStatus status = StepStatus::kInvalidInput;

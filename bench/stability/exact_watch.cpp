@@ -12,18 +12,6 @@ namespace {
 // The gap is followed down in these steps: each costs a check, the exact smallest distance of a frame many.
 constexpr double kGapShrink = 0.5;
 
-const char* name_of(sim::StepStatus status) {
-  switch (status) {
-    case sim::StepStatus::kSafe:
-      return "safe";
-    case sim::StepStatus::kStopped:
-      return "stopped";
-    case sim::StepStatus::kInvalidInput:
-      break;
-  }
-  return "invalid input";
-}
-
 }  // namespace
 
 std::vector<verify::Point> points_of(const Positions& x) {
