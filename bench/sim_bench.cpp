@@ -69,7 +69,7 @@ void study_growth(const SimBenchOptions& options, SimBenchReport& report) {
       const sim::Scene scene = drape_scene(solver, nodes);
       for (const int threads : options.thread_counts) {
         GrowthRow& row = report.growth.emplace_back(GrowthRow{solver, nodes, threads, {}});
-        with_threads(threads, [&] { row.run = run_simulation(scene, options.growth_steps); });
+        with_threads(threads, [&] { row.run = run_simulation(scene, {options.growth_steps, 0}); });
       }
     }
   }
@@ -80,7 +80,7 @@ void study_modules(const SimBenchOptions& options, SimBenchReport& report) {
   for (const ModuleScene& scene : scenes) report.modules.push_back({scene.added, 0, {}});
   for (int pass = 0; pass < options.repeat; ++pass) {  // in turns, so that what else the machine does meets all alike
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-      SimRun run = run_simulation(scenes[i].scene);
+      SimRun run = run_simulation(scenes[i].scene, {.subdivision_levels = scenes[i].subdivision_levels});
       if (pass == 0 || run.cpu_ns < report.modules[i].run.cpu_ns) report.modules[i].run = std::move(run);
     }
   }

@@ -12,6 +12,7 @@ Json with_run(Json row, const SimRun& run) {
   const auto of = [](double ns, std::int64_t count) { return count > 0 ? ns * 1e-6 / static_cast<double>(count) : 0; };
   row.update(
       {{"vertices", run.vertices},
+       {"fine_vertices", run.fine_vertices},
        {"frames", run.frames},
        {"steps", run.steps},
        {"ms_a_frame", of(run.cpu_ns, run.frames)},

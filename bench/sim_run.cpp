@@ -1,11 +1,13 @@
 #include "bench/sim_run.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
 
 #include "bench/timed.h"
+#include "sim/subdivision.h"
 
 namespace selvage::bench {
 namespace {
@@ -92,15 +94,26 @@ class Drifts {
 
 }  // namespace
 
-SimRun run_simulation(const sim::Scene& scene, std::int64_t most_steps) {
+SimRun run_simulation(const sim::Scene& scene, const SimRunOptions& options) {
   sim::Simulation simulation(scene);
+  const sim::World& world = simulation.world();
+  std::optional<sim::Subdivision> subdivision;
+  if (options.subdivision_levels > 0) {
+    subdivision.emplace(world.triangles, world.mesh.vertex_count, world.groups, options.subdivision_levels);
+  }
   SimRun run;
-  run.vertices = simulation.world().cloth_vertex_count;
+  run.vertices = world.cloth_vertex_count;
   Drifts drifts(simulation);
-  while (simulation.clock().state().frame < scene.time.frame_count && run.steps < most_steps) {
+  while (simulation.clock().state().frame < scene.time.frame_count && run.steps < options.most_steps) {
     sim::StepResult step;
     BestTime taken;
-    time(taken, [&] { step = simulation.step(); });
+    time(taken, [&] {
+      step = simulation.step();
+      if (subdivision && simulation.clock().at_frame()) {
+        sim::SubdivisionCounts counts;
+        run.fine_vertices = (*subdivision)(simulation.x(), counts).rows();
+      }
+    });
     if (step.report.status != sim::StepStatus::kSafe) throw std::runtime_error("bench sim: a step was not safe");
     run.cpu_ns += taken.cpu;
     run.wall_ns += taken.wall;
@@ -114,7 +127,7 @@ SimRun run_simulation(const sim::Scene& scene, std::int64_t most_steps) {
   }
   run.frames = simulation.clock().state().frame;
   drifts.fill(run);
-  run.x = simulation.x().topRows(simulation.world().cloth_vertex_count);
+  run.x = simulation.x().topRows(world.cloth_vertex_count);
   return run;
 }
 

@@ -8,11 +8,12 @@
 namespace selvage::bench {
 
 struct SimRun {
-  double cpu_ns = 0, wall_ns = 0;  ///< of the steps alone
+  double cpu_ns = 0, wall_ns = 0;  ///< of the steps, and of subdivision where it is asked for
   std::int64_t frames = 0, steps = 0;
-  std::int64_t vertices = 0;
-  sim::PhaseSeconds phases;   ///< wall time
-  std::int64_t contacts = 0;  ///< repulsions and frictions, and collisions left by them
+  std::int64_t vertices = 0;       ///< of the cloth
+  std::int64_t fine_vertices = 0;  ///< of all after subdivision; 0 where none is asked for
+  sim::PhaseSeconds phases;        ///< wall time
+  std::int64_t contacts = 0;       ///< repulsions and frictions, and collisions left by them
   std::int64_t fail_safe_vertices = 0;
   /// Of the frames, the largest; shares of the kinetic energy at its largest.
   double energy_drift = 0;  ///< |energy - energy at the start|: kinetic, elastic, and of gravity
@@ -23,8 +24,12 @@ struct SimRun {
   Positions x;        ///< of the cloth, at the end
 };
 
-/// Runs the scene to its end, or `most_steps` collision steps of it. Throws std::runtime_error where a step is not
-/// safe.
-[[nodiscard]] SimRun run_simulation(const sim::Scene& scene, std::int64_t most_steps = 1'000'000);
+struct SimRunOptions {
+  std::int64_t most_steps = 1'000'000;  ///< collision steps
+  std::int32_t subdivision_levels = 0;  ///< of every frame; their time is in that of the steps
+};
+
+/// Runs the scene to its end, or to `most_steps`. Throws std::runtime_error where a step is not safe.
+[[nodiscard]] SimRun run_simulation(const sim::Scene& scene, const SimRunOptions& options = {});
 
 }  // namespace selvage::bench

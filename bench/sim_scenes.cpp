@@ -76,7 +76,7 @@ std::vector<ModuleScene> module_scenes(int nodes) {
   const auto add = [&](const char* name) {
     const std::string text = kGravity + parts.top + time_table(12, parts.time) + "[collision]\nthickness_m = 0.002\n" +
                              parts.collision + sheet(nodes, kDrapeSide, 60) + falling() + parts.cloth + parts.bodies;
-    scenes.push_back({name, parse("explicit", text)});
+    scenes.push_back({name, parse("explicit", text), 0});
   };
   add("springs alone");
   add("nothing: the same again");
@@ -96,6 +96,7 @@ std::vector<ModuleScene> module_scenes(int nodes) {
   add("adaptive step");
   parts.collision += "precision = \"float32\"\n";
   add("float32 positions");
+  scenes.push_back({"a level of subdivision", scenes.back().scene, 1});
   return scenes;
 }
 

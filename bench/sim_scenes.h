@@ -30,6 +30,7 @@ using SolverName = std::string;
 struct ModuleScene {
   std::string added;  ///< to the one before
   sim::Scene scene;
+  std::int32_t subdivision_levels = 0;  ///< of each frame
 };
 [[nodiscard]] std::vector<ModuleScene> module_scenes(int nodes);
 

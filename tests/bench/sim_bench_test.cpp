@@ -30,7 +30,17 @@ TEST(SimRun, ContactPutsNoEnergyIn) {
   EXPECT_LT(run.angular_momentum_drift, 1e-4);
 }
 
-TEST(SimRun, StopsAfterAsManyStepsAsAsked) { EXPECT_EQ(run_simulation(drape_scene("explicit", 12), 2).steps, 2); }
+TEST(SimRun, StopsAfterAsManyStepsAsAsked) {
+  EXPECT_EQ(run_simulation(drape_scene("explicit", 12), {.most_steps = 2}).steps, 2);
+}
+
+// Four times the faces of the sheet alone are 2 (n - 1) + 1 vertices along each side.
+TEST(SimRun, SubdividesEveryFrameWhereAskedTo) {
+  const std::vector<ModuleScene> scenes = module_scenes(12);
+  EXPECT_EQ(scenes.front().subdivision_levels, 0);
+  const SimRun run = run_simulation(scenes.front().scene, {.subdivision_levels = scenes.back().subdivision_levels});
+  EXPECT_EQ(run.fine_vertices, 23 * 23);
+}
 
 TEST(SimBench, SheetDistanceIsBetweenTheSamePlaces) {
   Positions coarse = Positions::Zero(4, 3), fine = Positions::Zero(25, 3);
