@@ -10,23 +10,24 @@ using Json = nlohmann::ordered_json;
 /// What every row says of its run, after the columns that name it.
 Json with_run(Json row, const SimRun& run) {
   const auto of = [](double ns, std::int64_t count) { return count > 0 ? ns * 1e-6 / static_cast<double>(count) : 0; };
-  row.update(
-      {{"vertices", run.vertices},
-       {"fine_vertices", run.fine_vertices},
-       {"frames", run.frames},
-       {"steps", run.steps},
-       {"ms_a_frame", of(run.cpu_ns, run.frames)},
-       {"ms_a_step", of(run.cpu_ns, run.steps)},
-       {"wall_ms_a_step", of(run.wall_ns, run.steps)},
-       {"contacts", run.contacts},
-       {"fail_safe_vertices", run.fail_safe_vertices},
-       {"energy_drift", run.energy_drift},
-       {"energy_gain", run.energy_gain},
-       {"momentum_drift", run.momentum_drift},
-       {"angular_momentum_drift", run.angular_momentum_drift},
-       {"strain", run.strain},
-       {"wall_s",
-        {{"dynamics", run.phases.dynamics}, {"collision", run.phases.collision}, {"velocity", run.phases.velocity}}}});
+  row.update({{"vertices", run.vertices},
+              {"fine_vertices", run.fine_vertices},
+              {"frames", run.frames},
+              {"steps", run.steps},
+              {"ms_a_frame", of(run.cpu_ns, run.frames)},
+              {"ms_a_step", of(run.cpu_ns, run.steps)},
+              {"wall_ms_a_step", of(run.wall_ns, run.steps)},
+              {"contacts", run.contacts},
+              {"fail_safe_vertices", run.fail_safe_vertices},
+              {"energy_drift", run.energy_drift},
+              {"energy_gain", run.energy_gain},
+              {"momentum_drift", run.momentum_drift},
+              {"angular_momentum_drift", run.angular_momentum_drift},
+              {"strain", run.strain},
+              {"wall_s",
+               {{"dynamics", run.phases.dynamics.wall_s},
+                {"collision", run.phases.collision.wall_s},
+                {"velocity", run.phases.velocity.wall_s}}}});
   return row;
 }
 

@@ -117,9 +117,7 @@ SimRun run_simulation(const sim::Scene& scene, const SimRunOptions& options) {
     if (step.report.status != sim::StepStatus::kSafe) throw std::runtime_error("bench sim: a step was not safe");
     run.cpu_ns += taken.cpu;
     run.wall_ns += taken.wall;
-    run.phases.dynamics += step.seconds.dynamics;
-    run.phases.collision += step.seconds.collision;
-    run.phases.velocity += step.seconds.velocity;
+    run.phases += step.phases;
     run.contacts += step.report.repulsions + step.report.frictions + step.report.first_collisions;
     run.fail_safe_vertices += step.report.fail_safe_vertices;
     ++run.steps;

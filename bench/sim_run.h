@@ -12,8 +12,8 @@ struct SimRun {
   std::int64_t frames = 0, steps = 0;
   std::int64_t vertices = 0;       ///< of the cloth
   std::int64_t fine_vertices = 0;  ///< of all after subdivision; 0 where none is asked for
-  sim::PhaseSeconds phases;        ///< wall time
-  std::int64_t contacts = 0;       ///< repulsions and frictions, and collisions left by them
+  sim::StepPhases phases;
+  std::int64_t contacts = 0;  ///< repulsions and frictions, and collisions left by them
   std::int64_t fail_safe_vertices = 0;
   /// Of the frames, the largest; shares of the kinetic energy at its largest.
   double energy_drift = 0;  ///< |energy - energy at the start|: kinetic, elastic, and of gravity

@@ -50,11 +50,11 @@ std::string tables(const bench::SimBenchReport& report) {
                       "cpu ms/step", "wall ms/step", "dynamics", "collision", "velocity");
   for (const bench::GrowthRow& row : report.growth) {
     const double wall_s = row.run.wall_ns * 1e-9;
-    text +=
-        fmt::format("  {:<10} {:>6} {:>8} {:>12.1f} {:>13.1f} {:>8.0f}% {:>9.0f}% {:>8.0f}%\n", row.solver, row.nodes,
-                    row.thread_count, ms_a(row.run, row.run.steps),
-                    row.run.wall_ns * 1e-6 / static_cast<double>(row.run.steps), 100 * row.run.phases.dynamics / wall_s,
-                    100 * row.run.phases.collision / wall_s, 100 * row.run.phases.velocity / wall_s);
+    text += fmt::format("  {:<10} {:>6} {:>8} {:>12.1f} {:>13.1f} {:>8.0f}% {:>9.0f}% {:>8.0f}%\n", row.solver,
+                        row.nodes, row.thread_count, ms_a(row.run, row.run.steps),
+                        row.run.wall_ns * 1e-6 / static_cast<double>(row.run.steps),
+                        100 * row.run.phases.dynamics.wall_s / wall_s, 100 * row.run.phases.collision.wall_s / wall_s,
+                        100 * row.run.phases.velocity.wall_s / wall_s);
   }
   return text;
 }

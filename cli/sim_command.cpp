@@ -1,5 +1,6 @@
 #include "cli/sim_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -89,6 +90,24 @@ void print_witness(const sim::Simulation& simulation, const sim::CollisionStepRe
   fmt::print(stderr, "\nmove the bodies apart, or set squeeze = \"yield\" to let them wait\n");
 }
 
+void print_phases(const sim::RunTotals& totals) {
+  const auto frames = static_cast<double>(std::max<std::int64_t>(totals.frames, 1));
+  fmt::print("{:<24}{:>10}{:>10}{:>18}{:>18}\n", "phase", "wall s", "CPU s", "wall ms a frame", "CPU ms a frame");
+  const auto print = [&](const char* name, const sim::PhaseTime& time) {
+    fmt::print("{:<24}{:>10.2f}{:>10.2f}{:>18.1f}{:>18.1f}\n", name, time.wall_s, time.cpu_s,
+               1e3 * time.wall_s / frames, 1e3 * time.cpu_s / frames);
+  };
+  print("dynamics", totals.phases.dynamics);
+  print("collision step", totals.phases.collision);
+  print("  proximities", totals.phases.within.proximity);
+  print("  repulsions, friction", totals.phases.within.repulsion);
+  print("  first search", totals.phases.within.search);
+  print("  response", totals.phases.within.response);
+  print("final velocity", totals.phases.velocity);
+  print("recording", totals.recording);
+  print("all", totals.all());
+}
+
 void print_totals(const sim::RunTotals& totals) {
   fmt::print("{} frames, {} steps ({} tried with a longer step first)\n", totals.frames, totals.steps, totals.halvings);
   fmt::print("repulsions {}, frictions {}\n", totals.repulsions, totals.frictions);
@@ -101,8 +120,7 @@ void print_totals(const sim::RunTotals& totals) {
                totals.dynamics_solves, totals.newton_rounds, totals.cg_iterations, totals.largest_residual_m,
                totals.unconverged_solves);
   }
-  fmt::print("seconds: dynamics {:.1f}, collision step {:.1f}, final velocity {:.1f}, recording {:.1f}\n",
-             totals.dynamics_s, totals.collision_s, totals.velocity_s, totals.record_s);
+  print_phases(totals);
 }
 
 ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {

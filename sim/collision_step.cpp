@@ -44,8 +44,12 @@ class Attempt {
     groups_.observe(motion_);
     report_.cut_candidates = limit_travel(groups_, motion_);
     if (options_.repulsion) repel();
-    tracker_.start(motion_);
+    {
+      const PhaseTimer timer(report_.phases.search);
+      tracker_.start(motion_);
+    }
     report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
+    const PhaseTimer timer(report_.phases.response);
     apply_impulses();
     move_impact_zones();
     return hold_back();
@@ -77,8 +81,12 @@ class Attempt {
 
 /// Sections 7.2 and 7.3: every contact at the start of the step.
 void Attempt::repel() {
-  const std::vector<PairProximity> proximities =
-      find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
+  std::vector<PairProximity> proximities;
+  {
+    const PhaseTimer timer(report_.phases.proximity);
+    proximities = find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
+  }
+  const PhaseTimer timer(report_.phases.repulsion);
   report_.proximities = static_cast<std::int64_t>(proximities.size());
   std::vector<RepulsionContact> contacts;
   for (const PairProximity& pair : local_proximities(mesh_, motion_.V_t0(), proximities)) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/kernel.h"
+#include "sim/phase_times.h"
 
 namespace selvage::sim {
 
@@ -64,6 +65,7 @@ struct CollisionStepReport {
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
   std::int32_t largest_zone = 0;             ///< vertices
   std::int64_t fail_safe_vertices = 0;       ///< 0 in ordinary scenes
+  CollisionPhases phases;                    ///< where the time went; differs from run to run
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
   std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
   std::optional<Collision> witness;          ///< for kStopped

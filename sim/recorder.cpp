@@ -1,7 +1,5 @@
 #include "sim/recorder.h"
 
-#include <chrono>
-
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
@@ -78,13 +76,12 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
 }
 
 void Recorder::record(const StepResult& step) {
-  const auto start = std::chrono::steady_clock::now();
+  const PhaseTimer timer(totals_.recording);
   totals_.add(step);
   const bool at_frame = simulation_.clock().at_frame();
   if (at_frame) ++totals_.frames;
   if (at_frame || kind_ == io::SequenceKind::kSteps) append();
   if (at_frame) save_checkpoint();
-  totals_.record_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void Recorder::finish(RunEnd end) {

@@ -1,6 +1,7 @@
 #include "sim/run_totals.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -22,14 +23,13 @@ void RunTotals::add(const StepResult& step) {
   fail_safe_vertices += report.fail_safe_vertices;
   pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
   waiting_bodies += static_cast<std::int64_t>(report.waiting_bodies.size());
-  dynamics_solves += step.dynamics.solves;
-  newton_rounds += step.dynamics.newton_rounds;
-  cg_iterations += step.dynamics.cg_iterations;
-  unconverged_solves += step.dynamics.unconverged;
-  largest_residual_m = std::max(largest_residual_m, step.dynamics.residual_m);
-  dynamics_s += step.seconds.dynamics;
-  collision_s += step.seconds.collision;
-  velocity_s += step.seconds.velocity;
+  phases += step.phases;
+}
+
+PhaseTime RunTotals::all() const {
+  PhaseTime sum = recording;
+  for (const PhaseTime& time : std::array{phases.dynamics, phases.collision, phases.velocity}) sum += time;
+  return sum;
 }
 
 std::string RunTotals::shortfalls() const {

@@ -18,7 +18,11 @@ struct RunTotals {
   std::int64_t pairs_below_tolerance = 0, waiting_bodies = 0;
   std::int64_t dynamics_solves = 0, newton_rounds = 0, cg_iterations = 0, unconverged_solves = 0;
   double largest_residual_m = 0;  ///< of an implicit solve
-  double dynamics_s = 0, collision_s = 0, velocity_s = 0, record_s = 0;
+  StepPhases phases;
+  PhaseTime recording;
+
+  /// Of the steps and of recording them.
+  [[nodiscard]] PhaseTime all() const;
 
   void add(const StepResult& step);
   /// One clause for each thing that went less well than the scene asked for, "" where nothing did: the fail-safe was
@@ -45,15 +49,12 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("fail_safe_vertices", totals.fail_safe_vertices);
   visit("pairs_below_tolerance", totals.pairs_below_tolerance);
   visit("waiting_bodies", totals.waiting_bodies);
-  visit("dynamics_solves", totals.dynamics_solves);
-  visit("newton_rounds", totals.newton_rounds);
-  visit("cg_iterations", totals.cg_iterations);
-  visit("unconverged_solves", totals.unconverged_solves);
-  visit("largest_residual_m", totals.largest_residual_m);
-  visit("dynamics_s", totals.dynamics_s);
-  visit("collision_s", totals.collision_s);
-  visit("velocity_s", totals.velocity_s);
-  visit("record_s", totals.record_s);
+  const auto visit_phase = [&](const char* name, auto& phase) {
+    visit((std::string(name) + "_s").c_str(), phase.wall_s);
+    visit((std::string(name) + "_cpu_s").c_str(), phase.cpu_s);
+  };
+  for_each_phase(totals.phases, visit_phase);
+  visit_phase("recording", totals.recording);
 }
 
 }  // namespace selvage::sim

@@ -1,7 +1,6 @@
 #include "sim/step.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "kernel/assert.h"
 #include "sim/central_differences.h"
@@ -51,19 +50,6 @@ std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world) 
   return std::make_unique<CentralDifferences>(world.springs, options);
 }
 
-// Adds the time of its scope.
-class PhaseTimer {
- public:
-  explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
-  ~PhaseTimer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  PhaseTimer(const PhaseTimer&) = delete;
-  PhaseTimer& operator=(const PhaseTimer&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 bool collided(const CollisionStepReport& report) {
   return report.impulse_rounds + report.zone_rounds + report.fail_safe_rounds > 0;
 }
@@ -87,7 +73,7 @@ StepResult Simulation::step() {
     Motion end;
     Positions candidate;
     {
-      const PhaseTimer timer(result.seconds.dynamics);
+      const PhaseTimer timer(result.phases.dynamics);
       candidate = candidate_positions(dt_s, end, result.dynamics);
     }
     if (result.dynamics.unconverged > 0 && clock_.can_halve()) {
@@ -97,16 +83,17 @@ StepResult Simulation::step() {
     }
     CollisionStepResult safe;
     {
-      const PhaseTimer timer(result.seconds.collision);
+      const PhaseTimer timer(result.phases.collision);
       safe = collision_step_(x_, candidate, {inverse_mass_, body_, scene_.squeeze}, dt_s);
     }
+    result.phases.within += safe.report.phases;
     if (safe.report.status == StepStatus::kSafe && collided(safe.report) && clock_.can_halve()) {
       clock_.halve();
       ++result.halvings;
       continue;
     }
     if (safe.report.status == StepStatus::kSafe) {
-      const PhaseTimer timer(result.seconds.velocity);
+      const PhaseTimer timer(result.phases.velocity);
       commit(safe, std::move(end), dt_s);
       clock_.advance(!collided(safe.report) && result.dynamics.unconverged == 0);
     }

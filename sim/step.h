@@ -5,6 +5,7 @@
 
 #include "sim/collision_step.h"
 #include "sim/dynamics.h"
+#include "sim/phase_times.h"
 #include "sim/scene.h"
 #include "sim/time_step.h"
 #include "sim/world.h"
@@ -17,17 +18,13 @@ struct SimulationState {
   StepClock::State clock;
 };
 
-struct PhaseSeconds {
-  double dynamics = 0, collision = 0, velocity = 0;
-};
-
 struct StepResult {
   CollisionStepReport report;  ///< of the step that was taken, or that could not be
   DynamicsReport dynamics;     ///< of the step that was taken
   double dt_s = 0;
   /// Tries thrown away because repulsions were not enough, or the equations of implicit dynamics were not solved.
   std::int32_t halvings = 0;
-  PhaseSeconds seconds;
+  StepPhases phases;  ///< those tries included
 };
 
 class Simulation {

@@ -1,5 +1,6 @@
 #include "sim/recorder.h"
 
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -178,6 +179,31 @@ TEST_F(RecorderTest, RunJsonHasTheTotals) {
        {std::string("\"schema\": \"selvage.run/1\""), std::string("\"frames\": 2,"),
         std::string("\"end\": \"complete\""), "\"steps\": " + std::to_string(recorder.totals().steps) + ","}) {
     EXPECT_NE(json.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(RecorderTest, PhasesOfARunAreTimed) {
+  Simulation simulation(scene_);
+  Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
+  const auto start = std::chrono::steady_clock::now();
+  run(simulation, recorder, 2);
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  recorder.finish(RunEnd::kComplete);
+  const StepPhases& phases = recorder.totals().phases;
+  const CollisionPhases& within = phases.within;
+  EXPECT_GT(phases.dynamics.wall_s, 0);
+  EXPECT_GT(within.proximity.wall_s, 0);
+  EXPECT_GT(within.search.wall_s, 0);
+  const double parts_s =
+      within.proximity.wall_s + within.repulsion.wall_s + within.search.wall_s + within.response.wall_s;
+  EXPECT_LE(parts_s, phases.collision.wall_s);
+  EXPECT_LE(recorder.totals().all().wall_s, elapsed_s);
+  EXPECT_GE(recorder.totals().all().wall_s, elapsed_s / 2) << "a phase is missing";
+  const std::string json = slurp(folder_.path() / "out" / "run.json");
+  for (const char* name :
+       {"dynamics", "proximity", "repulsion", "search", "response", "collision", "velocity", "recording"}) {
+    EXPECT_NE(json.find(std::string("\"") + name + "_s\": "), std::string::npos) << name;
+    EXPECT_NE(json.find(std::string("\"") + name + "_cpu_s\": "), std::string::npos) << name;
   }
 }
 
