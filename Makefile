@@ -102,6 +102,8 @@ BENCH_RESULTS := $(if $(QUICK),build/bench,bench/results)
 BENCH_PAGE    := $(if $(QUICK),build/bench/speed-against-error.md,docs/speed-against-error.md)
 bench: build  ## speed against error: bench/results and docs/speed-against-error.md; QUICK=1: two minutes, into build/bench
 	@cmake/setup packages-bench.txt
+	cmake --preset release --log-level=WARNING
+	cmake --build --preset release --target selvage_micro selvage_instructions
 	bench/report/run.py --build build/release --results $(BENCH_RESULTS) --page $(BENCH_PAGE) $(if $(QUICK),--quick)
 
 micro: setup  ## Google Benchmark of the smallest pieces of work, beside the textbook method

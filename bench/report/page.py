@@ -43,6 +43,12 @@ def hard_table(methods):
     return table(["class", "queries", "touch", *names], rows)
 
 
+def micro_table(micro):
+    return table(["work", "time a candidate pair", "instructions"],
+                 [[row["name"], f"{row['ratio']:.3f}", f"{row['instructions']:,}" if "instructions" in row else ""]
+                  for row in micro["workloads"]])
+
+
 def checker_table(verify):
     rows = []
     for sheet in verify["sheets"]:
@@ -85,5 +91,5 @@ def write(template, reports, machine, results, page):
     text = string.Template(template.read_text()).substitute(
         machine=circumstances(machine), cloth_table=cloth_table(reports["methods"]), hard_table=hard_table(reports["methods"]),
         checker_table=checker_table(reports["verify"]), accuracy_table=accuracy_table(reports["sim"]),
-        conservation_table=conservation_table(reports["sim"]), results=results)
+        conservation_table=conservation_table(reports["sim"]), micro_table=micro_table(reports["micro"]), results=results)
     page.write_text(text)

@@ -14,6 +14,7 @@ import sys
 import time
 
 import machine
+import micro
 import page
 import plot_methods
 import plot_scaling
@@ -73,10 +74,12 @@ def main():
         for name in options.only or RUNS:
             arguments = RUNS[name][1 if options.quick else 0]
             codes.append(measure(options.build, name, arguments, options.results))
+        if not options.only:
+            (options.results / "micro.json").write_text(json.dumps(micro.measure(options.build), indent=2) + "\n")
         about["minutes"], about["load_after"] = (time.monotonic() - start) / 60, machine.load()
         about["quick"] = options.quick
         about_file.write_text(json.dumps(about, indent=2) + "\n")
-    reports = {name: json.loads((options.results / f"{name}.json").read_text()) for name in RUNS}
+    reports = {name: json.loads((options.results / f"{name}.json").read_text()) for name in (*RUNS, "micro")}
     tables.write_all(reports, options.results)
     plot_methods.plot(reports["methods"], options.results)
     plot_scaling.plot_checker(reports["verify"], options.results)

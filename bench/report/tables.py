@@ -32,3 +32,4 @@ def write_all(reports, folder):
         write(folder / f"{name}.csv", nested(reports[name]["motions"], "methods"))
     for name in ("time_steps", "meshes", "conservation", "modules", "growth"):
         write(folder / f"sim-{name}.csv", [flat(row) for row in reports["sim"][name]])
+    write(folder / "micro.csv", reports["micro"]["workloads"])
