@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kSceneByteLimit = std::size_t{1} << 24;  // a scene of 16 MB is a mesh in the wrong format
 constexpr std::int64_t kMaxSide = 10'000;                      // 10^8 vertices: more than memory holds
+constexpr std::int64_t kMaxCopies = 10'000;                    // a million vertices of the smallest useful sheet
 constexpr std::int64_t kMaxFrames = 1'000'000;                 // the six digits of frame_000000.npy
 constexpr Range kDegrees{-1e6, 1e6};
 
@@ -152,9 +153,13 @@ std::string read_name(TomlTable& table, const std::string& fallback, std::set<st
   return name;
 }
 
-ClothSpec read_cloth(TomlTable table, std::set<std::string>& names) {
+/// The cloth and its copies, each further along by `copy_offset_m`: stacks, and rows of hanging sheets.
+std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names) {
   ClothSpec cloth;
   cloth.name = read_name(table, "cloth", names);
+  const std::int64_t copies = table.integer("copies", 1, kMaxCopies, 1);
+  if (copies == 1 && table.has("copy_offset_m")) table.fail("copy_offset_m", "there are no copies; give copies too");
+  const Vec3 offset = copies == 1 ? Vec3::Zero() : table.vector("copy_offset_m", kCoordinate);
   cloth.surface = read_surface(table, true);
   cloth.placement = read_pose(table);
   cloth.velocity_m_s = table.vector("velocity_m_s", {-1e6, 1e6}, Vec3::Zero());
@@ -178,7 +183,16 @@ ClothSpec read_cloth(TomlTable table, std::set<std::string>& names) {
     }
   }
   table.finish();
-  return cloth;
+  std::vector<ClothSpec> all(static_cast<std::size_t>(copies), cloth);
+  for (std::int64_t i = 1; i < copies; ++i) {
+    ClothSpec& copy = all[static_cast<std::size_t>(i)];
+    copy.name = fmt::format("{} {}", cloth.name, i + 1);
+    if (!names.insert(copy.name).second) {
+      table.fail("copies", fmt::format("a copy and another part are both called \"{}\"; rename one", copy.name));
+    }
+    copy.placement.position_m += static_cast<double>(i) * offset;
+  }
+  return all;
 }
 
 BodySpec read_body(TomlTable table, std::set<std::string>& names) {
@@ -260,7 +274,9 @@ Scene read_root(TomlTable root) {
   const bool stiffness_given = collision && collision->has("repulsion_stiffness_n_m");
   if (collision) scene.collision = read_collision(std::move(*collision));
   std::set<std::string> names;
-  for (TomlTable& cloth : root.tables("cloth")) scene.cloths.push_back(read_cloth(cloth, names));
+  for (TomlTable& table : root.tables("cloth")) {
+    for (ClothSpec& cloth : read_cloth(table, names)) scene.cloths.push_back(std::move(cloth));
+  }
   if (scene.cloths.empty()) root.fail("no cloth; add a table [[cloth]]");
   for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, names));
   root.finish();

@@ -55,6 +55,11 @@ const BadScene kBadScenes[] = {
     {"two surfaces", kScene + "[[body]]\nsphere = {radius_m = 1}\nbox = {size_m = [1, 1, 1]}\n", 11, "second surface"},
     {"no surface", kScene + "[[body]]\nname = \"air\"\n", 9, "no surface"},
     {"a name twice", kScene + "[[body]]\nname = \"cloth\"\nsphere = {radius_m = 1}\n", 10, "a second \"cloth\""},
+    {"a copy called like another part",
+     kScene + "copies = 2\ncopy_offset_m = [0, 0, 1]\n[[body]]\nname = \"cloth 2\"\nsphere = {radius_m = 1}\n", 12,
+     "a second \"cloth 2\""},
+    {"copies in the same place", kScene + "copies = 2\n", 4, "copy_offset_m is missing"},
+    {"an offset without copies", kScene + "copy_offset_m = [0, 0, 1]\n", 9, "give copies too"},
     {"keys out of order",
      kScene + "[[body]]\nsphere = {radius_m = 1}\n[[body.key]]\ntime_s = 1\n[[body.key]]\ntime_s = 1\n", 14,
      "must grow"},
@@ -174,6 +179,15 @@ rotation_deg = [0, 0, 90]
   EXPECT_EQ(cloth.pins.at(1).script.interpolation, Interpolation::kSmooth);
   EXPECT_EQ(std::get<BoxSpec>(scene.bodies.at(0).surface).cells, 4);
   EXPECT_EQ(scene.bodies.at(0).script.keys.at(0).pose.rotation_deg, Vec3(0, 0, 90));
+}
+
+TEST(SceneReader, CopiesFollowEachOther) {
+  const Scene scene = parse_scene(
+      kScene + "name = \"layer\"\nposition_m = [0, 0, 1]\ncopies = 3\ncopy_offset_m = [0, 0.5, 0.25]\n", "");
+  ASSERT_EQ(scene.cloths.size(), 3u);
+  EXPECT_EQ(scene.cloths[0].name, "layer");
+  EXPECT_EQ(scene.cloths[2].name, "layer 3");
+  EXPECT_EQ(scene.cloths[2].placement.position_m, Vec3(0, 1, 1.5));
 }
 
 TEST(SceneReader, ValuesMayDependOnTheQuality) {
