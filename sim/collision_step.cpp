@@ -7,6 +7,7 @@
 #include "kernel/assert.h"
 #include "kernel/fp_env.h"
 #include "sim/collision_tracker.h"
+#include "sim/contact_table.h"
 #include "sim/friction.h"
 #include "sim/impact_zone.h"
 #include "sim/impulse.h"
@@ -25,16 +26,17 @@ namespace {
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
  public:
-  Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const CollisionBodies& bodies,
-          std::vector<std::uint8_t> surface, ScriptedGroups& groups, double dt_s)
+  Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const ContactTable& contacts,
+          const CollisionBodies& bodies, std::vector<std::uint8_t> surface, ScriptedGroups& groups, double dt_s)
       : mesh_(mesh),
         hierarchy_(hierarchy),
         options_(options),
+        contacts_(contacts),
         bodies_(bodies),
         groups_(groups),
         dt_s_(dt_s),
         surface_(std::move(surface)),
-        tracker_(mesh, hierarchy, {options.tolerance_m, options.max_intervals}, surface_),
+        tracker_(mesh, hierarchy, contacts, options.max_intervals, surface_),
         update_(mesh.vertex_count) {}
 
   /// A conflict where the fail-safe ends in one.
@@ -69,6 +71,7 @@ class Attempt {
   const Mesh& mesh_;
   BoxHierarchy& hierarchy_;
   const CollisionOptions& options_;
+  const ContactTable& contacts_;
   const CollisionBodies& bodies_;
   ScriptedGroups& groups_;
   const double dt_s_;
@@ -84,13 +87,21 @@ void Attempt::repel() {
   std::vector<PairProximity> proximities;
   {
     const PhaseTimer timer(report_.phases.proximity);
-    proximities = find_proximities(mesh_, hierarchy_, motion_.V_t0(), options_.thickness_m, surface_);
+    proximities = find_proximities(mesh_, hierarchy_, motion_.V_t0(), contacts_.thickness_upper(), surface_);
+    if (!contacts_.is_uniform()) {
+      std::erase_if(proximities, [&](const PairProximity& pair) {
+        return !(pair.proximity.distance_lower < contacts_.of(pair.kind, pair.vertices).thickness_m);
+      });
+    }
   }
   const PhaseTimer timer(report_.phases.repulsion);
   report_.proximities = static_cast<std::int64_t>(proximities.size());
   std::vector<RepulsionContact> contacts;
   for (const PairProximity& pair : local_proximities(mesh_, motion_.V_t0(), proximities)) {
-    if (auto contact = make_contact(pair, motion_.V_t0(), bodies_.inverse_mass)) contacts.push_back(*contact);
+    const ContactProperties properties = contacts_.of(pair.kind, pair.vertices);
+    if (auto contact = make_contact(pair, properties, motion_.V_t0(), bodies_.inverse_mass)) {
+      contacts.push_back(*contact);
+    }
   }
   const RepulsionCount count = repel_contacts(contacts, options_, dt_s_, motion_);
   report_.repulsions = count.repulsions;
@@ -103,9 +114,11 @@ void Attempt::apply_impulses() {
     ++report_.impulse_rounds;
     std::vector<PairChange> changes;
     for (const Collision& collision : tracker_.collisions()) {
+      const std::array<VertexId, 4> pair = tracker_.vertices(collision);
       const Interaction interaction =
-          make_interaction(collision.kind, tracker_.vertices(collision), collision.ccd.weights, bodies_.inverse_mass);
-      changes.push_back(collision_impulse(collision, interaction, motion_, options_.tolerance_m));
+          make_interaction(collision.kind, pair, collision.ccd.weights, bodies_.inverse_mass);
+      changes.push_back(
+          collision_impulse(collision, interaction, motion_, contacts_.of(collision.kind, pair).tolerance_m));
     }
     update_.apply(changes, options_.relaxation, motion_);
     if (!motion_.anything_changed()) return;
@@ -119,10 +132,11 @@ bool Attempt::zone_can_help(const Collision& collision) const {
   const std::array<VertexId, 4> v = tracker_.vertices(collision);
   const Positions& V = motion_.V_t0();
   const std::array<Vec3, 4> x{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
-  if (collision.kind == PairKind::kEe) return ee_proximity(x).distance_lower > options_.tolerance_m;
+  const double tolerance = contacts_.of(collision.kind, v).tolerance_m;
+  if (collision.kind == PairKind::kEe) return ee_proximity(x).distance_lower > tolerance;
   // A self pair is {p, a, b, p}: its edge is a face without area.
   const Vec3& c = collision.kind == PairKind::kSelf ? x[2] : x[3];
-  return vf_proximity({x[0], x[1], x[2], c}).distance_lower > options_.tolerance_m;
+  return vf_proximity({x[0], x[1], x[2], c}).distance_lower > tolerance;
 }
 
 /// Section 7.5: merge what collides into rigid zones, and grow them until nothing collides.
@@ -146,7 +160,7 @@ void Attempt::move_impact_zones() {
 /// The fail-safe: what still collides is held back, more of it every round.
 std::optional<StepLimiter::Conflict> Attempt::hold_back() {
   if (!tracker_.has_motion_collision()) return std::nullopt;
-  StepLimiter limiter(mesh_, hierarchy_, groups_, options_.thickness_m);
+  StepLimiter limiter(mesh_, hierarchy_, groups_, contacts_.thickness_upper());
   while (tracker_.has_motion_collision()) {
     SELVAGE_ASSERT(report_.fail_safe_rounds <= 3 * static_cast<std::int64_t>(mesh_.vertex_count));
     ++report_.fail_safe_rounds;
@@ -178,17 +192,22 @@ std::string_view name_of(StepStatus status) {
 }
 
 struct CollisionStep::Impl {
-  Impl(const Mesh& step_mesh, const CollisionOptions& step_options)
-      : mesh(step_mesh), options(step_options), hierarchy(step_mesh), parts(step_mesh) {}
+  Impl(const Mesh& step_mesh, const CollisionOptions& step_options, ContactSurfaces surfaces)
+      : mesh(step_mesh),
+        options(step_options),
+        contacts(step_mesh, step_options, std::move(surfaces)),
+        hierarchy(step_mesh),
+        parts(step_mesh) {}
 
   const Mesh& mesh;
   CollisionOptions options;
+  ContactTable contacts;
   BoxHierarchy hierarchy;
   SurfaceParts parts;
 };
 
-CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options)
-    : impl_(std::make_unique<Impl>(mesh, options)) {}
+CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces)
+    : impl_(std::make_unique<Impl>(mesh, options, std::move(surfaces))) {}
 CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
 
@@ -197,11 +216,12 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   const FpEnvGuard guard;
   CollisionStepResult result;
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
+  if (result.report.input_error == InputError::kNone) result.report.input_error = impl_->contacts.error();
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);
-  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, bodies, impl_->parts.cloth_flags(bodies), groups,
-                  dt_s);
+  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, bodies,
+                  impl_->parts.cloth_flags(bodies), groups, dt_s);
   std::vector<std::int32_t> waiting;
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {

@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "kernel/kernel.h"
+#include "sim/contact_properties.h"
 #include "sim/phase_times.h"
 
 namespace selvage::sim {
 
-/// Defaults are the paper's numbers, except for `relaxation`.
+/// Defaults are the paper's numbers, except for `relaxation`. The first two and the friction are those of the whole
+/// mesh, unless ContactSurfaces says what its parts have.
 struct CollisionOptions {
   double thickness_m = 1e-3;           ///< cloth thickness h: repulsions act below it (paper, 7.2); >= 0
   double tolerance_m = 1e-6;           ///< distance kept at the end of every step (paper, section 6); >= 0
@@ -85,7 +87,10 @@ struct CollisionStepResult {
 /// Holds what persists between steps (connectivity, hierarchy, scratch), so that a step allocates little.
 class CollisionStep {
  public:
-  CollisionStep(const Mesh& mesh, const CollisionOptions& options);  ///< the mesh must outlive it
+  /// The mesh must outlive it. With `surfaces` each pair has the thickness, tolerance and friction of its two surfaces
+  /// (combine()), and those of the options are not used; surfaces that do not fit the mesh, or have a value out of its
+  /// range, are called invalid by every step.
+  CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces = {});
   ~CollisionStep();
   CollisionStep(CollisionStep&&) noexcept;
 
@@ -93,9 +98,9 @@ class CollisionStep {
   /// looked at (a part of the mesh in which every vertex has a body is one). V_candidate: any finite positions;
   /// scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the scripts' too,
   /// are rounded to it. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than
-  /// tolerance is named; scripted vertices are at their (rounded) candidates, or at V_t0 where their body waits; all
-  /// others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations +
-  /// zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
+  /// its tolerance is named; scripted vertices are at their (rounded) candidates, or at V_t0 where their body waits;
+  /// all others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations
+  /// + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s);
 

@@ -7,9 +7,13 @@
 
 namespace selvage::sim {
 
-CollisionTracker::CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const CcdOptions& options,
-                                   std::vector<std::uint8_t> surface)
-    : mesh_(mesh), hierarchy_(hierarchy), options_(options), surface_(std::move(surface)) {}
+CollisionTracker::CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts,
+                                   std::int32_t max_intervals, std::vector<std::uint8_t> surface)
+    : mesh_(mesh),
+      hierarchy_(hierarchy),
+      contacts_(contacts),
+      max_intervals_(max_intervals),
+      surface_(std::move(surface)) {}
 
 std::array<VertexId, 4> CollisionTracker::vertices(const Collision& collision) const {
   return pair_vertices(mesh_, collision.kind, collision.first, collision.second);
@@ -20,13 +24,41 @@ bool CollisionTracker::has_motion_collision() const {
 }
 
 CollisionReport CollisionTracker::find(const StepMotion& motion, std::span<const std::uint8_t> active) {
-  CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options_, active);
+  const CcdOptions options{contacts_.tolerance_upper(), max_intervals_};
+  CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options, active);
+  if (!contacts_.is_uniform()) hold_to_own_tolerance(motion, found);
   for (Collision& collision : found.collisions) {
     if (std::ranges::any_of(vertices(collision), [&](VertexId v) { return motion.moves(v); })) continue;
     collision.ccd.cause = CcdCause::kEnd;
     collision.ccd.toi_lower = 1;
   }
   return found;
+}
+
+void CollisionTracker::hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const {
+  const auto corners = [](const Positions& V, const std::array<VertexId, 4>& v) {
+    return std::array<Vec3, 4>{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
+  };
+  for (Collision& collision : found.collisions) {
+    if (collision.ccd.cause != CcdCause::kEnd) continue;  // a motion is free of touch or not, whatever the tolerance
+    const std::array<VertexId, 4> v = vertices(collision);
+    const CcdOptions options{contacts_.of(collision.kind, v).tolerance_m, max_intervals_};
+    if (options.tolerance == contacts_.tolerance_upper()) continue;
+    const std::array<Vec3, 4> x_t0 = corners(motion.V_t0(), v), x_t1 = corners(motion.x(), v);
+    switch (collision.kind) {
+      case PairKind::kVf:
+        collision.ccd = vf_ccd(x_t0, x_t1, options);
+        break;
+      case PairKind::kEe:
+        collision.ccd = ee_ccd(x_t0, x_t1, options);
+        break;
+      case PairKind::kSelf:
+        collision.ccd = self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
+        break;
+    }
+    found.intervals += collision.ccd.intervals;
+  }
+  std::erase_if(found.collisions, [](const Collision& c) { return c.ccd.verdict == CcdVerdict::kSeparated; });
 }
 
 void CollisionTracker::count(const CollisionReport& found) {

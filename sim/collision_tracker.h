@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "kernel/collisions.h"
+#include "sim/contact_table.h"
 #include "sim/step_motion.h"
 
 namespace selvage::sim {
 
 class CollisionTracker {
  public:
-  /// `surface`: #V flags of the vertices whose pairs count (SurfaceParts::cloth_flags). The mesh and the hierarchy must
-  /// outlive it.
-  CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const CcdOptions& options,
+  /// `surface`: #V flags of the vertices whose pairs count (SurfaceParts::cloth_flags). Each pair is held to its own
+  /// tolerance in `contacts`. The mesh, the hierarchy and the contacts must outlive it.
+  CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts, std::int32_t max_intervals,
                    std::vector<std::uint8_t> surface);
 
   /// Tests everything.
@@ -33,11 +34,14 @@ class CollisionTracker {
 
  private:
   [[nodiscard]] CollisionReport find(const StepMotion& motion, std::span<const std::uint8_t> active);
+  /// Asks pairs that are apart by the largest tolerance alone for their own.
+  void hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const;
   void count(const CollisionReport& found);
 
   const Mesh& mesh_;
   BoxHierarchy& hierarchy_;
-  CcdOptions options_;
+  const ContactTable& contacts_;
+  std::int32_t max_intervals_;
   std::vector<std::uint8_t> surface_;
   CollisionReport report_;
 };

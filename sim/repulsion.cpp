@@ -6,11 +6,10 @@
 
 namespace selvage::sim {
 
-Repulsion repulsion(double distance, double displacement, double inverse_mass_kg, const CollisionOptions& options,
+Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg, const CollisionOptions& options,
                     double dt_s) {
   Repulsion result;
   result.inelastic = std::max(-displacement, 0.0);
-  const double overlap = options.thickness_m - distance;
   if (!(options.repulsion_stiffness_n_m > 0) || !(overlap > 0)) return result;
   const double limit = options.overlap_fraction * overlap - (displacement + result.inelastic);
   if (!(limit > 0)) return result;
@@ -20,10 +19,11 @@ Repulsion repulsion(double distance, double displacement, double inverse_mass_kg
   return result;
 }
 
-std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Positions& V_t0,
-                                             std::span<const double> inverse_mass) {
+std::optional<RepulsionContact> make_contact(const PairProximity& pair, const ContactProperties& properties,
+                                             const Positions& V_t0, std::span<const double> inverse_mass) {
   RepulsionContact contact;
   contact.interaction = make_interaction(pair.kind, pair.vertices, pair.proximity.weights, inverse_mass);
+  contact.properties = properties;
   contact.x_t0 = gather(contact.interaction, V_t0);
   contact.normal = pair.proximity.normal;
   contact.distance = pair.proximity.distance;
@@ -39,12 +39,13 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   const PairVectors d = gather(interaction, displacement);
   const double displacement_n = relative(interaction, d).dot(contact.normal);
   if (sweep > 0 && !(-displacement_n > kSettledApproach * contact.distance)) return result;
-  const Repulsion push = repulsion(contact.distance, displacement_n, contact.mobility * interaction.inverse_mass_scale,
-                                   options, sweep == 0 ? dt_s : 0);
+  const ContactProperties& properties = contact.properties;
+  const Repulsion push = repulsion(properties.thickness_m - contact.distance, displacement_n,
+                                   contact.mobility * interaction.inverse_mass_scale, options, sweep == 0 ? dt_s : 0);
   if (!(push.total() > 0)) return result;
   result.repels = true;
   result.change = distribute(interaction, push.total() * contact.normal);
-  const FrictionCoefficients friction{options.friction_static, options.friction_kinetic};
+  const FrictionCoefficients friction{properties.friction_static, properties.friction_kinetic};
   if (const auto rub = friction_change(interaction, contact.x_t0, d, contact.normal, push.total(), friction)) {
     result.rubs = true;
     for (std::size_t i = 0; i < 4; ++i) result.change[i] += (*rub)[i];

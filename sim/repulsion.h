@@ -17,16 +17,18 @@ struct Repulsion {
   [[nodiscard]] double total() const { return inelastic + spring; }
 };
 
-/// For two points `distance` apart whose relative displacement over the step has the normal component `displacement`
-/// (negative: approaching). `inverse_mass_kg` is the pair's K in 1/kg: an impulse j changes the relative velocity by K
-/// j. Differs from the paper's formula in the spring's limit, which there comes out twice as large for equal masses
-/// (impulse m dv for two particles of mass m changes their relative velocity by 2 dv); its text asks for this one.
-[[nodiscard]] Repulsion repulsion(double distance, double displacement, double inverse_mass_kg,
+/// For two points that overlap by `overlap` (thickness less distance, m) and whose relative displacement over the step
+/// has the normal component `displacement` (negative: approaching). `inverse_mass_kg` is the pair's K in 1/kg: an
+/// impulse j changes the relative velocity by K j. Differs from the paper's formula in the spring's limit, which there
+/// comes out twice as large for equal masses (impulse m dv for two particles of mass m changes their relative velocity
+/// by 2 dv); its text asks for this one.
+[[nodiscard]] Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg,
                                   const CollisionOptions& options, double dt_s);
 
 /// A proximity as it repels: what does not change between rounds.
 struct RepulsionContact {
   Interaction interaction;
+  ContactProperties properties;
   PairVectors x_t0 = zero_vectors();
   Vec3 normal = Vec3::Zero();
   double distance = 0;
@@ -34,7 +36,8 @@ struct RepulsionContact {
 };
 
 /// Nothing where no vertex that matters can move, or where the points coincide.
-[[nodiscard]] std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Positions& V_t0,
+[[nodiscard]] std::optional<RepulsionContact> make_contact(const PairProximity& pair,
+                                                           const ContactProperties& properties, const Positions& V_t0,
                                                            std::span<const double> inverse_mass);
 
 /// Sweeps over the contacts of a step; proximities are found once. Contacts act one after the other (paper, 7.2:

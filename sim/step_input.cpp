@@ -9,7 +9,6 @@
 namespace selvage::sim {
 namespace {
 
-bool is_length(double value) { return value >= 0 && value <= kMaxCoordinate; }  // false for NaN
 bool is_finite_nonnegative(double value) { return value >= 0 && std::isfinite(value); }
 
 bool is_on_lattice(const PositionsRef& V, CollisionOptions::Precision precision) {
@@ -46,13 +45,11 @@ InputError validate_candidate(const PositionsRef& V_candidate, std::span<const d
 }  // namespace
 
 InputError validate_options(const CollisionOptions& o) {
-  const bool lengths = is_length(o.thickness_m) && is_length(o.tolerance_m);
+  const bool contact = is_valid({o.thickness_m, o.tolerance_m, o.friction_static, o.friction_kinetic});
   const bool spring = is_finite_nonnegative(o.repulsion_stiffness_n_m) && o.overlap_fraction >= 0 &&
                       o.overlap_fraction <= 1 && o.relaxation > 0 && o.relaxation <= 1;
-  const bool friction = is_finite_nonnegative(o.friction_static) && is_finite_nonnegative(o.friction_kinetic) &&
-                        o.friction_kinetic <= o.friction_static;
   const bool limits = o.impulse_iterations >= 0 && o.zone_iterations >= 0 && o.max_intervals >= 1;
-  return lengths && spring && friction && limits ? InputError::kNone : InputError::kBadOption;
+  return contact && spring && limits ? InputError::kNone : InputError::kBadOption;
 }
 
 InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options, const PositionsRef& V_t0,

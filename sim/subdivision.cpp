@@ -88,7 +88,9 @@ Positions Subdivision::operator()(const PositionsRef& V, SubdivisionCounts& coun
     motion.start(level->rules.midpoints(x), level->rules.smooth(x), CollisionOptions::Precision::kFloat64);
     const Positions way = motion.displacement();
     BoxHierarchy hierarchy(level->mesh);
-    CollisionTracker tracker(level->mesh, hierarchy, {0, CollisionOptions().max_intervals}, level->rules.moves());
+    const CollisionOptions options{.tolerance_m = 0};
+    const ContactTable contacts(level->mesh, options, {});
+    CollisionTracker tracker(level->mesh, hierarchy, contacts, options.max_intervals, level->rules.moves());
     std::vector<double> share(static_cast<std::size_t>(level->mesh.vertex_count), 1);
     tracker.start(motion);
     while (tracker.has_motion_collision()) {

@@ -18,29 +18,28 @@ TEST(Repulsion, SpringGivesTheSmallerOfItsForceAndAFractionOfTheOverlap) {
   options.repulsion_stiffness_n_m = 100;
   const double overlap = 0.6e-3, dt_s = 1e-3, inverse_mass_kg = 1;
   const double by_force = dt_s * dt_s * 100 * overlap * inverse_mass_kg;  // 6e-8 m
-  EXPECT_NEAR(repulsion(0.4e-3, 0, inverse_mass_kg, options, dt_s).spring, by_force, 1e-18);
+  EXPECT_NEAR(repulsion(overlap, 0, inverse_mass_kg, options, dt_s).spring, by_force, 1e-18);
   options.repulsion_stiffness_n_m = 1e9;
-  EXPECT_NEAR(repulsion(0.4e-3, 0, inverse_mass_kg, options, dt_s).spring, 0.1 * overlap, 1e-18);
-  EXPECT_NEAR(repulsion(0.4e-3, 0.02e-3, inverse_mass_kg, options, dt_s).spring, 0.04e-3, 1e-18);
-  EXPECT_EQ(repulsion(0.4e-3, 0.07e-3, inverse_mass_kg, options, dt_s).spring, 0);  // already leaves faster
-  EXPECT_EQ(repulsion(1.5e-3, 0, inverse_mass_kg, options, dt_s).spring, 0);        // no overlap
-  options.repulsion_stiffness_n_m = 1e308;                                          // overflow ends at the limit
-  EXPECT_NEAR(repulsion(0.4e-3, 0, 1e308, options, dt_s).spring, 0.1 * overlap, 1e-18);
+  EXPECT_NEAR(repulsion(overlap, 0, inverse_mass_kg, options, dt_s).spring, 0.1 * overlap, 1e-18);
+  EXPECT_NEAR(repulsion(overlap, 0.02e-3, inverse_mass_kg, options, dt_s).spring, 0.04e-3, 1e-18);
+  EXPECT_EQ(repulsion(overlap, 0.07e-3, inverse_mass_kg, options, dt_s).spring, 0);  // already leaves faster
+  EXPECT_EQ(repulsion(-0.5e-3, 0, inverse_mass_kg, options, dt_s).spring, 0);        // no overlap
+  options.repulsion_stiffness_n_m = 1e308;                                           // overflow ends at the limit
+  EXPECT_NEAR(repulsion(overlap, 0, 1e308, options, dt_s).spring, 0.1 * overlap, 1e-18);
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_NEAR(repulsion(0.4e-3, 0, infinity, options, 1e-300).spring, 0.1 * overlap, 1e-18);  // 0 * infinity too
+  EXPECT_NEAR(repulsion(overlap, 0, infinity, options, 1e-300).spring, 0.1 * overlap, 1e-18);  // 0 * infinity too
 }
 
 TEST(Repulsion, NeverLeavesTheOverlapFasterThanItsFraction) {
   selvage::testing::check_property(300, 21, [] {
     CollisionOptions options;
     options.repulsion_stiffness_n_m = std::exp2(number_between(-10, 40));
-    const double distance = number_between(0, 2e-3), displacement = number_between(-1e-3, 1e-3);
-    const Repulsion push = repulsion(distance, displacement, std::exp2(number_between(-5, 5)), options, 1e-2);
+    const double overlap = number_between(-1e-3, 1e-3), displacement = number_between(-1e-3, 1e-3);
+    const Repulsion push = repulsion(overlap, displacement, std::exp2(number_between(-5, 5)), options, 1e-2);
     RC_ASSERT(push.inelastic >= 0 && push.spring >= 0);
     const double after = displacement + push.total();
-    const double overlap = std::max(options.thickness_m - distance, 0.0);
     RC_ASSERT(after >= 0);
-    RC_ASSERT(after <= std::max(displacement, 0.1 * overlap) + 1e-18);
+    RC_ASSERT(after <= std::max({displacement, 0.1 * overlap, 0.0}) + 1e-18);
   });
 }
 

@@ -63,14 +63,14 @@ void prop_repulsion_ends_the_approach() {
   contact.distance = relative(pair.interaction, pair.x_t0).z();
   contact.mobility = effective_mobility(pair.interaction);
   CollisionOptions options;
-  options.thickness_m = 0.25;
+  contact.properties.thickness_m = 0.25;
   options.repulsion_stiffness_n_m = integer_in(0, 2) == 0 ? 0 : 1000;
   Positions displacement(4, 3);
   for (Eigen::Index i = 0; i < 4; ++i) displacement.row(i) = pair.displacement[static_cast<std::size_t>(i)];
   const RepulsionChange answer = repel_contact(contact, displacement, options, 1e-2, 0);
   const double before = relative(pair.interaction, pair.displacement).z();
   const double after = relative(pair.interaction, sum(pair.displacement, answer.change)).z();
-  const double most = options.overlap_fraction * (options.thickness_m - contact.distance);
+  const double most = options.overlap_fraction * (contact.properties.thickness_m - contact.distance);
   RC_ASSERT(answer.repels || before >= 0);
   RC_ASSERT(after >= -1e-12);
   RC_ASSERT(after <= std::max(before, options.repulsion_stiffness_n_m > 0 ? most : 0.0) + 1e-12);

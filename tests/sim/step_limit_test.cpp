@@ -74,7 +74,8 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
   motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
   groups.observe(motion);
   const std::vector<std::uint8_t> all(6, 1);
-  CollisionTracker tracker(mesh, hierarchy, {}, all);
+  const ContactTable contacts(mesh, {}, {});
+  CollisionTracker tracker(mesh, hierarchy, contacts, 4096, all);
   tracker.start(motion);
   ASSERT_TRUE(tracker.has_motion_collision());
   std::vector<std::uint8_t> collides(6, 0);

@@ -45,7 +45,7 @@ struct StepScene {
   }
   [[nodiscard]] CollisionStepResult step() const {
     const Mesh connectivity = mesh();
-    return CollisionStep(connectivity, options)(V_t0, V_candidate, bodies(), dt_s);
+    return CollisionStep(connectivity, options, surfaces)(V_t0, V_candidate, bodies(), dt_s);
   }
   /// Steps on from the result: its positions become V_t0, and the candidates continue with `velocity`.
   void advance(const CollisionStepResult& result) {
@@ -60,6 +60,7 @@ struct StepScene {
   std::vector<std::int32_t> body;
   SqueezePolicy policy = SqueezePolicy::kStop;
   CollisionOptions options;
+  ContactSurfaces surfaces;
   double dt_s = 1e-2;
 };
 
