@@ -123,13 +123,7 @@ Case parse_case(std::string_view text, const std::string& name) {
     kept.query.x_t0[3] = kept.query.x_t0[0];
     kept.query.x_t1[3] = kept.query.x_t1[0];
   }
-  lines.advance();
-  lines.expect_word("expect");
-  const std::string_view answer = lines.word();
-  if (answer != "touches" && answer != "apart") lines.fail("the answer is 'touches' or 'apart'");
-  kept.touches = answer == "touches";
-  lines.expect_end_of_line();
-  if (!lines.only_blank_left()) lines.fail("nothing may follow 'expect'");
+  kept.touches = lines.last_answer();
   return kept;
 }
 

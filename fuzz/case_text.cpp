@@ -94,6 +94,16 @@ std::int64_t CaseLines::integer(std::string_view word, std::int64_t lowest, std:
   return x;
 }
 
+bool CaseLines::last_answer() {
+  advance();
+  expect_word("expect");
+  const std::string_view answer = word();
+  if (answer != "touches" && answer != "apart") fail("the answer is 'touches' or 'apart'");
+  expect_end_of_line();
+  if (!only_blank_left()) fail("nothing may follow 'expect'");
+  return answer == "touches";
+}
+
 std::string_view CaseLines::rest_of_line() {
   const std::string_view rest = line_.substr(word_start(line_));
   line_ = {};

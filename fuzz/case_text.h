@@ -30,6 +30,8 @@ class CaseLines {
   /// An integer in [lowest, highest], from a word; `what` names it where it is none.
   [[nodiscard]] std::int64_t integer(std::string_view word, std::int64_t lowest, std::int64_t highest,
                                      std::string_view what) const;
+  /// The last line, "expect touches" or "expect apart": whether it touches.
+  [[nodiscard]] bool last_answer();
   /// What is left of the line, from the next word on.
   [[nodiscard]] std::string_view rest_of_line();
   [[noreturn]] void fail(const std::string& what) const;

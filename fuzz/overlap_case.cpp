@@ -60,13 +60,7 @@ OverlapCase parse_overlap_case(std::string_view text, const std::string& name) {
     lines.expect_end_of_line();
   }
   require_mesh(lines, kept);
-  lines.advance();
-  lines.expect_word("expect");
-  const std::string_view answer = lines.word();
-  if (answer != "touches" && answer != "apart") lines.fail("the answer is 'touches' or 'apart'");
-  kept.touches = answer == "touches";
-  lines.expect_end_of_line();
-  if (!lines.only_blank_left()) lines.fail("nothing may follow 'expect'");
+  kept.touches = lines.last_answer();
   return kept;
 }
 

@@ -1,7 +1,6 @@
 // K7: one hash of the answers to a fixed set of queries, the same for g++ and clang++, every optimisation level and
 // instruction set, and whatever floating-point environment the caller has. It changes only when the kernel's answers
 // are changed on purpose.
-#include <bit>
 #include <cfenv>
 #include <cmath>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "kernel/fp_env.h"
 #include "kernel/proximity.h"
 #include "tests/kernel/random_points.h"
+#include "tests/same_bits/hash.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -19,48 +19,13 @@
 
 namespace selvage {
 
+using testing::Hash;
 using testing::Random;
 using Points = std::array<Vec3, 4>;
 
 namespace {
 
 constexpr std::uint64_t kGoldenHash = 0x63362ca5a96a472dU;
-
-/// FNV-1a over the bits of the values.
-class Hash {
- public:
-  void add(std::uint64_t bits) {
-    for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ ((bits >> (8 * byte)) & 0xff)) * 0x100000001b3U;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(const Vec3& v) {
-    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
-  }
-  void add(const std::array<double, 4>& values) {
-    for (const double value : values) add(value);
-  }
-  void add(const CcdResult& result) {
-    add(static_cast<std::uint64_t>(result.verdict));
-    add(static_cast<std::uint64_t>(result.cause));
-    add(static_cast<std::uint64_t>(result.intervals));
-    add(result.toi_lower);
-    add(result.gap_bound);
-    add(result.weights);
-    add(result.normal);
-  }
-  void add(const Proximity& proximity) {
-    add(proximity.distance);
-    add(proximity.distance_lower);
-    add(proximity.distance_upper);
-    add(proximity.point_error_bound);
-    add(proximity.weights);
-    add(proximity.normal);
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
 
 struct Query {
   Points x_t0, x_t1;
