@@ -23,6 +23,11 @@ void RunTotals::add(const StepResult& step) {
   fail_safe_vertices += report.fail_safe_vertices;
   pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
   waiting_bodies += static_cast<std::int64_t>(report.waiting_bodies.size());
+  dynamics_solves += step.dynamics.solves;
+  newton_rounds += step.dynamics.newton_rounds;
+  cg_iterations += step.dynamics.cg_iterations;
+  unconverged_solves += step.dynamics.unconverged;
+  largest_residual_m = std::max(largest_residual_m, step.dynamics.residual_m);
   phases += step.phases;
 }
 
