@@ -179,6 +179,10 @@ Positions average_velocity(const Positions& displacement, double dt_s) {
 
 }  // namespace
 
+ContactProperties contact_of(const CollisionOptions& options) {
+  return {options.thickness_m, options.tolerance_m, options.friction_static, options.friction_kinetic};
+}
+
 std::string_view name_of(StepStatus status) {
   switch (status) {
     case StepStatus::kSafe:

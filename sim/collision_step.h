@@ -35,6 +35,9 @@ struct CollisionOptions {
   std::int32_t max_intervals = 4096;                                            ///< CcdOptions::max_intervals, >= 1
 };
 
+/// The part of the options that ContactSurfaces replaces.
+[[nodiscard]] ContactProperties contact_of(const CollisionOptions& options);
+
 /// What to do where cloth cannot avoid scripted bodies (S4).
 enum class SqueezePolicy : std::uint8_t {
   kStop,   ///< return kStopped with a witness; nothing is advanced

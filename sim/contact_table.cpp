@@ -29,7 +29,7 @@ ContactTable::ContactTable(const Mesh& mesh, const CollisionOptions& options, Co
     error_ = validate(mesh, surfaces);
     properties_ = std::move(surfaces.properties);
   } else {
-    properties_ = {{options.thickness_m, options.tolerance_m, options.friction_static, options.friction_kinetic}};
+    properties_ = {contact_of(options)};
   }
   if (error_ != InputError::kNone) return;
   if (properties_.empty()) properties_.emplace_back();  // a mesh without vertices has no pairs

@@ -61,12 +61,14 @@ struct ClothSpec {
   double stabilize_n_m = 0;                             ///< 0: no stabilisation springs
   double damping_ratio = 0;                             ///< of each spring's critical damping
   std::vector<PinSpec> pins;
+  std::optional<ContactProperties> contact;  ///< none: the scene's
 };
 
 struct BodySpec {
   std::string name;
   Surface surface;
   ScriptSpec script;
+  std::optional<ContactProperties> contact;  ///< none: the scene's
 };
 
 struct TimeSpec {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
+#include "sim/contact_reader.h"
 #include "sim/toml_table.h"
 
 namespace selvage::sim {
@@ -154,7 +155,7 @@ std::string read_name(TomlTable& table, const std::string& fallback, std::set<st
 }
 
 /// The cloth and its copies, each further along by `copy_offset_m`: stacks, and rows of hanging sheets.
-std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names) {
+std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names, ContactReader& contacts) {
   ClothSpec cloth;
   cloth.name = read_name(table, "cloth", names);
   const std::int64_t copies = table.integer("copies", 1, kMaxCopies, 1);
@@ -173,6 +174,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names)
   cloth.bend_n_m = table.number("bend_n_m", kNotNegative, 0);
   cloth.stabilize_n_m = table.number("stabilize_n_m", kNotNegative, 0);
   cloth.damping_ratio = table.number("damping_ratio", {0, 10}, 0);
+  cloth.contact = contacts.read(table, true);
   std::set<VertexId> pinned;
   for (TomlTable& pin_table : table.tables("pin")) {
     cloth.pins.push_back(read_pin(pin_table, cloth.surface));
@@ -195,11 +197,12 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names)
   return all;
 }
 
-BodySpec read_body(TomlTable table, std::set<std::string>& names) {
+BodySpec read_body(TomlTable table, std::set<std::string>& names, ContactReader& contacts) {
   BodySpec body;
   body.name = read_name(table, "body", names);
   body.surface = read_surface(table, false);
   body.script = read_script(table);
+  body.contact = contacts.read(table, false);
   table.finish();
   return body;
 }
@@ -273,12 +276,13 @@ Scene read_root(TomlTable root) {
   std::optional<TomlTable> collision = root.table("collision");
   const bool stiffness_given = collision && collision->has("repulsion_stiffness_n_m");
   if (collision) scene.collision = read_collision(std::move(*collision));
+  ContactReader contacts(scene.collision);
   std::set<std::string> names;
   for (TomlTable& table : root.tables("cloth")) {
-    for (ClothSpec& cloth : read_cloth(table, names)) scene.cloths.push_back(std::move(cloth));
+    for (ClothSpec& cloth : read_cloth(table, names, contacts)) scene.cloths.push_back(std::move(cloth));
   }
   if (scene.cloths.empty()) root.fail("no cloth; add a table [[cloth]]");
-  for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, names));
+  for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, names, contacts));
   root.finish();
   if (!stiffness_given) {
     // Paper, 7.2: "matching the stiffness of the stretch springs in the cloth gave good results".

@@ -62,7 +62,7 @@ Simulation::Simulation(const Scene& scene)
       world_(build_world(scene_)),
       clock_(make_clock(scene_, world_)),
       dynamics_(make_dynamics(scene_, world_)),
-      collision_step_(world_.mesh, scene_.collision),
+      collision_step_(world_.mesh, scene_.collision, world_.contacts),
       x_(world_.x_t0),
       v_(world_.v_t0) {}
 

@@ -45,7 +45,7 @@ InputError validate_candidate(const PositionsRef& V_candidate, std::span<const d
 }  // namespace
 
 InputError validate_options(const CollisionOptions& o) {
-  const bool contact = is_valid({o.thickness_m, o.tolerance_m, o.friction_static, o.friction_kinetic});
+  const bool contact = is_valid(contact_of(o));
   const bool spring = is_finite_nonnegative(o.repulsion_stiffness_n_m) && o.overlap_fraction >= 0 &&
                       o.overlap_fraction <= 1 && o.relaxation > 0 && o.relaxation <= 1;
   const bool limits = o.impulse_iterations >= 0 && o.zone_iterations >= 0 && o.max_intervals >= 1;

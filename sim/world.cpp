@@ -44,6 +44,7 @@ class WorldBuilder {
                                   scene_.file.string(), spec.name));
     }
     const VertexId begin = add_part(spec.name, io::Group::Role::kCloth, rest, place(spec.placement, rest.x));
+    add_contact(spec.contact);
     v_.bottomRows(rest.x.rows()).rowwise() = spec.velocity_m_s.transpose();
     for (const double mass : mass_kg) inverse_mass_.push_back(1 / mass);
     for (Spring spring : make_springs(spec, rest, mass_kg)) {
@@ -64,6 +65,7 @@ class WorldBuilder {
     const Shape shape = shape_of(spec.surface);
     const RigidPath path(spec.script.keys, spec.script.interpolation);
     const VertexId begin = add_part(spec.name, io::Group::Role::kBody, shape, place(path.at(0), shape.x));
+    add_contact(spec.contact);
     inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
     std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
     std::iota(vertices.begin(), vertices.end(), begin);
@@ -80,6 +82,7 @@ class WorldBuilder {
                 stabilizers_.empty() ? StabilizerSystem() : StabilizerSystem(stabilizers_, cloth_vertex_count),
                 std::move(bodies_),
                 0,
+                contacts_.properties.size() > 1 ? std::move(contacts_) : ContactSurfaces{},
                 0,
                 {},
                 {}};
@@ -118,6 +121,16 @@ class WorldBuilder {
     return begin;
   }
 
+  // Of the vertices that have been added and have none. Number 0 is the scene's.
+  void add_contact(const std::optional<ContactProperties>& own) {
+    std::vector<ContactProperties>& known = contacts_.properties;
+    if (known.empty()) known.push_back(contact_of(scene_.collision));
+    const auto found = std::find(known.begin(), known.end(), own.value_or(known.front()));
+    const auto number = static_cast<std::int32_t>(found - known.begin());
+    if (found == known.end()) known.push_back(*own);
+    contacts_.surface_of_vertex.resize(static_cast<std::size_t>(x_.rows()), number);
+  }
+
   void add_pin(const std::string& name, const PinSpec& spec, VertexId begin, VertexId count) {
     if (spec.vertices.back() >= count) {
       throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {} holds vertex {}, but the mesh has {}; correct the "
@@ -148,6 +161,7 @@ class WorldBuilder {
   std::vector<Spring> springs_;
   std::vector<Stabilizer> stabilizers_;
   std::vector<Collider> bodies_, pins_;
+  ContactSurfaces contacts_;
 };
 
 }  // namespace
@@ -167,6 +181,21 @@ World build_world(const Scene& scene) {
   }
   return world;
 }
+
+namespace {
+
+/// "tolerance 1e-06 m", and what repulsions bring where there are any.
+std::vector<std::string> describe(const ContactProperties& contact, bool repulsion) {
+  std::vector<std::string> parts{fmt::format("tolerance {:g} m", contact.tolerance_m)};
+  if (repulsion) parts.push_back(fmt::format("repulsion below {:g} m", contact.thickness_m));
+  if (repulsion && contact.friction_static > 0) {
+    parts.push_back(
+        fmt::format("friction {:g} static, {:g} kinetic", contact.friction_static, contact.friction_kinetic));
+  }
+  return parts;
+}
+
+}  // namespace
 
 std::string describe(const Scene& scene, const World& world) {
   std::string text;
@@ -195,12 +224,17 @@ std::string describe(const Scene& scene, const World& world) {
   for (std::size_t n = static_cast<std::size_t>(world.body_count); n < world.colliders.size(); ++n) {
     line("pin", fmt::format("{}, {} vertices", world.colliders[n].name(), world.colliders[n].vertices().size()));
   }
-  line("contact", fmt::format("tolerance {:g} m", scene.collision.tolerance_m));
-  if (scene.collision.repulsion) line("", fmt::format("repulsion below {:g} m", scene.collision.thickness_m));
-  if (scene.collision.repulsion && scene.collision.friction_static > 0) {
-    line("", fmt::format("friction {:g} static, {:g} kinetic", scene.collision.friction_static,
-                         scene.collision.friction_kinetic));
+  const char* what = "contact";
+  for (const std::string& part : describe(contact_of(scene.collision), scene.collision.repulsion)) {
+    line(what, part);
+    what = "";
   }
+  const auto describe_own = [&](const auto& part) {
+    if (!part.contact) return;
+    line("", fmt::format("{}: {}", part.name, fmt::join(describe(*part.contact, scene.collision.repulsion), ", ")));
+  };
+  for (const ClothSpec& cloth : scene.cloths) describe_own(cloth);
+  for (const BodySpec& body : scene.bodies) describe_own(body);
   if (scene.collision.precision == CollisionOptions::Precision::kFloat32) line("state", "on the float32 lattice");
   return text;
 }

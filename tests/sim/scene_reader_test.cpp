@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/world.h"
+
 namespace selvage {
 
 using namespace sim;
@@ -49,6 +51,18 @@ const BadScene kBadScenes[] = {
      "below thickness_m"},
     {"kinetic above static", kScene + "[collision]\nfriction_static = 0.2\nfriction_kinetic = 0.3\n", 11,
      "must not exceed friction_static"},
+    {"a negative thickness of a part", kScene + "[[body]]\nsphere = {radius_m = 1}\nthickness_m = -1\n", 11,
+     "thickness_m must be a number above 0"},
+    {"a part's tolerance above its thickness", kScene + "[[body]]\nsphere = {radius_m = 1}\ntolerance_m = 2e-3\n", 11,
+     "below thickness_m"},
+    {"a part's thickness below the tolerance", kScene + "[[body]]\nsphere = {radius_m = 1}\nthickness_m = 1e-7\n", 11,
+     "below thickness_m"},
+    {"a part's kinetic friction above its static one",
+     kScene + "[[body]]\nsphere = {radius_m = 1}\nfriction_static = 0.2\nfriction_kinetic = 0.3\n", 12,
+     "must not exceed friction_static"},
+    {"a tolerance that another part's thickness cannot keep",
+     kScene + "[[body]]\nsphere = {radius_m = 1}\nthickness_m = 1e-2\ntolerance_m = 9e-3\n", 12,
+     "with a part above it has the tolerance 0.009 m at the thickness 0.0055 m"},
     {"an unknown policy", "squeeze = \"explode\"\n" + kScene, 1, "\"stop\", \"yield\""},
     {"an unknown solver", "solver = \"magic\"\n" + kScene, 1, "\"explicit\", \"implicit\""},
     {"a limit of the other solver", "solver = \"implicit\"\nstrain_rate_limit = 0.1\n" + kScene, 2, "leave it out"},
@@ -103,6 +117,28 @@ TEST(SceneReader, MalformedTomlIsAnErrorNotAnAbort) {
   for (const char* text : {"[ = {nx = 2}\n", "[time]\nframes = 2\n[ = 1\n", "a = \n]\n"}) {
     EXPECT_THROW((void)parse_scene(text, "bad.toml"), io::Error) << text;
   }
+}
+
+TEST(SceneReader, APartHasItsOwnContactPropertiesAndTheScenesForTheRest) {
+  const Scene scene =
+      parse_scene(kScene +
+                      "[[body]]\nname = \"a\"\nsphere = {radius_m = 1}\nfriction_static = 0.2\n"
+                      "[[body]]\nname = \"b\"\nsphere = {radius_m = 1}\nthickness_m = 2e-2\ntolerance_m = 9e-3\n"
+                      "[[body]]\nname = \"c\"\nsphere = {radius_m = 1}\n"
+                      "[collision]\nthickness_m = 5e-3\nfriction_static = 0.5\nfriction_kinetic = 0.3\n",
+                  "scene.toml");
+  EXPECT_EQ(scene.bodies[0].contact, (ContactProperties{5e-3, 1e-6, 0.2, 0.2})) << "kinetic: its own static";
+  EXPECT_EQ(scene.bodies[1].contact, (ContactProperties{2e-2, 9e-3, 0.5, 0.3}));
+  EXPECT_FALSE(scene.bodies[2].contact);
+  EXPECT_FALSE(scene.cloths[0].contact);
+  const World world = build_world(scene);
+  EXPECT_EQ(world.contacts.properties.size(), 3U);
+  EXPECT_EQ(world.contacts.surface_of_vertex.back(), 0) << "the scene's";
+  const std::string text = describe(scene, world);
+  EXPECT_NE(text.find("a: tolerance 1e-06 m, repulsion below 0.005 m, friction 0.2 static, 0.2 kinetic"),
+            std::string::npos)
+      << text;
+  EXPECT_TRUE(build_world(parse_scene(kScene, "scene.toml")).contacts.properties.empty());
 }
 
 TEST(SceneReader, DefaultsAreThePapers) {
