@@ -87,10 +87,12 @@ void Attempt::repel() {
   std::vector<PairProximity> proximities;
   {
     const PhaseTimer timer(report_.phases.proximity);
-    proximities = find_proximities(mesh_, hierarchy_, motion_.V_t0(), contacts_.thickness_upper(), surface_);
+    const double reach = kContactReach * contacts_.thickness_upper();
+    proximities = find_proximities(mesh_, hierarchy_, motion_.V_t0(), reach, surface_);
     if (!contacts_.is_uniform()) {
       std::erase_if(proximities, [&](const PairProximity& pair) {
-        return !(pair.proximity.distance_lower < contacts_.of(pair.kind, pair.vertices).thickness_m);
+        const double thickness_m = contacts_.of(pair.kind, pair.vertices).thickness_m;
+        return !(pair.proximity.distance_lower < kContactReach * thickness_m);
       });
     }
   }

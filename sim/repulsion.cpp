@@ -9,7 +9,7 @@ namespace selvage::sim {
 Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg, const CollisionOptions& options,
                     double dt_s) {
   Repulsion result;
-  result.inelastic = std::max(-displacement, 0.0);
+  result.inelastic = std::max(-displacement - room_to_approach(overlap), 0.0);
   if (!(options.repulsion_stiffness_n_m > 0) || !(overlap > 0)) return result;
   const double limit = options.overlap_fraction * overlap - (displacement + result.inelastic);
   if (!(limit > 0)) return result;
@@ -38,10 +38,12 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   const Interaction& interaction = contact.interaction;
   const PairVectors d = gather(interaction, displacement);
   const double displacement_n = relative(interaction, d).dot(contact.normal);
-  if (sweep > 0 && !(-displacement_n > kSettledApproach * contact.distance)) return result;
   const ContactProperties& properties = contact.properties;
-  const Repulsion push = repulsion(properties.thickness_m - contact.distance, displacement_n,
-                                   contact.mobility * interaction.inverse_mass_scale, options, sweep == 0 ? dt_s : 0);
+  const double overlap = properties.thickness_m - contact.distance;
+  const double approach = -displacement_n - room_to_approach(overlap);
+  if (sweep > 0 && !(approach > kSettledApproach * contact.distance)) return result;
+  const Repulsion push = repulsion(overlap, displacement_n, contact.mobility * interaction.inverse_mass_scale, options,
+                                   sweep == 0 ? dt_s : 0);
   if (!(push.total() > 0)) return result;
   result.repels = true;
   result.change = distribute(interaction, push.total() * contact.normal);

@@ -51,7 +51,10 @@ void throw_onto(Trial& trial, const sim::Shape& piece, const std::vector<std::pa
     for (const auto& [shape, place] : bodies) setup.add_body(shape, place);
     Stage stage(trial, setup);
     std::int64_t contacts = 0;
-    for (int step = 0; step < trial.steps(12, 9); ++step) contacts += stage.step().first_collisions;
+    for (int step = 0; step < trial.steps(12, 9); ++step) {
+      const sim::CollisionStepReport& report = stage.step();
+      contacts += report.repulsions + report.first_collisions;
+    }
     trial.require(contacts > 0, "no contact was found");
   }
 }

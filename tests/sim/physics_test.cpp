@@ -256,10 +256,13 @@ TEST(Physics, PartsThatAreAllAlikeHaveTheBitsOfOneValueForTheScene) {
 }
 
 TEST(Physics, CollidingSheetsKeepBothMomentaInEveryStep) {
-  Simulation simulation(parse_scene(
-      "[time]\nframes_per_s = 50\nduration_s = 0.2\n[collision]\nthickness_m = 0.003\nfriction_static = 0.5\n" +
-          sheet("lower", 0, 0.4) + sheet("upper", 0.02, -0.7),
-      "closed.toml"));
+  // Steps no longer than one of the dynamics: in longer ones the springs turn between the impulses of the dynamics and
+  // those of contact, which moves some 1e-5 of the angular momentum in a step of 5 ms.
+  Simulation simulation(
+      parse_scene("[time]\nframes_per_s = 50\nduration_s = 0.2\nmax_step_s = 0.0008\n[collision]\nthickness_m = "
+                  "0.003\nfriction_static = 0.5\n" +
+                      sheet("lower", 0, 0.4) + sheet("upper", 0.02, -0.7),
+                  "closed.toml"));
   std::int64_t contacts = 0;
   while (simulation.clock().time_s() < 0.2 - 1e-9) {
     const Momenta before = momenta(simulation);
@@ -324,15 +327,13 @@ TEST(Physics, EnergyNeverRisesInContactOfClothWithCloth) {
   }
 }
 
-TEST(Physics, EnergyRisesByWhatThePlaneLiftsAlone) {
-  // A repulsion takes a tenth of the overlap away in a step (7.2), and cloth on a plane rises by it. What it costs
-  // falls with the step, as the overlap that a step makes does.
+TEST(Physics, EnergyNeverRisesInContactWithAPlane) {
+  // Cloth stops at its thickness, so no repulsion has an overlap to take away (7.2), by which it would lift.
   for (const std::string solver : {"explicit", "implicit"}) {
-    const EnergyRun coarse = run_energy(solver, "0.005", plane()), fine = run_energy(solver, "0.00125", plane());
-    EXPECT_GT(coarse.contacts, 500);
-    EXPECT_LT(coarse.end_j, 0.3 * coarse.start_j);
-    EXPECT_LT(coarse.rise_j, 0.03 * coarse.start_j) << solver;
-    EXPECT_LT(fine.rise_j, coarse.rise_j / 4) << solver;
+    const EnergyRun run = run_energy(solver, "0.005", plane());
+    EXPECT_GT(run.contacts, 500);
+    EXPECT_LT(run.end_j, 0.3 * run.start_j);
+    EXPECT_LE(run.rise_j, 1e-9 * run.start_j) << solver;  // what the implicit solver leaves
   }
 }
 
@@ -349,6 +350,25 @@ TEST(Physics, SheetComesToRestAndStays) {
   };
   const Positions early = run_to(1.4), late = run_to(1.6);
   EXPECT_LT((late - early).topRows(49).rowwise().norm().maxCoeff() / 0.2, 1e-6) << "m/s";
+}
+
+TEST(Physics, SheetOverTheEdgeOfABoxComesToRest) {
+  // Its weight and its friction hold it with room to spare: 43 % hangs, and an edge turned by 90 degrees divides the
+  // pull by exp(0.6 pi / 2) = 2.6. It moved by 6 mm in the fifth second, at steps of 1/60 s or a tenth of that, when
+  // contacts ended at the thickness (kContactReach).
+  Simulation simulation(
+      parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 4\n[time]\nframes_per_s = 30\nduration_s = 5\n"
+                  "max_step_s = 0.0166667\n[collision]\nthickness_m = 0.004\nfriction_static = 0.6\n"
+                  "[[cloth]]\nsheet = {nx = 8, ny = 8, width_m = 0.6, height_m = 0.6}\nposition_m = [0.12, 0, 0.005]\n"
+                  "density_kg_m2 = 0.2\nstretch_n_m = 40\nshear_n_m = 12\nbend_n_m = 0.4\ndamping_ratio = 0.4\n"
+                  "[[body]]\nbox = {size_m = [1, 1, 0.4], cells = 4}\nposition_m = [-0.3, 0, -0.2]\n",
+                  "edge.toml"));
+  const auto run_to = [&](double end_s) {
+    while (simulation.clock().time_s() < end_s - 1e-9) simulation.step();
+    return simulation.x();
+  };
+  const Positions early = run_to(4), late = run_to(5);
+  EXPECT_LT((late - early).topRows(64).rowwise().norm().maxCoeff(), 2e-4) << "m";
 }
 
 }  // namespace selvage

@@ -13,6 +13,13 @@ TEST(Repulsion, TakesAwayTheApproachAndNothingElseWithoutASpring) {
   EXPECT_EQ(repulsion(0.5e-3, 2e-3, 1, options, 1e-2).total(), 0);
 }
 
+TEST(Repulsion, LetsPairsComeToTheThicknessAndNoNearer) {
+  const CollisionOptions options;
+  EXPECT_EQ(repulsion(-0.5e-3, -0.4e-3, 1, options, 1e-2).total(), 0);
+  EXPECT_NEAR(repulsion(-0.5e-3, -0.7e-3, 1, options, 1e-2).total(), 0.2e-3, 1e-18);
+  EXPECT_EQ(repulsion(0, -0.7e-3, 1, options, 1e-2).total(), 0.7e-3);
+}
+
 TEST(Repulsion, SpringGivesTheSmallerOfItsForceAndAFractionOfTheOverlap) {
   CollisionOptions options;
   options.repulsion_stiffness_n_m = 100;
@@ -38,8 +45,8 @@ TEST(Repulsion, NeverLeavesTheOverlapFasterThanItsFraction) {
     const Repulsion push = repulsion(overlap, displacement, std::exp2(number_between(-5, 5)), options, 1e-2);
     RC_ASSERT(push.inelastic >= 0 && push.spring >= 0);
     const double after = displacement + push.total();
-    RC_ASSERT(after >= 0);
-    RC_ASSERT(after <= std::max({displacement, 0.1 * overlap, 0.0}) + 1e-18);
+    RC_ASSERT(after >= std::min(overlap, 0.0) - 1e-18);
+    RC_ASSERT(after <= std::max({displacement, 0.1 * overlap, std::min(overlap, 0.0)}) + 1e-18);
   });
 }
 
