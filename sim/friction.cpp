@@ -11,16 +11,8 @@
 namespace selvage::sim {
 namespace {
 
-/// The rigid rotations of a closed pair's four vertices, in lengths of `scale`; scripted pairs have none.
-struct PairRotation {
-  PairVectors y = zero_vectors();  ///< from the centre of mass
-  Vec3 r = Vec3::Zero();
-  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();
-};
-
-PairRotation pair_rotation(const Interaction& interaction, const PairVectors& x_t0) {
-  PairRotation result;
-  if (!is_closed(interaction)) return result;
+/// The rigid rotations of a closed pair's four vertices.
+void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipGeometry& slip) {
   double mass_sum = 0;
   Vec3 center = Vec3::Zero();  // relative to the first vertex
   for (std::size_t i = 0; i < 4; ++i) {
@@ -31,23 +23,39 @@ PairRotation pair_rotation(const Interaction& interaction, const PairVectors& x_
   center /= mass_sum;
   double largest = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    result.y[i] = (x_t0[i] - x_t0[0]) - center;
-    largest = std::max(largest, result.y[i].cwiseAbs().maxCoeff());
+    slip.y[i] = (x_t0[i] - x_t0[0]) - center;
+    largest = std::max(largest, slip.y[i].cwiseAbs().maxCoeff());
   }
   const double scale = power_of_two_above(largest);
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
-    result.y[i] /= scale;
-    inertia += (result.y[i].squaredNorm() * Eigen::Matrix3d::Identity() - result.y[i] * result.y[i].transpose()) /
+    slip.y[i] /= scale;
+    inertia += (slip.y[i].squaredNorm() * Eigen::Matrix3d::Identity() - slip.y[i] * slip.y[i].transpose()) /
                interaction.mobility[i];
   }
-  result.r = relative(interaction, result.y);
-  result.inverse_inertia = pseudo_inverse(inertia);
-  return result;
+  slip.r = relative(interaction, slip.y);
+  slip.inverse_inertia = pseudo_inverse(inertia);
+}
+
+SlipGeometry make_slip_geometry(const Interaction& interaction, const PairVectors& x_t0, const Vec3& normal,
+                                double mobility) {
+  SlipGeometry slip;
+  const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  if (!is_closed(interaction)) {
+    slip.stop = tangential / mobility;
+    return slip;
+  }
+  add_rotation(interaction, x_t0, slip);
+  const Eigen::Matrix3d r_cross = cross_matrix(slip.r);
+  // r is parallel to the normal, so the normal impulse (7.2) and the tangential one do not feel each other.
+  const Eigen::Matrix3d mobility_of_slip =
+      tangential * (mobility * Eigen::Matrix3d::Identity() + r_cross * slip.inverse_inertia * r_cross) * tangential;
+  slip.stop = pseudo_inverse(mobility_of_slip) * tangential;
+  return slip;
 }
 
 /// The relative displacement without what a rigid rotation of the pair explains.
-Vec3 slip_of(const Interaction& interaction, const PairRotation& rotation, const PairVectors& displacement) {
+Vec3 slip_of(const Interaction& interaction, const SlipGeometry& rotation, const PairVectors& displacement) {
   Vec3 angular_momentum = Vec3::Zero();
   if (is_closed(interaction)) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -55,6 +63,18 @@ Vec3 slip_of(const Interaction& interaction, const PairRotation& rotation, const
     }
   }
   return relative(interaction, displacement) - (rotation.inverse_inertia * angular_momentum).cross(rotation.r);
+}
+
+/// The largest share in [0, 1] of `step` that leads from `start` to no farther than `radius` from the origin; 0 where
+/// `start` is farther already.
+double share_within(const Vec3& start, const Vec3& step, double radius) {
+  const double along = start.dot(step), square = step.squaredNorm();
+  const double room = radius * radius - start.squaredNorm();
+  if (!(room > 0)) return 0;
+  // The positive root of |start + s step| = radius, as a sum of numbers of one sign where the step leads outwards.
+  const double root = std::sqrt(along * along + square * room);
+  const double share = along > 0 ? room / (root + along) : (root - along) / square;
+  return std::min(share, 1.0);
 }
 
 /// Divides by a power of two, so that momenta of displacements of any size stay finite.
@@ -69,33 +89,28 @@ double normalize(PairVectors& displacement) {
 }  // namespace
 
 std::optional<PairVectors> friction_change(const Interaction& interaction, const PairVectors& x_t0,
-                                           const PairVectors& displacement, const Vec3& normal, double normal_change,
-                                           const FrictionCoefficients& friction) {
+                                           const PairVectors& displacement, const Vec3& normal,
+                                           const FrictionCoefficients& friction, FrictionLoad& load) {
   const double mobility = effective_mobility(interaction);
-  if (!(mobility > 0) || !(normal_change > 0) || !(friction.on_static > 0)) return std::nullopt;
+  if (!(mobility > 0) || !(load.pressed > 0) || !(friction.on_static > 0)) return std::nullopt;
   PairVectors scaled = displacement;
   const double scale = normalize(scaled);
-  const PairRotation rotation = pair_rotation(interaction, x_t0);
-  const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - normal * normal.transpose();
-  const Eigen::Matrix3d r_cross = cross_matrix(rotation.r);
-  // r is parallel to the normal, so the normal impulse (7.2) and the tangential one do not feel each other.
-  const Eigen::Matrix3d mobility_of_slip =
-      tangential * (mobility * Eigen::Matrix3d::Identity() + r_cross * rotation.inverse_inertia * r_cross) * tangential;
-  const Vec3 slip = tangential * slip_of(interaction, rotation, scaled);
-  const Vec3 impulse_to_stop = pseudo_inverse(mobility_of_slip) * -slip;
-
-  const double needed = impulse_to_stop.norm();
-  if (!(needed > 0)) return std::nullopt;
-  const double normal_impulse = normal_change / scale / mobility;
-  const bool sticks = needed <= friction.on_static * normal_impulse;
-  const double share = sticks ? 1.0 : std::min(friction.on_kinetic * normal_impulse / needed, 1.0);
+  if (!load.slip) load.slip = make_slip_geometry(interaction, x_t0, normal, mobility);
+  const SlipGeometry& slip = *load.slip;
+  const Vec3 impulse_to_stop = slip.stop * -slip_of(interaction, slip, scaled);
+  if (!(impulse_to_stop.norm() > 0)) return std::nullopt;
+  const double normal_impulse = load.pressed / scale / mobility;
+  const Vec3 so_far = load.rubbed / scale;
+  const bool sticks = (so_far + impulse_to_stop).norm() <= friction.on_static * normal_impulse;
+  const double share = sticks ? 1.0 : share_within(so_far, impulse_to_stop, friction.on_kinetic * normal_impulse);
   if (!(share > 0)) return std::nullopt;
   const Vec3 impulse = lever_share(interaction) * share * impulse_to_stop;
-  const Vec3 rotation_back = rotation.inverse_inertia * rotation.r.cross(impulse);
+  load.rubbed += scale * impulse;
+  const Vec3 rotation_back = slip.inverse_inertia * slip.r.cross(impulse);
   PairVectors change;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 straight = interaction.mobility[i] * interaction.weights[i] * impulse;
-    change[i] = scale * (straight - rotation_back.cross(rotation.y[i]));
+    change[i] = scale * (straight - rotation_back.cross(slip.y[i]));
   }
   return change;
 }

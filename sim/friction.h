@@ -9,6 +9,8 @@
 
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "sim/interaction.h"
 
 namespace selvage::sim {
@@ -18,11 +20,29 @@ struct FrictionCoefficients {
   double on_kinetic = 0;  ///< slides with this times the normal impulse, never past rest
 };
 
-/// Changes of the displacements of a pair that repels along `normal` (unit) by `normal_change` > 0 of relative
-/// displacement; nothing where nothing slips or rubs. Alone it adds no energy: it removes a share in [0, 1] of the
-/// tangential slip, by a projection orthogonal (in the masses) to the normal impulse.
+/// How a pair slips, and what stops it: the same in all sweeps of a step.
+struct SlipGeometry {
+  PairVectors y = zero_vectors();  ///< from the centre of mass; this and r in lengths of their own scale
+  Vec3 r = Vec3::Zero();
+  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< of a closed pair; scripted pairs do not turn freely
+  Eigen::Matrix3d stop = Eigen::Matrix3d::Zero();             ///< impulse per slip, across the normal
+};
+
+/// What a contact has done in a step so far. Its sweeps share one cone: a slip that another contact brings back later
+/// in the step is stopped by what this one has pressed before.
+struct FrictionLoad {
+  double pressed = 0;                  ///< sum of the changes of relative displacement along the normal, >= 0, metres
+  Vec3 rubbed = Vec3::Zero();          ///< sum of the frictions, metres of relative displacement / effective mobility
+  std::optional<SlipGeometry> slip{};  ///< made by the first friction
+};
+
+/// Changes of the displacements of a pair that has pressed along `normal` (unit) by load.pressed > 0; nothing where
+/// nothing slips or rubs. It sticks where the sum of its frictions in the step stays within the static cone, else
+/// slides on to the kinetic one. Alone it adds no energy: it removes a share in [0, 1] of the tangential slip, by a
+/// projection orthogonal (in the masses) to the normal impulse. Adds to load.rubbed. REQUIRES the same pair, x_t0 and
+/// normal for a load.
 [[nodiscard]] std::optional<PairVectors> friction_change(const Interaction& interaction, const PairVectors& x_t0,
                                                          const PairVectors& displacement, const Vec3& normal,
-                                                         double normal_change, const FrictionCoefficients& friction);
+                                                         const FrictionCoefficients& friction, FrictionLoad& load);
 
 }  // namespace selvage::sim

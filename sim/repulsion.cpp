@@ -1,8 +1,7 @@
 #include "sim/repulsion.h"
 
 #include <algorithm>
-
-#include "sim/friction.h"
+#include <vector>
 
 namespace selvage::sim {
 
@@ -33,22 +32,26 @@ std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Co
 }
 
 RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
-                              const CollisionOptions& options, double dt_s, int sweep) {
+                              const CollisionOptions& options, double dt_s, int sweep, FrictionLoad& load) {
   RepulsionChange result;
   const Interaction& interaction = contact.interaction;
   const PairVectors d = gather(interaction, displacement);
-  const double displacement_n = relative(interaction, d).dot(contact.normal);
+  const Vec3 motion = relative(interaction, d);
+  const double displacement_n = motion.dot(contact.normal);
   const ContactProperties& properties = contact.properties;
   const double overlap = properties.thickness_m - contact.distance;
   const double approach = -displacement_n - room_to_approach(overlap);
-  if (sweep > 0 && !(approach > kSettledApproach * contact.distance)) return result;
-  const Repulsion push = repulsion(overlap, displacement_n, contact.mobility * interaction.inverse_mass_scale, options,
-                                   sweep == 0 ? dt_s : 0);
-  if (!(push.total() > 0)) return result;
-  result.repels = true;
-  result.change = distribute(interaction, push.total() * contact.normal);
+  const double settled = sweep == 0 ? 0 : kSettledApproach * contact.distance;
+  if (sweep == 0 || approach > settled) {
+    const Repulsion push = repulsion(overlap, displacement_n, contact.mobility * interaction.inverse_mass_scale,
+                                     options, sweep == 0 ? dt_s : 0);
+    result.repels = push.total() > 0;
+    if (result.repels) result.change = distribute(interaction, push.total() * contact.normal);
+    load.pressed += push.total();
+  }
+  if (!((motion - displacement_n * contact.normal).norm() > settled)) return result;
   const FrictionCoefficients friction{properties.friction_static, properties.friction_kinetic};
-  if (const auto rub = friction_change(interaction, contact.x_t0, d, contact.normal, push.total(), friction)) {
+  if (const auto rub = friction_change(interaction, contact.x_t0, d, contact.normal, friction, load)) {
     result.rubs = true;
     for (std::size_t i = 0; i < 4; ++i) result.change[i] += (*rub)[i];
   }
@@ -58,14 +61,16 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
 RepulsionCount repel_contacts(std::span<const RepulsionContact> contacts, const CollisionOptions& options, double dt_s,
                               StepMotion& motion) {
   RepulsionCount count;
+  std::vector<FrictionLoad> loads(contacts.size());
   for (int sweep = 0; sweep < kRepulsionSweeps; ++sweep) {
     bool settled = true;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      const RepulsionContact& contact = contacts[sweep % 2 == 0 ? k : contacts.size() - 1 - k];
-      const RepulsionChange change = repel_contact(contact, motion.displacement(), options, dt_s, sweep);
-      if (!change.repels) continue;
+      const std::size_t at = sweep % 2 == 0 ? k : contacts.size() - 1 - k;
+      const RepulsionContact& contact = contacts[at];
+      const RepulsionChange change = repel_contact(contact, motion.displacement(), options, dt_s, sweep, loads[at]);
+      if (!change.repels && !change.rubs) continue;
       settled = false;
-      count.repulsions += sweep == 0 ? 1 : 0;
+      count.repulsions += sweep == 0 && change.repels ? 1 : 0;
       count.frictions += sweep == 0 && change.rubs ? 1 : 0;
       for (std::size_t i = 0; i < 4; ++i) {
         if (change.change[i].isZero(0)) continue;

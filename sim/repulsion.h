@@ -7,6 +7,7 @@
 #include <span>
 
 #include "sim/collision_step.h"
+#include "sim/friction.h"
 #include "sim/interaction.h"
 #include "sim/step_motion.h"
 
@@ -60,7 +61,7 @@ struct RepulsionContact {
 /// frames: 1750 after 1 sweep, 1060 after 3, 58 after 10, 43 after 30; after 10 rounds all at once, each contact with
 /// its share of 1 / number of contacts at a vertex, 9400.
 inline constexpr int kRepulsionSweeps = 10;
-/// After the first sweep an approach below this share of the distance waits for the next step.
+/// After the first sweep an approach or a slip below this share of the distance waits for the next step.
 inline constexpr double kSettledApproach = 1e-6;
 
 struct RepulsionChange {
@@ -68,10 +69,13 @@ struct RepulsionChange {
   PairVectors change = zero_vectors();  ///< of the four displacements
 };
 
-/// Repulsion and friction (7.2, 7.3) of one contact for the displacements as they are. The spring acts in sweep 0 only,
-/// and friction on what each sweep presses, so over all sweeps it stays in Coulomb's cone.
+/// Repulsion and friction (7.2, 7.3) of one contact for the displacements as they are. The spring acts in sweep 0 only.
+/// Friction acts in every sweep, in the cone of what the contact has pressed in all of them: with a cone for each sweep
+/// a slip that a neighbour brought back was nobody's, and resting cloth crept (case cliff-edge, 18 x 18 vertices: 3.6
+/// mm in the sixth second, now 0.5).
 [[nodiscard]] RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
-                                            const CollisionOptions& options, double dt_s, int sweep);
+                                            const CollisionOptions& options, double dt_s, int sweep,
+                                            FrictionLoad& load);
 
 struct RepulsionCount {
   std::int64_t repulsions = 0, frictions = 0;  ///< contacts that repelled, and rubbed, in sweep 0

@@ -68,7 +68,8 @@ void prop_repulsion_ends_the_approach() {
   options.repulsion_stiffness_n_m = integer_in(0, 2) == 0 ? 0 : 1000;
   Positions displacement(4, 3);
   for (Eigen::Index i = 0; i < 4; ++i) displacement.row(i) = pair.displacement[static_cast<std::size_t>(i)];
-  const RepulsionChange answer = repel_contact(contact, displacement, options, 1e-2, 0);
+  FrictionLoad load;
+  const RepulsionChange answer = repel_contact(contact, displacement, options, 1e-2, 0, load);
   const double before = relative(pair.interaction, pair.displacement).z();
   const double after = relative(pair.interaction, sum(pair.displacement, answer.change)).z();
   const double overlap = contact.properties.thickness_m - contact.distance;
@@ -84,8 +85,8 @@ void prop_friction_keeps_momenta_and_the_cone() {
   const double normal_change = number_between(0, 1);
   const double on_static = number_between(0, 2);
   const FrictionCoefficients friction{on_static, number_between(0, on_static)};
-  const auto change =
-      friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), normal_change, friction);
+  FrictionLoad load{normal_change};
+  const auto change = friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), friction, load);
   RC_PRE(change.has_value());
   const PairVectors after = sum(pair.displacement, *change);
   const Mechanics m0 = mechanics(pair.x_t0, pair.displacement, pair.inverse_mass);
