@@ -4,17 +4,17 @@
 
 namespace selvage::sim {
 
-Collider::Collider(std::string name, std::vector<VertexId> vertices, Positions local, RigidPath path, double release_s)
+Collider::Collider(std::string name, std::vector<VertexId> vertices, Positions local, Linkage linkage, double release_s)
     : name_(std::move(name)),
       vertices_(std::move(vertices)),
       local_(std::move(local)),
-      path_(std::move(path)),
+      linkage_(std::move(linkage)),
       release_s_(release_s) {
   SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == local_.rows());
 }
 
 void Collider::place_at(double time_s, bool round_to_float32, Positions& x) const {
-  Positions placed = place(path_.at(time_s), local_);
+  Positions placed = transform(linkage_.at(time_s), local_);
   if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
   for (std::size_t i = 0; i < vertices_.size(); ++i) x.row(vertices_[i]) = placed.row(static_cast<Eigen::Index>(i));
 }

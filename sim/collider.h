@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "sim/rigid_path.h"
+#include "sim/linkage.h"
 
 namespace selvage::sim {
 
 class Collider {
  public:
-  /// Vertex vertices[i] is at place(path.at(t))[i] of `local` until release_s.
-  Collider(std::string name, std::vector<VertexId> vertices, Positions local, RigidPath path,
+  /// Vertex vertices[i] is at row i of transform(linkage.at(t), local) until release_s.
+  Collider(std::string name, std::vector<VertexId> vertices, Positions local, Linkage linkage,
            double release_s = std::numeric_limits<double>::infinity());
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -25,7 +25,7 @@ class Collider {
   std::string name_;
   std::vector<VertexId> vertices_;
   Positions local_;
-  RigidPath path_;
+  Linkage linkage_;
   double release_s_;
 };
 

@@ -21,10 +21,19 @@ struct PoseKey {
 enum class Interpolation {
   kLinear,  ///< constant velocity between keys
   kSmooth,  ///< at rest at every key: s = u^2 (3 - 2u), the lowest-degree polynomial with zero end slopes
+  kSpline,  ///< through the keys without a stop: cubic Hermite, the velocity at an inner key that of the chord between
+            ///< its neighbours (Catmull-Rom), at rest at the first and the last
+};
+
+/// A pose as a map: x_outer = turn x_inner + position.
+struct RigidFrame {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vec3 position_m = Vec3::Zero();
 };
 
 /// The rotation matrix of a rotation vector in degrees; exactly the identity for the zero vector.
 [[nodiscard]] Eigen::Matrix3d rotation_matrix(const Vec3& rotation_deg);
+[[nodiscard]] RigidFrame frame_of(const Pose& pose);
 
 class RigidPath {
  public:
@@ -35,11 +44,15 @@ class RigidPath {
   [[nodiscard]] Pose at(double time_s) const;
 
  private:
+  /// The change of pose per second at key i of a spline.
+  [[nodiscard]] Pose rate_at(std::size_t i) const;
+
   std::vector<PoseKey> keys_;
   Interpolation interpolation_;
 };
 
-/// Row i is R local_i + position. The bits depend on the libm's sin and cos.
+/// Row i is turn local_i + position. The bits depend on the libm's sin and cos.
+[[nodiscard]] Positions transform(const RigidFrame& frame, const PositionsRef& local);
 [[nodiscard]] Positions place(const Pose& pose, const PositionsRef& local);
 
 }  // namespace selvage::sim

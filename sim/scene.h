@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/collision_step.h"
+#include "sim/garment.h"
 #include "sim/rigid_path.h"
 #include "sim/strain.h"
 
@@ -32,13 +33,23 @@ struct BoxSpec {
   Vec3 size_m = Vec3::Zero();
   std::int32_t cells = 1;
 };
+struct EllipsoidSpec {
+  Vec3 size_m = Vec3::Zero();
+  std::int32_t subdivisions = 3;
+};
+struct CapsuleSpec {
+  Vec3 end_m = Vec3::Zero();
+  double radius_m = 0, end_radius_m = 0;
+  std::int32_t segments = 16;
+};
 struct MeshSpec {
   std::filesystem::path file;
   double scale = 1;  ///< m per unit of the file
 };
-using Surface = std::variant<SheetSpec, SphereSpec, BoxSpec, MeshSpec>;
+using Surface = std::variant<SheetSpec, SphereSpec, EllipsoidSpec, CapsuleSpec, BoxSpec, GarmentSpec, MeshSpec>;
 
 struct ScriptSpec {
+  Pose placement;             ///< the keys are relative to it
   std::vector<PoseKey> keys;  ///< at least one
   Interpolation interpolation = Interpolation::kLinear;
 };
@@ -52,7 +63,7 @@ struct PinSpec {
 
 struct ClothSpec {
   std::string name;
-  Surface surface;  ///< a sheet or a mesh file
+  Surface surface;  ///< a sheet, a garment or a mesh file
   Pose placement;
   Vec3 velocity_m_s = Vec3::Zero();  ///< at the start
   double density_kg_m2 = 0;
@@ -68,6 +79,7 @@ struct BodySpec {
   std::string name;
   Surface surface;
   ScriptSpec script;
+  std::optional<std::size_t> parent;         ///< an earlier body, in whose frame the script is; none: the world
   std::optional<ContactProperties> contact;  ///< none: the scene's
 };
 

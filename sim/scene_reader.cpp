@@ -1,6 +1,7 @@
 #include "sim/scene_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -8,85 +9,40 @@
 
 #include "io/atomic_file.h"
 #include "sim/contact_reader.h"
+#include "sim/surface_reader.h"
 #include "sim/toml_table.h"
 
 namespace selvage::sim {
 namespace {
 
 constexpr std::size_t kSceneByteLimit = std::size_t{1} << 24;  // a scene of 16 MB is a mesh in the wrong format
-constexpr std::int64_t kMaxSide = 10'000;                      // 10^8 vertices: more than memory holds
 constexpr std::int64_t kMaxCopies = 10'000;                    // a million vertices of the smallest useful sheet
 constexpr std::int64_t kMaxFrames = 1'000'000;                 // the six digits of frame_000000.npy
 constexpr Range kDegrees{-1e6, 1e6};
 
-SheetSpec read_sheet(TomlTable table) {
-  SheetSpec sheet;
-  sheet.nx = static_cast<std::int32_t>(table.integer("nx", 2, kMaxSide));
-  sheet.ny = static_cast<std::int32_t>(table.integer("ny", 2, kMaxSide));
-  sheet.width_m = table.number("width_m", kPositive);
-  sheet.height_m = table.number("height_m", kPositive);
-  table.finish();
-  return sheet;
-}
-
-SphereSpec read_sphere(TomlTable table) {
-  SphereSpec sphere;
-  sphere.radius_m = table.number("radius_m", kPositive);
-  sphere.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, sphere.subdivisions));
-  table.finish();
-  return sphere;
-}
-
-BoxSpec read_box(TomlTable table) {
-  BoxSpec box;
-  box.size_m = table.vector("size_m", kPositive);
-  box.cells = static_cast<std::int32_t>(table.integer("cells", 1, 1000, box.cells));
-  table.finish();
-  return box;
-}
-
-MeshSpec read_mesh_spec(TomlTable table) {
-  MeshSpec mesh;
-  mesh.file = table.text("file");
-  mesh.scale = table.number("scale", kPositive, mesh.scale);
-  table.finish();
-  return mesh;
-}
-
-// Exactly one of the tables that name a surface.
-Surface read_surface(TomlTable& owner, bool cloth) {
-  std::optional<Surface> surface;
-  const auto take = [&](std::string_view key, auto read) {
-    std::optional<TomlTable> table = owner.table(key);
-    if (!table) return;
-    if (surface) owner.fail(key, fmt::format("{} is a second surface; keep one", key));
-    surface = read(std::move(*table));
-  };
-  take("sheet", read_sheet);
-  take("mesh", read_mesh_spec);
-  if (!cloth) {
-    take("sphere", read_sphere);
-    take("box", read_box);
-  }
-  if (!surface)
-    owner.fail(cloth ? "no surface; add a table sheet or mesh" : "no surface; add sheet, sphere, box or mesh");
-  return *surface;
-}
+constexpr std::int64_t kMaxRepeats = 100'000;  // more steps of a walk than a run has frames for
+constexpr std::size_t kMaxKeys = 1'000'000;
 
 Pose read_pose(TomlTable& table) {
   return {table.vector("position_m", kCoordinate, Vec3::Zero()), table.vector("rotation_deg", kDegrees, Vec3::Zero())};
 }
 
-// Either one pose that holds for ever, or keys.
+// The keys once more after themselves, `count` times in all.
+void repeat_keys(std::size_t count, std::vector<PoseKey>& keys) {
+  const std::size_t cycle = keys.size() - 1;
+  const double period_s = keys.back().time_s - keys.front().time_s;
+  keys.reserve(count * cycle + 1);
+  for (std::size_t n = 1; n < count; ++n) {
+    for (std::size_t i = 1; i <= cycle; ++i) keys.push_back({keys[i].time_s + double(n) * period_s, keys[i].pose});
+  }
+}
+
 ScriptSpec read_script(TomlTable& owner) {
   ScriptSpec script;
+  script.placement = read_pose(owner);
   std::vector<TomlTable> keys = owner.tables("key");
-  script.interpolation =
-      owner.choice("interpolation", {"linear", "smooth"}) == 0 ? Interpolation::kLinear : Interpolation::kSmooth;
-  if (keys.empty()) {
-    script.keys.push_back({0, read_pose(owner)});
-    return script;
-  }
+  constexpr std::array kInterpolations = {Interpolation::kLinear, Interpolation::kSmooth, Interpolation::kSpline};
+  script.interpolation = kInterpolations[owner.choice("interpolation", {"linear", "smooth", "spline"})];
   for (TomlTable& key : keys) {
     PoseKey read;
     read.time_s = key.number("time_s", kNotNegative);
@@ -96,6 +52,17 @@ ScriptSpec read_script(TomlTable& owner) {
       key.fail("time_s", "time_s must grow from key to key; sort the keys");
     }
     script.keys.push_back(read);
+  }
+  if (script.keys.empty()) script.keys.emplace_back();
+  const auto repeats = static_cast<std::size_t>(owner.integer("repeat", 1, kMaxRepeats, 1));
+  if (repeats > 1) {
+    const Pose &first = script.keys.front().pose, &last = script.keys.back().pose;
+    if (script.keys.size() < 2) owner.fail("repeat", "repeat needs at least two keys to play again");
+    if (first.position_m != last.position_m || first.rotation_deg != last.rotation_deg) {
+      owner.fail("repeat", "the last key must have the pose of the first, where the next round starts");
+    }
+    if (repeats * script.keys.size() > kMaxKeys) owner.fail("repeat", "more than a million keys; lower repeat");
+    repeat_keys(repeats, script.keys);
   }
   return script;
 }
@@ -138,7 +105,10 @@ PinSpec read_pin(TomlTable table, const Surface& surface) {
   }
   pin.script = read_script(table);
   const PoseKey& first = pin.script.keys.front();
-  if (first.time_s != 0 || first.pose.position_m != Vec3::Zero() || first.pose.rotation_deg != Vec3::Zero()) {
+  const auto is_zero = [](const Pose& pose) {
+    return pose.position_m == Vec3::Zero() && pose.rotation_deg == Vec3::Zero();
+  };
+  if (first.time_s != 0 || !is_zero(first.pose) || !is_zero(pin.script.placement)) {
     table.fail("a pin starts where its vertices are; give it a first key with time_s = 0 alone");
   }
   pin.release_s = table.number("release_s", kNotNegative, pin.release_s);
@@ -161,7 +131,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   const std::int64_t copies = table.integer("copies", 1, kMaxCopies, 1);
   if (copies == 1 && table.has("copy_offset_m")) table.fail("copy_offset_m", "there are no copies; give copies too");
   const Vec3 offset = copies == 1 ? Vec3::Zero() : table.vector("copy_offset_m", kCoordinate);
-  cloth.surface = read_surface(table, true);
+  cloth.surface = read_cloth_surface(table);
   cloth.placement = read_pose(table);
   cloth.velocity_m_s = table.vector("velocity_m_s", {-1e6, 1e6}, Vec3::Zero());
   cloth.density_kg_m2 = table.number("density_kg_m2", kPositive);
@@ -169,7 +139,8 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   cloth.stretch_n_m = table.number("stretch_n_m", kPositive);
   cloth.shear_n_m = table.number("shear_n_m", kNotNegative, 0);
   if (cloth.shear_n_m > 0 && !std::holds_alternative<SheetSpec>(cloth.surface)) {
-    table.fail("shear_n_m", "only sheets have shear springs; the edges of a mesh resist shear by themselves");
+    table.fail("shear_n_m",
+               "only sheets have shear springs; the edges of a mesh or garment resist shear by themselves");
   }
   cloth.bend_n_m = table.number("bend_n_m", kNotNegative, 0);
   cloth.stabilize_n_m = table.number("stabilize_n_m", kNotNegative, 0);
@@ -197,10 +168,20 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   return all;
 }
 
-BodySpec read_body(TomlTable table, std::set<std::string>& names, ContactReader& contacts) {
+// `earlier`: the bodies that the table may name as its parent; so there are no cycles.
+BodySpec read_body(TomlTable table, const std::vector<BodySpec>& earlier, std::set<std::string>& names,
+                   ContactReader& contacts) {
   BodySpec body;
   body.name = read_name(table, "body", names);
-  body.surface = read_surface(table, false);
+  body.surface = read_body_surface(table);
+  if (table.has("parent")) {
+    const std::string parent = table.text("parent");
+    const auto found = std::find_if(earlier.begin(), earlier.end(), [&](const auto& b) { return b.name == parent; });
+    if (found == earlier.end()) {
+      table.fail("parent", fmt::format("no body \"{}\" above; name one, and put it before what hangs on it", parent));
+    }
+    body.parent = static_cast<std::size_t>(found - earlier.begin());
+  }
   body.script = read_script(table);
   body.contact = contacts.read(table, false);
   table.finish();
@@ -282,7 +263,7 @@ Scene read_root(TomlTable root) {
     for (ClothSpec& cloth : read_cloth(table, names, contacts)) scene.cloths.push_back(std::move(cloth));
   }
   if (scene.cloths.empty()) root.fail("no cloth; add a table [[cloth]]");
-  for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, names, contacts));
+  for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, scene.bodies, names, contacts));
   root.finish();
   if (!stiffness_given) {
     // Paper, 7.2: "matching the stiffness of the stretch springs in the cloth gave good results".

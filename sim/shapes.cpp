@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "kernel/assert.h"
 
@@ -92,6 +95,63 @@ Shape make_sphere(double radius_m, std::int32_t subdivisions) {
       finer.insert(finer.end(), {Triangle{t[0], ab, ca}, Triangle{t[1], bc, ab}, Triangle{t[2], ca, bc}, {ab, bc, ca}});
     }
     triangles = std::move(finer);
+  }
+  return {to_positions(points), std::move(triangles)};
+}
+
+Shape make_ellipsoid(const Vec3& size_m, std::int32_t subdivisions) {
+  Shape ellipsoid = make_sphere(0.5, subdivisions);
+  ellipsoid.x = ellipsoid.x * size_m.asDiagonal();
+  return ellipsoid;
+}
+
+Shape make_capsule(const Vec3& end_m, double radius_m, double end_radius_m, std::int32_t segments) {
+  const double length_m = end_m.norm();
+  SELVAGE_ASSERT(segments >= 3 && length_m > std::abs(radius_m - end_radius_m));
+  const double right_angle = std::numbers::pi / 2, segment_angle = 2 * std::numbers::pi / segments;
+  // Cone and spheres share their tangent planes where the normal leaves the cross-section by this angle.
+  const double tilt = std::asin((radius_m - end_radius_m) / length_m);
+  struct Ring {
+    double along_m, radius_m;
+  };
+  std::vector<Ring> rings;
+  const auto add_arc = [&](double center_m, double sphere_m, double from, double to, bool last) {
+    const auto count = std::max(1L, std::lround((to - from) / segment_angle));
+    for (long n = last ? 0 : 1; n < count + (last ? 0 : 1); ++n) {  // without the pole at its outer end
+      const double angle = from + (to - from) * double(n) / double(count);
+      rings.push_back({center_m + sphere_m * std::sin(angle), sphere_m * std::cos(angle)});
+    }
+  };
+  add_arc(0, radius_m, -right_angle, tilt, false);
+  const Ring from = rings.back();
+  const Ring to{length_m + end_radius_m * std::sin(tilt), end_radius_m * std::cos(tilt)};
+  const auto cone_rows =
+      std::max(1L, std::lround((to.along_m - from.along_m) / (segment_angle * (from.radius_m + to.radius_m) / 2)));
+  for (long n = 1; n < cone_rows; ++n) {
+    const double t = double(n) / double(cone_rows);
+    rings.push_back({(1 - t) * from.along_m + t * to.along_m, (1 - t) * from.radius_m + t * to.radius_m});
+  }
+  add_arc(length_m, end_radius_m, tilt, right_angle, true);
+
+  const Vec3 axis = end_m / length_m;
+  const Vec3 across = axis.unitOrthogonal(), up = axis.cross(across);
+  std::vector<Vec3> points = {-radius_m * axis, end_m + end_radius_m * axis};
+  for (const Ring& ring : rings) {
+    for (std::int32_t i = 0; i < segments; ++i) {
+      points.push_back(ring.along_m * axis +
+                       ring.radius_m * (std::cos(i * segment_angle) * across + std::sin(i * segment_angle) * up));
+    }
+  }
+  const auto row_count = static_cast<std::int32_t>(rings.size());
+  const auto vertex = [&](std::int32_t row, std::int32_t i) { return 2 + row * segments + i % segments; };
+  io::Triangles triangles;
+  for (std::int32_t i = 0; i < segments; ++i) {
+    triangles.push_back({0, vertex(0, i + 1), vertex(0, i)});
+    for (std::int32_t row = 0; row + 1 < row_count; ++row) {
+      add_square({vertex(row, i), vertex(row, i + 1), vertex(row + 1, i + 1), vertex(row + 1, i)}, (row + i) % 2 == 1,
+                 triangles);
+    }
+    triangles.push_back({1, vertex(row_count - 1, i), vertex(row_count - 1, i + 1)});
   }
   return {to_positions(points), std::move(triangles)};
 }

@@ -20,6 +20,13 @@ struct Shape {
 /// 10 * 4^n + 2 vertices, 20 * 4^n faces.
 [[nodiscard]] Shape make_sphere(double radius_m, std::int32_t subdivisions);
 
+/// A sphere of diameter 1 stretched to size_m along the axes, centred at the origin.
+[[nodiscard]] Shape make_ellipsoid(const Vec3& size_m, std::int32_t subdivisions);
+
+/// A limb: two spheres, about the origin and about end_m, and the cone that touches both; closed. The vertices lie on
+/// it, `segments` around. REQUIRES |end_m| > |radius_m - end_radius_m|: neither sphere holds the other; segments >= 3.
+[[nodiscard]] Shape make_capsule(const Vec3& end_m, double radius_m, double end_radius_m, std::int32_t segments);
+
 /// Axis-aligned box centred at the origin; every side has cells by cells squares, edges and corners are shared.
 [[nodiscard]] Shape make_box(const Vec3& size_m, std::int32_t cells);
 

@@ -15,7 +15,20 @@ Shape make_shape(const SheetSpec& sheet, const Scene&) {
   return make_sheet(sheet.nx, sheet.ny, sheet.width_m, sheet.height_m);
 }
 Shape make_shape(const SphereSpec& sphere, const Scene&) { return make_sphere(sphere.radius_m, sphere.subdivisions); }
+Shape make_shape(const EllipsoidSpec& ellipsoid, const Scene&) {
+  return make_ellipsoid(ellipsoid.size_m, ellipsoid.subdivisions);
+}
+Shape make_shape(const CapsuleSpec& capsule, const Scene&) {
+  return make_capsule(capsule.end_m, capsule.radius_m, capsule.end_radius_m, capsule.segments);
+}
 Shape make_shape(const BoxSpec& box, const Scene&) { return make_box(box.size_m, box.cells); }
+Shape make_shape(const GarmentSpec& garment, const Scene& scene) {
+  try {
+    return make_garment(garment);
+  } catch (const GarmentError& error) {
+    throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {}", scene.file.string(), error.what()));
+  }
+}
 Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
   const io::MeshData data = io::read_mesh(scene.file.parent_path() / mesh.file);
   Shape shape;
@@ -63,13 +76,16 @@ class WorldBuilder {
 
   void add_body(const BodySpec& spec) {
     const Shape shape = shape_of(spec.surface);
-    const RigidPath path(spec.script.keys, spec.script.interpolation);
-    const VertexId begin = add_part(spec.name, io::Group::Role::kBody, shape, place(path.at(0), shape.x));
+    RigidPath path(spec.script.keys, spec.script.interpolation);
+    linkages_.push_back(spec.parent ? Linkage(spec.script.placement, std::move(path), linkages_.at(*spec.parent))
+                                    : Linkage(spec.script.placement, std::move(path)));
+    const Linkage& linkage = linkages_.back();
+    const VertexId begin = add_part(spec.name, io::Group::Role::kBody, shape, transform(linkage.at(0), shape.x));
     add_contact(spec.contact);
     inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
     std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
     std::iota(vertices.begin(), vertices.end(), begin);
-    bodies_.emplace_back(spec.name, std::move(vertices), shape.x, path);
+    bodies_.emplace_back(spec.name, std::move(vertices), shape.x, linkage);
   }
 
   World take(std::int32_t cloth_vertex_count) {
@@ -147,10 +163,9 @@ class WorldBuilder {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       local.row(static_cast<Eigen::Index>(i)) = x_.row(vertices[i]) - mean.transpose();
     }
-    std::vector<PoseKey> keys = spec.script.keys;
-    for (PoseKey& key : keys) key.pose.position_m += mean;
     pins_.emplace_back(name, std::move(vertices), std::move(local),
-                       RigidPath(std::move(keys), spec.script.interpolation), spec.release_s);
+                       Linkage({mean, Vec3::Zero()}, RigidPath(spec.script.keys, spec.script.interpolation)),
+                       spec.release_s);
   }
 
   const Scene& scene_;
@@ -161,6 +176,7 @@ class WorldBuilder {
   std::vector<Spring> springs_;
   std::vector<Stabilizer> stabilizers_;
   std::vector<Collider> bodies_, pins_;
+  std::vector<Linkage> linkages_;  ///< of the bodies
   ContactSurfaces contacts_;
 };
 

@@ -77,9 +77,30 @@ const BadScene kBadScenes[] = {
     {"keys out of order",
      kScene + "[[body]]\nsphere = {radius_m = 1}\n[[body.key]]\ntime_s = 1\n[[body.key]]\ntime_s = 1\n", 14,
      "must grow"},
-    {"a pose beside keys",
-     kScene + "[[body]]\nsphere = {radius_m = 1}\nposition_m = [0, 0, 1]\n[[body.key]]\ntime_s = 1\n", 11,
-     "unknown key \"position_m\""},
+    {"a parent below", kScene + "[[body]]\nparent = \"hip\"\nsphere = {radius_m = 1}\n[[body]]\nname = \"hip\"\n", 10,
+     "no body \"hip\" above"},
+    {"repeat without keys", kScene + "[[body]]\nsphere = {radius_m = 1}\nrepeat = 2\n", 11, "two keys"},
+    {"a cycle that does not close",
+     kScene + "[[body]]\nsphere = {radius_m = 1}\nrepeat = 2\nkey = [{time_s = 0}, {time_s = 1, "
+              "rotation_deg = [0, 0, 9]}]\n",
+     11, "the pose of the first"},
+    {"too many keys",
+     kScene + "[[body]]\nsphere = {radius_m = 1}\nrepeat = 100000\nkey = [{time_s = 0}, {time_s = 1}, {time_s = 2},\n"
+              "{time_s = 3}, {time_s = 4}, {time_s = 5}, {time_s = 6}, {time_s = 7}, {time_s = 8}, {time_s = 9}, "
+              "{time_s = 10}]\n",
+     11, "lower repeat"},
+    {"an unknown interpolation", kScene + "[[body]]\nsphere = {radius_m = 1}\ninterpolation = \"cubic\"\n", 11,
+     "\"spline\""},
+    {"a capsule in a capsule", kScene + "[[body]]\ncapsule = {end_m = [0, 0, 1], radius_m = 2, end_radius_m = 1}\n", 10,
+     "holds the other"},
+    {"a garment of one ring",
+     "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n[[cloth.garment.ring]]\nheight_m = 1\n"
+     "depth_m = 1\nwidth_m = 1\n",
+     4, "two rings"},
+    {"rings that rise",
+     "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n"
+     "ring = [{height_m = 1, depth_m = 1, width_m = 1},\n{height_m = 1, depth_m = 1, width_m = 1}]\n",
+     7, "from the top down"},
     {"a pinned vertex out of range", kScene + "[[cloth.pin]]\nvertices = [0, 20]\n", 10, "from 0 to 19"},
     {"a vertex pinned twice", kScene + "[[cloth.pin]]\nedge = \"top\"\n[[cloth.pin]]\nedge = \"left\"\n", 11,
      "pinned already"},
@@ -224,6 +245,47 @@ TEST(SceneReader, CopiesFollowEachOther) {
   EXPECT_EQ(scene.cloths[0].name, "layer");
   EXPECT_EQ(scene.cloths[2].name, "layer 3");
   EXPECT_EQ(scene.cloths[2].placement.position_m, Vec3(0, 1, 1.5));
+}
+
+TEST(SceneReader, ReadsAFigureAndItsGarment) {
+  const Scene scene = parse_scene(R"(
+[time]
+frames = 1
+[[cloth]]
+density_kg_m2 = 0.15
+stretch_n_m = 40
+[cloth.garment]
+cell_m = 0.05
+ring = [{height_m = 1.5, depth_m = 0.2, width_m = 0.3}, {height_m = 0.5, depth_m = 0.7, width_m = 0.8}]
+sleeves = {top_m = 1.4, bottom_m = 1.1, depth_m = 0.2, length_m = 0.5, cuff_radius_m = 0.1, down_deg = 40}
+[[body]]
+name = "chest"
+ellipsoid = {size_m = [0.2, 0.3, 0.5]}
+[[body]]
+name = "arm"
+parent = "chest"
+capsule = {end_m = [0, 0, -0.3], radius_m = 0.05}
+position_m = [0, 0.2, 0.1]
+rotation_deg = [30, 0, 0]
+interpolation = "spline"
+repeat = 3
+key = [{time_s = 1}, {time_s = 1.5, rotation_deg = [0, 20, 0]}, {time_s = 3}]
+)",
+                                  "scene.toml");
+  const auto& garment = std::get<GarmentSpec>(scene.cloths.at(0).surface);
+  EXPECT_EQ(garment.rings.at(1).width_m, 0.8);
+  EXPECT_EQ(garment.sleeves.value().down_deg, 40);
+  EXPECT_FALSE(scene.bodies.at(0).parent.has_value());
+  EXPECT_EQ(std::get<EllipsoidSpec>(scene.bodies.at(0).surface).size_m, Vec3(0.2, 0.3, 0.5));
+  const BodySpec& arm = scene.bodies.at(1);
+  EXPECT_EQ(arm.parent, 0u);
+  EXPECT_EQ(std::get<CapsuleSpec>(arm.surface).end_radius_m, 0.05) << "that of the start";
+  EXPECT_EQ(arm.script.placement.position_m, Vec3(0, 0.2, 0.1));
+  EXPECT_EQ(arm.script.interpolation, Interpolation::kSpline);
+  std::vector<double> times_s;
+  for (const PoseKey& key : arm.script.keys) times_s.push_back(key.time_s);
+  EXPECT_EQ(times_s, (std::vector<double>{1, 1.5, 3, 3.5, 5, 5.5, 7}));
+  for (const std::size_t i : {1u, 3u, 5u}) EXPECT_EQ(arm.script.keys[i].pose.rotation_deg, Vec3(0, 20, 0));
 }
 
 TEST(SceneReader, ValuesMayDependOnTheQuality) {

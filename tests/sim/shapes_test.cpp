@@ -7,29 +7,15 @@
 #include <gtest/gtest.h>
 
 #include "sim/cloth.h"
+#include "tests/sim/shape_topology.h"
 
 namespace selvage {
 
 using namespace sim;
+using testing::closed_and_oriented;
+using testing::directed_edges;
 
 namespace {
-
-// Number of faces at each directed edge; a closed oriented surface has every edge once in each direction.
-std::map<std::array<std::int32_t, 2>, int> directed_edges(const Shape& shape) {
-  std::map<std::array<std::int32_t, 2>, int> count;
-  for (const auto& t : shape.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) ++count[{t[k], t[(k + 1) % 3]}];
-  }
-  return count;
-}
-
-bool closed_and_oriented(const Shape& shape) {
-  const auto edges = directed_edges(shape);
-  for (const auto& [edge, count] : edges) {
-    if (count != 1 || !edges.contains({edge[1], edge[0]})) return false;
-  }
-  return true;
-}
 
 // Positive if the faces are counter-clockwise seen from outside.
 double volume(const Shape& shape) {
@@ -60,6 +46,56 @@ TEST(Shapes, SphereIsClosedAndTendsToItsVolume) {
   EXPECT_TRUE(closed_and_oriented(sphere));
   EXPECT_NEAR(volume(sphere), 4.0 / 3 * std::numbers::pi * 8, 0.2);
   for (Eigen::Index i = 0; i < sphere.x.rows(); ++i) EXPECT_NEAR(sphere.x.row(i).norm(), 2, 1e-14);
+}
+
+TEST(Shapes, EllipsoidIsClosedAndTendsToItsVolume) {
+  const Vec3 size(0.4, 1, 3);
+  const Shape ellipsoid = make_ellipsoid(size, 4);
+  EXPECT_TRUE(closed_and_oriented(ellipsoid));
+  EXPECT_NEAR(volume(ellipsoid), std::numbers::pi / 6 * size.prod(), 0.01 * size.prod());
+  for (Eigen::Index i = 0; i < ellipsoid.x.rows(); ++i) {
+    EXPECT_NEAR(Vec3(ellipsoid.x.row(i).transpose().cwiseQuotient(size)).norm(), 0.5, 1e-14);
+  }
+}
+
+namespace {
+
+// To the union of all spheres whose centre and radius are interpolated between the two ends: the least of a convex
+// function of the place between them.
+double distance_to_capsule(const Vec3& p, const Vec3& end_m, double radius_m, double end_radius_m) {
+  const auto at = [&](double t) { return (p - t * end_m).norm() - ((1 - t) * radius_m + t * end_radius_m); };
+  double lower = 0, upper = 1;
+  for (int n = 0; n < 80; ++n) {
+    const double a = lower + (upper - lower) / 3, b = upper - (upper - lower) / 3;
+    if (at(a) < at(b)) {
+      upper = b;
+    } else {
+      lower = a;
+    }
+  }
+  return at(lower);
+}
+
+}  // namespace
+
+TEST(Shapes, CapsuleIsClosedAndItsVerticesLieOnIt) {
+  struct Case {
+    Vec3 end_m;
+    double radius_m, end_radius_m;
+  };
+  for (const auto& [end_m, radius_m, end_radius_m] :
+       {Case{{0, 0, -0.4}, 0.08, 0.05}, Case{{0.3, 0.1, 0}, 0.05, 0.05}, Case{{0.02, -0.03, 0.1}, 0.01, 0.1}}) {
+    for (const std::int32_t segments : {3, 8, 33}) {
+      const Shape capsule = make_capsule(end_m, radius_m, end_radius_m, segments);
+      EXPECT_TRUE(closed_and_oriented(capsule));
+      EXPECT_GT(volume(capsule), 0);
+      for (Eigen::Index i = 0; i < capsule.x.rows(); ++i) {
+        ASSERT_NEAR(distance_to_capsule(capsule.x.row(i), end_m, radius_m, end_radius_m), 0, 1e-12);
+      }
+    }
+  }
+  const Shape fine = make_capsule({0, 0, 2}, 0.5, 0.5, 200);
+  EXPECT_NEAR(volume(fine), std::numbers::pi * (0.25 * 2 + 4.0 / 3 * 0.125), 2e-3);
 }
 
 TEST(Shapes, SheetFacesUpAndHasItsArea) {
