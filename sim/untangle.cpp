@@ -1,0 +1,30 @@
+#include "sim/untangle.h"
+
+#include <algorithm>
+
+#include "sim/body_return.h"
+#include "sim/membrane.h"
+#include "sim/surface_parts.h"
+
+namespace selvage::sim {
+
+UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
+                        const UntangleOptions& options, const FindIntersections& find) {
+  UntangleState state{mesh, bodies, options, find, SurfaceParts(mesh).cloth_flags(bodies), V, V};
+  UntangleReport report;
+  report.before = report.remaining = state.judge(state.x);
+  if (!report.before.empty()) {
+    if (draw_cloth_back(state) && return_bodies(state)) approach_start(state);
+    report.remaining = state.judge(state.x);
+  }
+  report.rounds = state.rounds;
+  if (!report.remaining.empty()) state.x = V;
+  for (Eigen::Index v = 0; v < V.rows(); ++v) {
+    const double moved_m = (state.x.row(v) - V.row(v)).stableNorm();
+    report.moved_vertices += moved_m > 0 ? 1 : 0;
+    report.largest_move_m = std::max(report.largest_move_m, moved_m);
+  }
+  return {std::move(state.x), std::move(report)};
+}
+
+}  // namespace selvage::sim
