@@ -12,11 +12,11 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "cli/interrupt.h"
+#include "cli/start_check.h"
 #include "cli/terminal.h"
 #include "sim/recorder.h"
 #include "sim/scene_reader.h"
 #include "sim/step.h"
-#include "verify/check.h"
 
 namespace selvage::cli {
 namespace {
@@ -27,53 +27,8 @@ struct SimArguments {
   std::optional<std::size_t> threads;
   io::SequenceKind record = io::SequenceKind::kFrames;
   sim::Quality quality = sim::Quality::kDraft;
-  bool resume = false, strict = false;
+  bool resume = false, strict = false, repair = false;
 };
-
-std::string part_of_face(const sim::World& world, std::int32_t face) {
-  for (const io::Group& group : world.groups) {
-    if (face >= group.face_begin && face < group.face_end) return group.name;
-  }
-  return "?";
-}
-
-std::string part_of_vertex(const sim::World& world, VertexId vertex) {
-  return part_of_face(world, world.mesh.vertex_owner[static_cast<std::size_t>(vertex)]);
-}
-
-// S1 begins with an intersection-free state, so the start is decided exactly and refused with a witness.
-void refuse_intersecting_start(const sim::Simulation& simulation) {
-  const sim::World& world = simulation.world();
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-  }
-  std::vector<verify::Point> V(static_cast<std::size_t>(simulation.x().rows()));
-  for (std::size_t i = 0; i < V.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    V[i] = {simulation.x()(row, 0), simulation.x()(row, 1), simulation.x()(row, 2)};
-  }
-  verify::CheckOptions options;
-  options.max_violations = 1;
-  const verify::CheckResult result = verify::check_frame({world.triangles, is_body}, V, options);
-  if (result.violations_total.total() == 0) return;
-  const verify::Violation& first = result.violations.at(0);
-  std::string vertices;
-  std::string parts;
-  for (const std::int32_t vertex : first.vertices) {
-    if (vertex < 0) continue;
-    vertices += fmt::format("{}{}", vertices.empty() ? "" : ", ", vertex);
-    const std::string part = part_of_vertex(world, vertex);
-    if (parts.find("\"" + part + "\"") == std::string::npos) {
-      parts += fmt::format("{}\"{}\"", parts.empty() ? "" : " and ", part);
-    }
-  }
-  throw io::Error(io::ErrorKind::kBadInput,
-                  fmt::format("{}: the start has {} intersecting pairs; the first is of {} at vertices {}: move them "
-                              "apart",
-                              simulation.scene().file.string(), result.violations_total.total(), parts, vertices));
-}
 
 void print_witness(const sim::Simulation& simulation, const sim::CollisionStepReport& report) {
   fmt::print(stderr, "stopped at {:.6f} s: no position of the cloth is safe between its scripted bodies",
@@ -156,7 +111,7 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);
   if (arguments.frames) scene.time.frame_count = *arguments.frames;
   sim::Simulation simulation(scene);
-  refuse_intersecting_start(simulation);
+  require_clean_start(simulation, arguments.repair);
   fmt::print(stderr, "{}", sim::describe(simulation.scene(), simulation.world()));
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
@@ -187,6 +142,9 @@ void add_sim_command(CLI::App& program, Job& job) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, sim::Quality>{{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}}));
   command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");
+  command.add_flag(
+      "--repair", arguments->repair,
+      "Move cloth that starts intersecting until it does not, and say how far; springs keep their rest lengths");
   command.add_flag(
       "--strict", arguments->strict,
       "Exit code 1 also where the fail-safe was needed, the tolerance was missed, a body waited or an implicit "

@@ -83,6 +83,39 @@ TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("\"sheet\""), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("\"ball\""), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" of \"sheet\" and face "), std::string::npos) << "the pairs: " << run.err;
+  EXPECT_NE(run.err.find("--repair"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
+  const auto run = sim(scene(4, 0.27, 0.27), {"--repair", "--record", "steps"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("repair     "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" of 100 cloth vertices moved, by at most 0.0"), std::string::npos) << run.err;
+  EXPECT_EQ(run_program(folder_, {"verify", path("out")}).exit_code, 0);
+
+  // The repair does the same again when the run is resumed.
+  std::filesystem::rename(path("out"), path("whole"));
+  ASSERT_EQ(sim(scene(4, 0.27, 0.27), {"--repair", "--frames", "2"}).exit_code, 0);
+  const auto resumed = sim(scene(4, 0.27, 0.27), {"--repair", "--resume"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  std::filesystem::rename(path("out"), path("parts"));
+  ASSERT_EQ(sim(scene(4, 0.27, 0.27), {"--repair"}).exit_code, 0);
+  for (const char* name : {"/frame_000000.npy", "/frame_000004.npy"}) {
+    EXPECT_EQ(slurp(path("parts") + name), slurp(path("out") + name)) << name;
+    EXPECT_FALSE(slurp(path("out") + name).empty()) << name;
+  }
+}
+
+TEST_F(SimCommand, ARepairThatIsNotPossibleSaysWhatRemainsAndWritesNothing) {
+  // The middle of the sheet is pinned inside the ball.
+  std::string text = scene(3, 0.3, 0.3);
+  text.insert(text.find("[[body]]"), "[[cloth.pin]]\nvertices = [44, 45, 54, 55]\n");
+  const auto run = sim(text, {"--repair"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("--repair found no way out"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" of \"sheet\" and face "), std::string::npos) << "the pairs: " << run.err;
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 

@@ -1,0 +1,117 @@
+#include "cli/start_check.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "io/error.h"
+#include "sim/untangle.h"
+#include "verify/check.h"
+
+namespace selvage::cli {
+namespace {
+
+constexpr std::size_t kNamedPairs = 10;         // the rest is counted
+constexpr std::size_t kMostPairs = 10'000'000;  // of one frame; more are all parts of a scene in one place
+
+std::string part_of_face(const sim::World& world, FaceId face) {
+  for (const io::Group& group : world.groups) {
+    if (face >= group.face_begin && face < group.face_end) return group.name;
+  }
+  return "?";
+}
+
+/// Exact; pairs of bodies are left out.
+sim::FindIntersections exact_judge(const sim::World& world) {
+  std::vector<std::uint8_t> is_body(world.triangles.size());
+  for (const io::Group& group : world.groups) {
+    if (group.role != io::Group::Role::kBody) continue;
+    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
+  }
+  const auto vertex_count = static_cast<std::size_t>(world.x_t0.rows());
+  return [topology = verify::make_topology({world.triangles, is_body}, vertex_count)](const Positions& x) {
+    std::vector<verify::Point> V;
+    V.reserve(static_cast<std::size_t>(x.rows()));
+    for (Eigen::Index v = 0; v < x.rows(); ++v) V.push_back({x(v, 0), x(v, 1), x(v, 2)});
+    verify::CheckOptions options;
+    options.max_violations = kMostPairs;
+    std::vector<sim::FacePair> pairs;
+    for (const verify::Violation& found : verify::check_frame(topology, V, options).violations) {
+      const bool one_face = found.event == verify::EventKind::kSelf;  // a vertex, and its face without area
+      pairs.push_back({found.features[one_face ? 1 : 0], found.features[1]});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  };
+}
+
+void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pairs) {
+  for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i) {
+    const auto [f, g] = pairs[i];
+    if (f == g) {
+      fmt::print(stderr, "  face {} of \"{}\" has no area\n", f, part_of_face(world, f));
+    } else {
+      fmt::print(stderr, "  face {} of \"{}\" and face {} of \"{}\" intersect\n", f, part_of_face(world, f), g,
+                 part_of_face(world, g));
+    }
+  }
+  if (pairs.size() > kNamedPairs) fmt::print(stderr, "  and {} pairs more\n", pairs.size() - kNamedPairs);
+}
+
+[[noreturn]] void refuse(const sim::Simulation& simulation, const std::vector<sim::FacePair>& pairs,
+                         const char* what_to_do) {
+  const sim::World& world = simulation.world();
+  print_pairs(world, pairs);
+  const auto [f, g] = pairs.front();
+  const std::string first = part_of_face(world, f), second = part_of_face(world, g);
+  throw io::Error(io::ErrorKind::kBadInput,
+                  fmt::format("{}: the start has {} intersecting pairs, the first of \"{}\"{}; {}",
+                              simulation.scene().file.string(), pairs.size(), first,
+                              first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
+}
+
+sim::UntangleResult untangle(const sim::Simulation& simulation, const sim::FindIntersections& judge) {
+  const sim::World& world = simulation.world();
+  std::vector<double> inverse_mass = world.inverse_mass;
+  std::vector<std::int32_t> body(inverse_mass.size(), -1);
+  for (std::size_t id = 0; id < world.colliders.size(); ++id) {
+    if (!world.colliders[id].holds(0)) continue;
+    for (const VertexId vertex : world.colliders[id].vertices()) {
+      inverse_mass[static_cast<std::size_t>(vertex)] = 0;
+      body[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
+    }
+  }
+  const sim::CollisionOptions& collision = simulation.scene().collision;
+  return sim::untangle(world.mesh, simulation.x(), {inverse_mass, body},
+                       {collision.thickness_m, collision.tolerance_m, collision.precision}, judge);
+}
+
+}  // namespace
+
+std::string part_of_vertex(const sim::World& world, VertexId vertex) {
+  return part_of_face(world, world.mesh.vertex_owner[static_cast<std::size_t>(vertex)]);
+}
+
+void require_clean_start(sim::Simulation& simulation, bool repair) {
+  const sim::FindIntersections judge = exact_judge(simulation.world());
+  const std::vector<sim::FacePair> pairs = judge(simulation.x());
+  if (pairs.empty()) return;
+  if (!repair) refuse(simulation, pairs, "move them apart, or let --repair do it");
+  const sim::UntangleResult result = untangle(simulation, judge);
+  if (!result.report.remaining.empty()) {
+    refuse(
+        simulation, result.report.remaining,
+        fmt::format("--repair found no way out for them, of {} pairs before; move them apart", pairs.size()).c_str());
+  }
+  sim::SimulationState state = simulation.state();
+  state.x = result.x;
+  simulation.restore(state);
+  fmt::print(stderr,
+             "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged\n",
+             pairs.size(), result.report.moved_vertices, simulation.world().cloth_vertex_count,
+             result.report.largest_move_m, result.report.rounds);
+}
+
+}  // namespace selvage::cli
