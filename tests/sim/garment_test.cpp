@@ -97,18 +97,24 @@ bool on_ring(const Shape& shape, const Loop& loop, const GarmentSpec::Ring& ring
   });
 }
 
-// A flat circle of the radius, at right angles to a sleeve of the side.
-bool on_cuff(const Shape& shape, const Loop& loop, const GarmentSpec::Sleeves& sleeves, double side) {
+// A flat circle of the radius, at right angles to a sleeve of the side, at its length from the opening, whose middle
+// lies up to 8 cm from where a flat one would be: the side is round, and it begins and ends with a cell.
+bool on_cuff(const Shape& shape, const Loop& loop, const GarmentSpec& spec, double side) {
+  const GarmentSpec::Sleeves& sleeves = *spec.sleeves;
   const double down = sleeves.down_deg * std::numbers::pi / 180;
   const Vec3 along(0, side * std::cos(down), -std::sin(down));
   const Vec3 first = shape.x.row(*loop.begin());
   double across = 0;
+  Vec3 middle = Vec3::Zero();
   for (const std::int32_t v : loop) {
     const Vec3 p = shape.x.row(v);
+    middle += p / double(loop.size());
     if (std::abs((p - first).dot(along)) > 1e-12) return false;
     across = std::max(across, (p - first).norm());
   }
-  return first.y() * side > 0 && across <= 2 * sleeves.cuff_radius_m + 1e-12 && across > 1.8 * sleeves.cuff_radius_m;
+  const Vec3 opening(0, side * spec.rings.at(2).width_m / 2, (sleeves.top_m + sleeves.bottom_m) / 2);
+  return (middle - opening - sleeves.length_m * along).norm() < 0.08 && across <= 2 * sleeves.cuff_radius_m + 1e-12 &&
+         across > 1.8 * sleeves.cuff_radius_m;
 }
 
 }  // namespace
@@ -126,7 +132,7 @@ TEST(Garment, IsOneOpenSurfaceWithoutIntersectionAtEveryResolution) {
     EXPECT_EQ(count([&](const Loop& loop) { return on_ring(shape, loop, spec.rings.front()); }), 1) << "the neck";
     EXPECT_EQ(count([&](const Loop& loop) { return on_ring(shape, loop, spec.rings.back()); }), 1) << "the hem";
     for (const double side : {-1, 1}) {
-      EXPECT_EQ(count([&](const Loop& loop) { return on_cuff(shape, loop, *spec.sleeves, side); }), 1) << "a cuff";
+      EXPECT_EQ(count([&](const Loop& loop) { return on_cuff(shape, loop, spec, side); }), 1) << "a cuff";
     }
   }
 }
