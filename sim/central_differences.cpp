@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/assert.h"
 #include "sim/parallel.h"
@@ -10,86 +11,65 @@
 namespace selvage::sim {
 
 CentralDifferences::CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options)
-    : springs_(springs), options_(options), along_(springs.springs().size()), strain_(springs, options.strain) {
+    : options_(options), springs_(springs, options.stabilizers), strain_(springs, options.strain) {
   SELVAGE_ASSERT(options.step_s > 0);
-  for (const Spring& spring : springs.springs()) damping_.push_back(spring.damping_n_s_m);
 }
 
-void CentralDifferences::find_forces(const Positions& x) {
-  springs_.stretch(x, stretch_);
-  springs_.elastic_forces(stretch_, force_);
-  if (options_.stabilizers != nullptr) options_.stabilizers->add_forces(x, 1, 0, force_);
-}
-
-void CentralDifferences::find_damping(const Positions& v, std::span<const double> inverse_mass) {
-  damping_impulses({springs_, inverse_mass, 0, damping_, options_.stabilizers, 0, 1}, stretch_.direction, v,
-                   damping_force_);
-}
-
-void CentralDifferences::explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h) {
-  parallel_each(motion.v.rows(), [&](Eigen::Index i) {
+// Also takes x_t1_ to where v takes x in the step.
+void CentralDifferences::explicit_half_kick(std::span<const double> inverse_mass, double h) {
+  x_t1_.resize(x_.rows());
+  parallel_each(v_.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
-    if (w == 0) return;
-    const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * motion.v.row(i).norm();
-    motion.v.row(i) +=
-        h / 2 *
-        (options_.gravity_m_s2.transpose() - drag_1_s * motion.v.row(i) + w * (force_.row(i) - damping_force_.row(i)));
+    Eigen::RowVector3d v = v_.row(i);
+    if (w > 0) {
+      const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * v.norm();
+      v += h / 2 * (options_.gravity_m_s2.transpose() - drag_1_s * v + w * force_.row(i)) - w * impulses_.row(i);
+      v_.row(i) = v;
+    }
+    x_t1_.row(i) = x_.row(i) + h * v;
   });
 }
 
-void CentralDifferences::implicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h,
-                                            double stiffness_share) {
-  const double stiffness_s2 = stiffness_share * (h / 2) * (h / 2);
-  for (std::size_t s = 0; s < damping_.size(); ++s) {
-    along_[s] = h / 2 * damping_[s] + stiffness_s2 * springs_.springs()[s].stiffness_n_m;
-  }
-  const VelocitySystem system{springs_,     inverse_mass, options_.drag_1_s, along_, options_.stabilizers,
-                              stiffness_s2, h / 2};
-  rhs_ = motion.v;
+void CentralDifferences::implicit_half_kick(std::span<const double> inverse_mass, double h) {
+  rhs_.resize(v_.rows());
   parallel_each(rhs_.rows(), [&](Eigen::Index i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
+    rhs_.row(i) = v_.row(i);
     if (w > 0) rhs_.row(i) += h / 2 * (options_.gravity_m_s2.transpose() + w * force_.row(i));
   });
+  const VelocitySystem system{springs_, x_, inverse_mass, options_.drag_1_s};
   if (options_.quadratic_drag_1_m > 0) {
-    motion.v = rhs_;
-    march(system, inverse_mass, h / 2, motion.v);
-    find_damping(motion.v, inverse_mass);
+    march(system, h / 2);
   } else {
-    solver_.solve(system, stretch_.direction, rhs_, h / 2, motion.v);
-    damping_force_ = solver_.impulses() / (h / 2);
+    solver_.solve(system, rhs_, h / 2, impulses_, v_);
   }
 }
 
-// rhs holds the elastic kick, which does not depend on the velocity; the march adds what does.
-void CentralDifferences::march(const VelocitySystem& system, std::span<const double> inverse_mass, double time_s,
-                               Positions& v) {
+// rhs_ holds the elastic kick, which does not depend on the velocity; the march adds what does.
+void CentralDifferences::march(const VelocitySystem& system, double time_s) {
   double rate_1_s = 0, speed = 0;
-  for (Eigen::Index i = 0; i < v.rows(); ++i) {
-    const auto vertex = static_cast<std::size_t>(i);
-    if (inverse_mass[vertex] == 0) continue;
-    double row = 0;  // Gershgorin: twice the diagonal of the springs' part
-    for (const SpringSystem::End& end : springs_.ends_at(static_cast<VertexId>(i))) row += 2 * along_[end.spring];
-    if (system.stabilizers != nullptr) {
-      row += system.stabilizers->row_sum(static_cast<VertexId>(i), system.stabilizer_stiffness_share,
-                                         system.stabilizer_damping_share);
-    }
-    rate_1_s = std::max(rate_1_s, inverse_mass[vertex] * row / time_s);
-    speed = std::max(speed, v.row(i).norm());
+  for (Eigen::Index i = 0; i < rhs_.rows(); ++i) {
+    const double w = system.inverse_mass[static_cast<std::size_t>(i)];
+    if (w == 0) continue;
+    rate_1_s = std::max(rate_1_s, w * springs_.row_sum(static_cast<VertexId>(i)) / time_s);
+    speed = std::max(speed, rhs_.row(i).norm());
   }
   rate_1_s += options_.drag_1_s + 2 * options_.quadratic_drag_1_m * speed;
   const auto acceleration = [&](const Positions& u, Positions& a) {
-    damping_impulses(system, stretch_.direction, u, a);
+    v_.copy(u);
+    springs_.multiply(x_, v_, impulses_);
+    a.resize(u.rows(), 3);
     parallel_each(a.rows(), [&](Eigen::Index i) {
-      const double w = inverse_mass[static_cast<std::size_t>(i)];
-      if (w > 0) {
-        const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * u.row(i).norm();
-        a.row(i) = -(w / time_s) * a.row(i) - drag_1_s * u.row(i);
-      } else {
-        a.row(i).setZero();
-      }
+      const double w = system.inverse_mass[static_cast<std::size_t>(i)];
+      const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * u.row(i).norm();
+      a.row(i) = -(w / time_s) * impulses_.row(i) - (w > 0 ? drag_1_s : 0) * u.row(i);
     });
   };
+  Positions v(rhs_.rows(), 3);
+  rhs_.copy_to(v);
   march_velocity(acceleration, rate_1_s, time_s, 1, v);
+  v_.copy(v);
+  springs_.multiply(x_, v_, impulses_);
 }
 
 DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_t1,
@@ -102,18 +82,23 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     }
   }
   internal_step_s_ = h;
-  const Positions x_t0 = motion.x;
-  find_forces(motion.x);
-  find_damping(motion.v, inverse_mass);
+  x_.copy(motion.x);
+  v_.copy(motion.v);
+  springs_.look(x_, {h / 2, 0}, force_);
+  springs_.multiply(x_, v_, impulses_);
   for (int step = 0; step < step_count; ++step) {
-    explicit_half_kick(motion, inverse_mass, h);
-    strain_.limit_strain(inverse_mass, motion.x, stretch_, h, motion.v);
-    strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, h, motion.v);
-    motion.x += h * motion.v;
-    if (step + 1 == step_count) last_midstep_v_ = motion.v;
-    find_forces(motion.x);
-    implicit_half_kick(motion, inverse_mass, h, 0);
+    explicit_half_kick(inverse_mass, h);
+    const LimitedMotion limited{x_, h, v_, x_t1_};
+    strain_.limit_strain(inverse_mass, limited);
+    strain_.limit_strain_rate(inverse_mass, limited);
+    std::swap(x_, x_t1_);
+    if (step + 1 == step_count) last_midstep_v_ = v_;
+    springs_.look(x_, {h / 2, 0}, force_);
+    implicit_half_kick(inverse_mass, h);
   }
+  const Positions x_t0 = motion.x;
+  x_.copy_to(motion.x);
+  v_.copy_to(motion.v);
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) = scripted_x_t1.row(i);
   }
@@ -129,9 +114,15 @@ void CentralDifferences::final_velocity(Motion& motion, std::span<const double> 
       if (inverse_mass[static_cast<std::size_t>(i)] > 0) motion.v.row(i) += last_midstep_v_.row(i) - average_v_.row(i);
     });
   }
-  find_forces(motion.x);
-  implicit_half_kick(motion, inverse_mass, h, 1);
-  strain_.limit_strain_rate(inverse_mass, motion.x, stretch_, h, motion.v);
+  x_.copy(motion.x);
+  v_.copy(motion.v);
+  springs_.look(x_, {h / 2, h / 2 * (h / 2)}, force_);
+  impulses_.set_zero();  // a guess that does not depend on what was before, so that a run resumes with the same bits
+  implicit_half_kick(inverse_mass, h);
+  x_t1_.resize(x_.rows());
+  parallel_each(x_.rows(), [&](Eigen::Index i) { x_t1_.row(i) = x_.row(i) + h * v_.row(i); });
+  strain_.limit_strain_rate(inverse_mass, {x_, h, v_, x_t1_});
+  v_.copy_to(motion.v);
 }
 
 }  // namespace selvage::sim

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "sim/dynamics.h"
-#include "sim/spring.h"
-#include "sim/stabilizer.h"
+#include "sim/spring_lanes.h"
 #include "sim/strain.h"
 #include "sim/velocity.h"
 
@@ -46,23 +45,21 @@ class CentralDifferences : public Dynamics {
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
-  void find_forces(const Positions& x);
-  /// The damping forces at v into damping_force_.
-  void find_damping(const Positions& v, std::span<const double> inverse_mass);
-  void explicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h);
-  /// Leaves the damping forces at the new velocity in damping_force_ where stiffness_share is 0: what was solved for.
-  void implicit_half_kick(Motion& motion, std::span<const double> inverse_mass, double h, double stiffness_share);
-  void march(const VelocitySystem& system, std::span<const double> inverse_mass, double time_s, Positions& v);
+  /// Half a step of all forces but springs' elongation within it, from v at x; the limits; and x at the end of the
+  /// step.
+  void explicit_half_kick(std::span<const double> inverse_mass, double h);
+  /// Leaves the impulses of B at the new velocity in impulses_.
+  void implicit_half_kick(std::span<const double> inverse_mass, double h);
+  void march(const VelocitySystem& system, double time_s);
 
-  const SpringSystem& springs_;
   CentralDifferencesOptions options_;
-  std::vector<double> damping_;  ///< per spring, N s / m
-  std::vector<double> along_;    ///< per spring: impulse per rate of elongation over half a step
-  SpringStretch stretch_;        ///< at the positions last given to find_forces
-  Positions force_;              ///< there
-  Positions damping_force_, rhs_;
+  SpringLanes springs_;
+  LaneVectors x_, v_;
+  LaneVectors force_;     ///< elastic, at x_
+  LaneVectors impulses_;  ///< of damping over half a step, at the last velocity
+  LaneVectors rhs_, x_t1_;
   double internal_step_s_ = 0;  ///< of the last advance(); 0: there was none
-  Positions last_midstep_v_;    ///< of its last internal step
+  LaneVectors last_midstep_v_;  ///< of its last internal step
   Positions average_v_;         ///< over all of it
   VelocitySolver solver_;
   StrainLimiter strain_;

@@ -34,8 +34,7 @@ void add_stage(const StageReport& stage, DynamicsReport& report) {
 }  // namespace
 
 ImplicitDynamics::ImplicitDynamics(const SpringSystem& springs, const ImplicitDynamicsOptions& options)
-    : springs_(springs),
-      options_(options),
+    : options_(options),
       strain_(springs, options.strain),
       stage_(springs, options.stabilizers, options.fields),
       half_kick_(springs, half_kick_options(options)) {
@@ -79,10 +78,12 @@ void ImplicitDynamics::step(Motion& motion, std::span<const double> inverse_mass
 
 // Like a contact: what the impulses leave is the mean velocity.
 void ImplicitDynamics::limit(const Positions& x_t0, std::span<const double> inverse_mass, double h, Motion& motion) {
-  Positions mean = (motion.x - x_t0) / h;
-  springs_.stretch(x_t0, stretch_);
-  if (strain_.limit_strain(inverse_mass, x_t0, stretch_, h, mean) == 0) return;
-  motion = {x_t0 + h * mean, mean};
+  x_t0_.copy(x_t0);
+  x_t1_.copy(motion.x);
+  mean_v_.copy((motion.x - x_t0) / h);
+  if (strain_.limit_strain(inverse_mass, {x_t0_, h, mean_v_, x_t1_}) == 0) return;
+  x_t1_.copy_to(motion.x);
+  mean_v_.copy_to(motion.v);
   final_velocity(motion, inverse_mass, h);
 }
 

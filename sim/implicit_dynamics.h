@@ -41,13 +41,12 @@ class ImplicitDynamics : public Dynamics {
   void step(Motion& motion, std::span<const double> inverse_mass, double h, DynamicsReport& report);
   void limit(const Positions& x_t0, std::span<const double> inverse_mass, double h, Motion& motion);
 
-  const SpringSystem& springs_;
   ImplicitDynamicsOptions options_;
   StrainLimiter strain_;
-  SpringStretch stretch_;
   ImplicitStage stage_;
   CentralDifferences half_kick_;
   Positions acceleration_;
+  LaneVectors x_t0_, x_t1_, mean_v_;
 };
 
 }  // namespace selvage::sim

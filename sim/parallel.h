@@ -9,30 +9,37 @@
 
 namespace selvage::sim {
 
-/// Calls body(i) for i in [0, count). `body` writes only what belongs to i. The grain is large enough (measured: about
-/// 10 us of spring work) that small scenes stay on one thread.
+/// Items are handed out in blocks of this many: a few microseconds of work on vertices or springs, so that small scenes
+/// stay on one thread. A multiple of any block of lanes.
+inline constexpr Eigen::Index kParallelBlock = 1024;
+
+/// Calls body(begin, end) for every block of [0, count). `body` writes only what belongs to its items.
 template <class Body>
-void parallel_each(Eigen::Index count, Body body) {
-  constexpr Eigen::Index kGrain = 1024;
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, kGrain), [&](const auto& range) {
-    for (Eigen::Index i = range.begin(); i < range.end(); ++i) body(i);
+void parallel_blocks(Eigen::Index count, Body body) {
+  const Eigen::Index blocks = (count + kParallelBlock - 1) / kParallelBlock;
+  tbb::parallel_for(Eigen::Index{0}, blocks, [&](Eigen::Index block) {
+    body(block * kParallelBlock, std::min(count, (block + 1) * kParallelBlock));
   });
 }
 
-/// The sum of body(i) for i in [0, count); `body` may write what belongs to i. Blocks of items are summed one by one
-/// and then in order, so the bits depend on `count` alone. `partial` is room to work in.
+/// Calls body(i) for i in [0, count). `body` writes only what belongs to i.
 template <class Body>
-double parallel_sum(Eigen::Index count, std::vector<double>& partial, Body body) {
-  constexpr Eigen::Index kBlock = 1024;
-  partial.assign(static_cast<std::size_t>((count + kBlock - 1) / kBlock), 0);
-  tbb::parallel_for(std::size_t{0}, partial.size(), [&](std::size_t block) {
-    const Eigen::Index begin = static_cast<Eigen::Index>(block) * kBlock, end = std::min(count, begin + kBlock);
-    double sum = 0;
-    for (Eigen::Index i = begin; i < end; ++i) sum += body(i);
-    partial[block] = sum;
+void parallel_each(Eigen::Index count, Body body) {
+  parallel_blocks(count, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index i = begin; i < end; ++i) body(i);
   });
-  double total = 0;
-  for (const double sum : partial) total += sum;
+}
+
+/// The sum of body(begin, end) over the blocks of [0, count); `body` may write what belongs to its items. The sums of
+/// blocks are added in order, so the bits depend on `count` alone. `partial` is room to work in.
+template <class Sum, class Body>
+Sum parallel_sum(Eigen::Index count, std::vector<Sum>& partial, Body body) {
+  partial.resize(static_cast<std::size_t>((count + kParallelBlock - 1) / kParallelBlock));
+  parallel_blocks(count, [&](Eigen::Index begin, Eigen::Index end) {
+    partial[static_cast<std::size_t>(begin / kParallelBlock)] = body(begin, end);
+  });
+  Sum total{};
+  for (const Sum& sum : partial) total += sum;
   return total;
 }
 

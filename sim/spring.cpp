@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "kernel/assert.h"
-#include "sim/parallel.h"
 
 namespace selvage::sim {
 namespace {
@@ -30,36 +29,6 @@ SpringSystem::SpringSystem(std::vector<Spring> springs, std::int32_t vertex_coun
     ends_[next[static_cast<std::size_t>(springs_[s].a)]++] = {springs_[s].b, s & kSpringMask, 0};
     ends_[next[static_cast<std::size_t>(springs_[s].b)]++] = {springs_[s].a, s & kSpringMask, 1};
   }
-}
-
-void SpringSystem::stretch(const PositionsRef& x, SpringStretch& stretch) const {
-  stretch.direction.resize(static_cast<Eigen::Index>(springs_.size()), 3);
-  stretch.length.resize(springs_.size());
-  stretch.tension.resize(springs_.size());
-  parallel_each(stretch.direction.rows(), [&](Eigen::Index i) {
-    const auto s = static_cast<std::size_t>(i);
-    const Spring& spring = springs_[s];
-    const Eigen::RowVector3d d = x.row(spring.b) - x.row(spring.a);
-    const double length = d.norm();
-    stretch.length[s] = length;
-    stretch.tension[s] = spring.stiffness_n_m * (length - spring.rest_length_m);
-    stretch.direction.row(i) = (length >= std::numeric_limits<double>::min() ? 1 / length : 0.0) * d;
-  });
-}
-
-void SpringSystem::elastic_forces(const SpringStretch& stretch, Positions& force) const {
-  force.resize(vertex_count(), 3);
-  parallel_each(force.rows(), [&](Eigen::Index i) {
-    double sum_x = 0, sum_y = 0, sum_z = 0;
-    for (const End& end : ends_at(static_cast<VertexId>(i))) {
-      const double* const n = stretch.direction.data() + 3 * std::ptrdiff_t{end.spring};
-      const double pull = end.is_b ? -stretch.tension[end.spring] : stretch.tension[end.spring];
-      sum_x += pull * n[0];
-      sum_y += pull * n[1];
-      sum_z += pull * n[2];
-    }
-    force.row(i) << sum_x, sum_y, sum_z;
-  });
 }
 
 double stable_step_s(const SpringSystem& springs, std::span<const double> inverse_mass,

@@ -1,4 +1,4 @@
-// Springs between pairs of vertices, and their elastic and damping forces (paper, section 3).
+// Springs between pairs of vertices (paper, section 3).
 #pragma once
 
 #include <cstdint>
@@ -24,14 +24,7 @@ struct Spring {
   double damping_n_s_m = 0;  ///< force per rate of elongation
 };
 
-/// Springs at given positions.
-struct SpringStretch {
-  Positions direction;          ///< #S by 3: unit vectors from a to b; zero for a spring of length 0, or subnormal
-  std::vector<double> length;   ///< m
-  std::vector<double> tension;  ///< N: what the spring pulls its ends together with
-};
-
-/// Springs with the list of those that end at each vertex, so that forces are gathered per vertex in a fixed order.
+/// Springs with the list of those that end at each vertex.
 class SpringSystem {
  public:
   /// REQUIRES ends in [0, vertex_count), a != b, and fewer than 2^31 springs.
@@ -39,14 +32,6 @@ class SpringSystem {
 
   [[nodiscard]] const std::vector<Spring>& springs() const { return springs_; }
   [[nodiscard]] std::int32_t vertex_count() const { return static_cast<std::int32_t>(begin_.size()) - 1; }
-
-  /// How every spring lies at x.
-  void stretch(const PositionsRef& x, SpringStretch& stretch) const;
-
-  /// Rows [0, vertex_count) of `force` become the elastic forces, in N. Each spring pulls its two ends with the same
-  /// number of opposite sign, along the line between them, so linear and angular momentum are kept to rounding. A
-  /// spring of length 0 has no direction and pulls at neither end. Deterministic for any thread count.
-  void elastic_forces(const SpringStretch& stretch, Positions& force) const;
 
   /// One end of a spring, as its vertex sees it.
   struct End {

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
-
-#include "sim/parallel.h"
 
 namespace selvage::sim {
 namespace {
@@ -18,12 +15,12 @@ struct SpringMotion {
   [[nodiscard]] double length_t1() const { return std::sqrt(along * along + across_squared); }
 };
 
-SpringMotion motion_of(const Spring& spring, std::size_t s, const Positions& x, const SpringStretch& stretch,
-                       const Positions& v, double dt_s) {
+SpringMotion motion_of(const Spring& spring, const LimitedMotion& step) {
+  const Eigen::RowVector3d start = step.x_t0.row(spring.b) - step.x_t0.row(spring.a);
+  const Eigen::RowVector3d end = step.x_t1.row(spring.b) - step.x_t1.row(spring.a);
   SpringMotion motion;
-  motion.length_t0 = stretch.length[s];
-  motion.direction = stretch.direction.row(static_cast<Eigen::Index>(s));
-  const Eigen::RowVector3d end = x.row(spring.b) - x.row(spring.a) + dt_s * (v.row(spring.b) - v.row(spring.a));
+  motion.length_t0 = start.norm();
+  motion.direction = (motion.length_t0 > 0 ? 1 / motion.length_t0 : 0.0) * start;
   motion.along = end.dot(motion.direction);
   motion.across_squared = (end - motion.along * motion.direction).squaredNorm();
   return motion;
@@ -42,8 +39,6 @@ double correction(const SpringMotion& motion, double shortest, double longest) {
   return stop < 0 ? std::clamp(wanted, stop, 0.0) : std::clamp(wanted, 0.0, stop);
 }
 
-double square(double value) { return value * value; }
-
 /// The number of the next flagged item from `begin` on, or flags.size().
 std::size_t next_flagged(const std::vector<std::uint8_t>& flags, std::size_t begin) {
   const void* found = begin < flags.size() ? std::memchr(&flags[begin], 1, flags.size() - begin) : nullptr;
@@ -56,64 +51,49 @@ std::size_t next_flagged(const std::vector<std::uint8_t>& flags, std::size_t beg
 StrainLimiter::StrainLimiter(const SpringSystem& springs, const StrainLimits& limits)
     : springs_(springs),
       limits_(limits),
+      check_(springs),
       is_suspect_(springs.springs().size()),
-      active_count_(static_cast<std::size_t>(springs.vertex_count())) {
-  for (std::uint32_t s = 0; s < springs.springs().size(); ++s) {
-    const Spring& spring = springs.springs()[s];
-    if (spring.kind == SpringKind::kBending) continue;
-    limited_.push_back({spring.a, spring.b, s, square((1 - limits.strain) * spring.rest_length_m),
-                        square((1 + limits.strain) * spring.rest_length_m)});
+      active_count_(static_cast<std::size_t>(springs.vertex_count())) {}
+
+void StrainLimiter::apply(const Spring& spring, const Eigen::RowVector3d& impulse, std::span<const double> inverse_mass,
+                          const LimitedMotion& motion) const {
+  motion.v.row(spring.a) -= inverse_mass[static_cast<std::size_t>(spring.a)] * impulse;
+  motion.v.row(spring.b) += inverse_mass[static_cast<std::size_t>(spring.b)] * impulse;
+  for (const VertexId i : {spring.a, spring.b}) {
+    motion.x_t1.row(i) = motion.x_t0.row(i) + motion.dt_s * motion.v.row(i);
   }
 }
 
-template <class Bounds>
-void StrainLimiter::find_suspects(const Positions& x, double dt_s, const Positions& v, Bounds bounds) {
-  end_.resize(x.rows(), 3);
-  parallel_each(x.rows(), [&](Eigen::Index i) { end_.row(i) = x.row(i) + dt_s * v.row(i); });
-  parallel_each(static_cast<Eigen::Index>(limited_.size()), [&](Eigen::Index i) {
-    const Limited& spring = limited_[static_cast<std::size_t>(i)];
-    const double squared = (end_.row(spring.b) - end_.row(spring.a)).squaredNorm();
-    const auto [shortest, longest] = bounds(spring);
-    is_suspect_[spring.spring] = !(squared >= shortest && squared <= longest) ? 1 : 0;
-  });
-}
-
-std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, const Positions& x,
-                                         const SpringStretch& stretch, double dt_s, Positions& v) {
+std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, const LimitedMotion& motion) {
   if (limits_.strain == 0) return 0;
   std::int64_t impulses = 0;
   for (std::int32_t iteration = 0; iteration < limits_.strain_iterations; ++iteration) {
-    find_suspects(x, dt_s, v, [](const Limited& s) { return std::pair(s.shortest_squared, s.longest_squared); });
+    check_.find_outside(motion.x_t0, motion.x_t1, LengthCheck::Reference::kRestLength, limits_.strain, is_suspect_);
     active_.clear();
-    change_.clear();
     for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
       const Spring& spring = springs_.springs()[s];
       const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
       if (!(inverse_mass[a] + inverse_mass[b] > 0)) continue;
-      const SpringMotion motion = motion_of(spring, s, x, stretch, v, dt_s);
-      const double longest = std::max((1 + limits_.strain) * spring.rest_length_m, motion.length_t0);
-      const double shortest = std::min((1 - limits_.strain) * spring.rest_length_m, motion.length_t0);
-      const double along = correction(motion, shortest, longest);
+      const SpringMotion spring_motion = motion_of(spring, motion);
+      const double longest = std::max((1 + limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
+      const double shortest = std::min((1 - limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
+      const double along = correction(spring_motion, shortest, longest);
       if (along == 0) continue;
-      active_.push_back(s);
-      change_.push_back(along / dt_s);
+      active_.push_back({s, along / motion.dt_s / (inverse_mass[a] + inverse_mass[b]) * spring_motion.direction});
       ++active_count_[a];
       ++active_count_[b];
     }
     if (active_.empty()) break;
     impulses += static_cast<std::int64_t>(active_.size());
-    for (std::size_t k = 0; k < active_.size(); ++k) {
-      const Spring& spring = springs_.springs()[active_[k]];
-      const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
-      const double share = 1.0 / std::max(active_count_[a], active_count_[b]);
-      const Eigen::RowVector3d impulse = (share * change_[k] / (inverse_mass[a] + inverse_mass[b])) *
-                                         stretch.direction.row(static_cast<Eigen::Index>(active_[k]));
-      v.row(spring.a) -= inverse_mass[a] * impulse;
-      v.row(spring.b) += inverse_mass[b] * impulse;
+    for (const Active& active : active_) {
+      const Spring& spring = springs_.springs()[active.spring];
+      const std::int32_t count = std::max(active_count_[static_cast<std::size_t>(spring.a)],
+                                          active_count_[static_cast<std::size_t>(spring.b)]);
+      apply(spring, (1.0 / count) * active.impulse, inverse_mass, motion);
     }
-    for (const std::size_t s : active_) {
-      active_count_[static_cast<std::size_t>(springs_.springs()[s].a)] = 0;
-      active_count_[static_cast<std::size_t>(springs_.springs()[s].b)] = 0;
+    for (const Active& active : active_) {
+      active_count_[static_cast<std::size_t>(springs_.springs()[active.spring].a)] = 0;
+      active_count_[static_cast<std::size_t>(springs_.springs()[active.spring].b)] = 0;
     }
   }
   return impulses;
@@ -125,41 +105,34 @@ void StrainLimiter::suspect_springs_at(VertexId vertex) {
   }
 }
 
-bool StrainLimiter::relax_rate(std::size_t s, std::span<const double> inverse_mass, const Positions& x,
-                               const SpringStretch& stretch, double dt_s, Positions& v) {
-  const Spring& spring = springs_.springs()[s];
-  const double w_a = inverse_mass[static_cast<std::size_t>(spring.a)];
-  const double w_b = inverse_mass[static_cast<std::size_t>(spring.b)];
-  if (!(w_a + w_b > 0)) return false;
-  const SpringMotion motion = motion_of(spring, s, x, stretch, v, dt_s);
-  const double along =
-      correction(motion, (1 - limits_.strain_rate) * motion.length_t0, (1 + limits_.strain_rate) * motion.length_t0);
+bool StrainLimiter::relax_rate(const Spring& spring, std::span<const double> inverse_mass,
+                               const LimitedMotion& motion) const {
+  const double inverse_masses =
+      inverse_mass[static_cast<std::size_t>(spring.a)] + inverse_mass[static_cast<std::size_t>(spring.b)];
+  if (!(inverse_masses > 0)) return false;
+  const SpringMotion spring_motion = motion_of(spring, motion);
+  const double along = correction(spring_motion, (1 - limits_.strain_rate) * spring_motion.length_t0,
+                                  (1 + limits_.strain_rate) * spring_motion.length_t0);
   if (along == 0) return false;
-  const Eigen::RowVector3d impulse = (along / dt_s / (w_a + w_b)) * motion.direction;
-  v.row(spring.a) -= w_a * impulse;
-  v.row(spring.b) += w_b * impulse;
+  apply(spring, (along / motion.dt_s / inverse_masses) * spring_motion.direction, inverse_mass, motion);
   return true;
 }
 
 // A spring is visited if it was over its limit at first, or if an end changed since it was visited last. Flags ahead of
 // the sweep are met by it, flags behind it by the next: the same impulses as if every sweep visited every spring.
-std::int64_t StrainLimiter::limit_strain_rate(std::span<const double> inverse_mass, const Positions& x,
-                                              const SpringStretch& stretch, double dt_s, Positions& v) {
+std::int64_t StrainLimiter::limit_strain_rate(std::span<const double> inverse_mass, const LimitedMotion& motion) {
   if (limits_.strain_rate == 0) return 0;
   std::int64_t impulses = 0;
-  const double shortest = square(1 - limits_.strain_rate), longest = square(1 + limits_.strain_rate);
-  find_suspects(x, dt_s, v, [&](const Limited& s) {
-    const double squared = square(stretch.length[s.spring]);
-    return std::pair(shortest * squared, longest * squared);
-  });
+  check_.find_outside(motion.x_t0, motion.x_t1, LengthCheck::Reference::kLengthNow, limits_.strain_rate, is_suspect_);
   for (std::int32_t iteration = 0; iteration < limits_.strain_rate_iterations; ++iteration) {
     std::int64_t found = 0;
     for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
       is_suspect_[s] = 0;
-      if (!relax_rate(s, inverse_mass, x, stretch, dt_s, v)) continue;
+      const Spring& spring = springs_.springs()[s];
+      if (!relax_rate(spring, inverse_mass, motion)) continue;
       ++found;
-      suspect_springs_at(springs_.springs()[s].a);
-      suspect_springs_at(springs_.springs()[s].b);
+      suspect_springs_at(spring.a);
+      suspect_springs_at(spring.b);
     }
     impulses += found;
     if (found == 0) break;

@@ -7,6 +7,7 @@
 
 #include "sim/run_totals.h"
 #include "sim/scene_reader.h"
+#include "tests/sim/plain_forces.h"
 #include "tests/sim/random_cloth.h"
 
 namespace selvage {
@@ -43,7 +44,6 @@ double total_energy(const testing::RandomCloth& cloth, const SpringSystem& sprin
 }  // namespace
 
 TEST(ImplicitStage, SolutionIsWhereTheForcesOfTheSpringsPutIt) {
-  // The forces are those of the explicit solver's functions, which share no code with the stage.
   const auto cloth = random_cloth(3);
   std::vector<Stabilizer> middle;
   for (VertexId i = 0; i + 2 < 81; i += 3) middle.push_back({{i + 1, i, i + 2, 0}, {1, -0.5, -0.5, 0}, 3, 0.02});
@@ -60,15 +60,8 @@ TEST(ImplicitStage, SolutionIsWhereTheForcesOfTheSpringsPutIt) {
     EXPECT_GT(report.newton_rounds, 1);
     EXPECT_LE(report.residual_m, ImplicitStage::kResidual_m);
     const Positions v = (x - cloth.x) / h;
-    Positions force, damping;
-    SpringStretch stretch;
-    cloth.springs.stretch(x, stretch);
-    cloth.springs.elastic_forces(stretch, force);
-    std::vector<double> coefficient;
-    for (const Spring& spring : cloth.springs.springs()) coefficient.push_back(spring.damping_n_s_m);
-    damping_impulses({cloth.springs, w, 0, coefficient, &stabilizers, 0, 1}, stretch.direction, v, damping);
-    force -= damping;
-    stabilizers.add_forces(x, 1, 0, force);
+    const auto plain = testing::plain_forces(cloth.springs, middle, x, v);
+    const Positions force = plain.elastic + plain.damping;
     EXPECT_EQ(Vec3(x.row(5)), Vec3(cloth.x.row(5))) << "held";
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
       if (i == 5) continue;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sim/plain_forces.h"
 #include "tests/sim/random_cloth.h"
 
 namespace selvage {
@@ -16,18 +17,28 @@ namespace {
 using Limiter = std::int64_t (*)(const SpringSystem&, std::span<const double>, const Positions&, double,
                                  const StrainLimits&, Positions&);
 
+template <class Limit>
+std::int64_t limit(const Positions& x, double dt_s, Positions& v, Limit limiter) {
+  const LaneVectors x_t0 = testing::to_lanes(x);
+  LaneVectors v_lanes = testing::to_lanes(v), x_t1 = testing::to_lanes(x + dt_s * v);
+  const std::int64_t impulses = limiter(LimitedMotion{x_t0, dt_s, v_lanes, x_t1});
+  v = testing::from_lanes(v_lanes);
+  EXPECT_LE((testing::from_lanes(x_t1) - (x + dt_s * v)).norm(), 1e-15 * (1 + x.norm()));
+  return impulses;
+}
+
 std::int64_t limit_strain(const SpringSystem& springs, std::span<const double> inverse_mass, const Positions& x,
                           double dt_s, const StrainLimits& limits, Positions& v) {
-  SpringStretch stretch;
-  springs.stretch(x, stretch);
-  return StrainLimiter(springs, limits).limit_strain(inverse_mass, x, stretch, dt_s, v);
+  return limit(x, dt_s, v, [&](const LimitedMotion& motion) {
+    return StrainLimiter(springs, limits).limit_strain(inverse_mass, motion);
+  });
 }
 
 std::int64_t limit_strain_rate(const SpringSystem& springs, std::span<const double> inverse_mass, const Positions& x,
                                double dt_s, const StrainLimits& limits, Positions& v) {
-  SpringStretch stretch;
-  springs.stretch(x, stretch);
-  return StrainLimiter(springs, limits).limit_strain_rate(inverse_mass, x, stretch, dt_s, v);
+  return limit(x, dt_s, v, [&](const LimitedMotion& motion) {
+    return StrainLimiter(springs, limits).limit_strain_rate(inverse_mass, motion);
+  });
 }
 
 // A spring of rest length 1 along x between masses of 1 and 3.

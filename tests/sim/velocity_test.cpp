@@ -5,6 +5,7 @@
 
 #include "sim/central_differences.h"
 #include "sim/velocity_march.h"
+#include "tests/sim/plain_forces.h"
 #include "tests/sim/random_cloth.h"
 
 namespace selvage {
@@ -34,53 +35,66 @@ Eigen::MatrixXd dense_matrix(const testing::RandomCloth& cloth, const std::vecto
   return A;
 }
 
-Positions directions(const testing::RandomCloth& cloth) {
-  SpringStretch stretch;
-  cloth.springs.stretch(cloth.x, stretch);
-  return stretch.direction;
+/// Solves with B = `shares` of the cloth's matrices, from a guess of no impulses.
+Positions solve(const testing::RandomCloth& cloth, const ImpulseShares& shares, double drag_1_s, double dt_s) {
+  SpringLanes springs(cloth.springs, nullptr);
+  const LaneVectors x = testing::to_lanes(cloth.x), rhs = testing::to_lanes(cloth.v);
+  LaneVectors force, impulses, v = rhs;
+  springs.look(x, shares, force);
+  EXPECT_LT(VelocitySolver().solve({springs, x, cloth.inverse_mass, drag_1_s}, rhs, dt_s, impulses, v), 200);
+  return testing::from_lanes(v);
 }
 
 }  // namespace
 
 TEST(Velocity, SolvesTheSystemThatItStates) {
-  const auto cloth = random_cloth(1, 6);
   const double dt_s = 0.01, drag = 3;
-  std::vector<double> coefficient;
-  for (const Spring& spring : cloth.springs.springs()) coefficient.push_back(0.01 * spring.stiffness_n_m);
-  Positions v = Positions::Zero(cloth.x.rows(), 3);
-  const VelocitySystem system{cloth.springs, cloth.inverse_mass, drag, coefficient};
-  VelocitySolver solver;
-  EXPECT_LT(solver.solve(system, directions(cloth), cloth.v, dt_s, v), 200);
-
-  Eigen::VectorXd rhs(3 * cloth.x.rows());
-  for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
-    rhs.segment<3>(3 * i) = cloth.v.row(i).transpose() / cloth.inverse_mass[static_cast<std::size_t>(i)];
-  }
-  const Eigen::VectorXd expected = dense_matrix(cloth, coefficient, 1 + dt_s * drag).ldlt().solve(rhs);
-  for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
-    // All the residual may lie in one of the lightest vertices, among 36 of about 1 m/s.
-    EXPECT_LE((v.row(i).transpose() - expected.segment<3>(3 * i)).norm(), 100 * kVelocityResidual);
+  for (const double share_s2 : {1e-5, 1e-3, 0.1}) {
+    const auto cloth = random_cloth(1, 6);
+    std::vector<double> coefficient;
+    for (const Spring& spring : cloth.springs.springs()) coefficient.push_back(share_s2 * spring.stiffness_n_m);
+    Eigen::VectorXd mass(3 * cloth.x.rows()), rhs = mass, solved = mass;
+    const Positions v = solve(cloth, {0, share_s2}, drag, dt_s);
+    for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
+      mass.segment<3>(3 * i).setConstant(1 / cloth.inverse_mass[static_cast<std::size_t>(i)]);
+      rhs.segment<3>(3 * i) = cloth.v.row(i).transpose();
+      solved.segment<3>(3 * i) = v.row(i).transpose();
+    }
+    const Eigen::VectorXd expected =
+        dense_matrix(cloth, coefficient, 1 + dt_s * drag).ldlt().solve(mass.cwiseProduct(rhs));
+    const auto energy_norm = [&](const Eigen::VectorXd& u) { return std::sqrt(u.dot(mass.cwiseProduct(u))); };
+    EXPECT_LE(energy_norm(solved - expected), 2 * kVelocityResidual * energy_norm(rhs / (1 + dt_s * drag) - expected))
+        << share_s2;
   }
 }
 
 TEST(Velocity, HeldVerticesKeepTheirVelocity) {
   auto cloth = random_cloth(2, 6);
   cloth.inverse_mass[7] = 0;
-  std::vector<double> coefficient(cloth.springs.springs().size(), 1.0);
-  Positions v = cloth.v;
-  VelocitySolver().solve({cloth.springs, cloth.inverse_mass, 0, coefficient}, directions(cloth), cloth.v, 0.01, v);
+  const Positions v = solve(cloth, {1, 0}, 0, 0.01);
   EXPECT_EQ(Vec3(v.row(7)), Vec3(cloth.v.row(7)));
   EXPECT_NE(Vec3(v.row(8)), Vec3(cloth.v.row(8)));
 }
 
 TEST(Velocity, KeepsMomentaToRoundingWhateverConjugateGradientsLeave) {
   const auto cloth = random_cloth(3, 12);
-  const std::vector<double> coefficient(cloth.springs.springs().size(), 0.5);
-  Positions v = cloth.v;
-  VelocitySolver().solve({cloth.springs, cloth.inverse_mass, 0, coefficient}, directions(cloth), cloth.v, 0.01, v);
+  const Positions v = solve(cloth, {5, 0.02}, 0, 0.01);
   EXPECT_GT((v - cloth.v).norm(), 0.1 * cloth.v.norm());
   EXPECT_LE((linear_momentum(cloth, v) - linear_momentum(cloth, cloth.v)).norm(), 1e-14);
   EXPECT_LE((angular_momentum(cloth, v) - angular_momentum(cloth, cloth.v)).norm(), 1e-14);
+}
+
+TEST(Velocity, AGoodGuessAtTheImpulsesIsWorthIterations) {
+  const auto cloth = random_cloth(4, 12);
+  SpringLanes springs(cloth.springs, nullptr);
+  const LaneVectors x = testing::to_lanes(cloth.x), rhs = testing::to_lanes(cloth.v);
+  LaneVectors force, impulses, v = rhs;
+  springs.look(x, {0.02, 0}, force);
+  const VelocitySystem system{springs, x, cloth.inverse_mass, 0};
+  VelocitySolver solver;
+  const std::int32_t from_nothing = solver.solve(system, rhs, 0.01, impulses, v);
+  EXPECT_GE(from_nothing, 2);
+  EXPECT_LT(solver.solve(system, rhs, 0.01, impulses, v), from_nothing);
 }
 
 TEST(VelocityMarch, LinearDampingDecaysExponentiallyAtFirstOrder) {
