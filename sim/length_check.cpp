@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
 
 // What an impulse has brought to a limit ends there but for rounding, of the positions too, and is not looked at again.
-constexpr double kSlack = 0x1p-40;
+constexpr double kSlack = 0x1p-46;
 
 /// `rest_squared` is null where the lengths at x_t0 are the reference.
 void CheckLengths(const LaneTable& table, const double* rest_squared, const LaneVectors& starts,

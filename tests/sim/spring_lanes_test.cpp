@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "sim/length_check.h"
 #include "sim/rigid_path.h"
 #include "tests/sim/plain_forces.h"
 #include "tests/sim/random_cloth.h"
@@ -168,6 +169,32 @@ TEST(SpringLanes, DiagonalAndRowSumAreThoseOfTheMatrix) {
       strongest = std::max(strongest, testing::from_lanes(product).cwiseAbs().sum());
     }
     EXPECT_GE(3 * lanes.row_sum(static_cast<VertexId>(i)), strongest) << "a column has 3 entries of a neighbour";
+  }
+}
+
+TEST(LengthCheck, FindsTheSpringsThatOneByOneAreOutside) {
+  for (const bool scrambled : {false, true}) {
+    const AnyNumbering any(7, 30, scrambled);
+    const testing::RandomCloth& cloth = any.cloth;
+    const double dt_s = 0.01, share = 0.2;
+    const Positions end = cloth.x + dt_s * cloth.v;
+    LengthCheck check(cloth.springs);
+    std::vector<std::uint8_t> is_outside(cloth.springs.springs().size(), 1);
+    for (const auto reference : {LengthCheck::Reference::kRestLength, LengthCheck::Reference::kLengthNow}) {
+      check.find_outside(testing::to_lanes(cloth.x), testing::to_lanes(end), reference, share, is_outside);
+      std::size_t found = 0;
+      for (std::size_t s = 0; s < is_outside.size(); ++s) {
+        const Spring& spring = cloth.springs.springs()[s];
+        const double now = (cloth.x.row(spring.b) - cloth.x.row(spring.a)).norm();
+        const double wanted = reference == LengthCheck::Reference::kRestLength ? spring.rest_length_m : now;
+        const double length = (end.row(spring.b) - end.row(spring.a)).norm();
+        const bool expected = spring.kind != SpringKind::kBending && std::abs(length / wanted - 1) > share;
+        ASSERT_EQ(is_outside[s] != 0, expected) << "spring " << s << ", length / reference " << length / wanted;
+        found += is_outside[s];
+      }
+      EXPECT_GT(found, is_outside.size() / 50);
+      EXPECT_LT(found, is_outside.size() / 2);
+    }
   }
 }
 
