@@ -12,7 +12,7 @@ sim::Scene moved_scene(const std::string& toml, const Vec3& offset) {
   sim::Scene scene = sim::parse_scene(toml, "stability case", sim::Quality::kDraft);
   for (sim::ClothSpec& cloth : scene.cloths) cloth.placement.position_m += offset;
   for (sim::BodySpec& body : scene.bodies) {
-    for (sim::PoseKey& key : body.script.keys) key.pose.position_m += offset;
+    if (!body.parent) body.script.placement.position_m += offset;
   }
   return scene;
 }
