@@ -60,6 +60,7 @@ class SceneText {
     if (source_.coin()) value("shear_n_m", 4);
     if (source_.coin()) value("bend_n_m", 0.2);
     if (source_.coin()) value("damping_ratio", 0.1);
+    contact();
   }
 
   void body_shape(double size) {
@@ -71,6 +72,15 @@ class SceneText {
       line("sphere = {radius_m = " + decimal(size / 2 * unit_m_) +
            ", subdivisions = " + std::to_string(source_.range(0, 2)) + "}");
     }
+    contact();
+  }
+  /// Sometimes properties of the part's own. Thicknesses are at least the scene's, as any tolerance may meet any of
+  /// them.
+  void contact() {
+    if (!source_.one_in(3)) return;
+    length("thickness_m", thickness() * std::ldexp(1.0, source_.range(0, 2)));
+    length("tolerance_m", thickness() * std::ldexp(1.0, -source_.range(1, 16)));
+    value("friction_static", 0.1 * source_.range(0, 9));
   }
   void key(double time_s, double x, double y, double z) {
     line("[[body.key]]");

@@ -15,7 +15,7 @@ constexpr double kLeastGain = 1e-3;  // of the way: a step that gains less ends 
 // A body that comes back goes at most this many gaps a step: a ball through which a cloth passed by its middle comes
 // back in 3.2 s so, and in 10.4 s with steps four times as long, which the rigid zones have to resolve (measured).
 constexpr double kStepGaps = 4;
-constexpr int kMostSteps = 256;
+constexpr int kMostSteps = 256;   // so that bodies much larger than the gap come back too
 constexpr double kClearGaps = 4;  // between bodies that stand aside and the cloth
 
 CollisionOptions step_options(const UntangleOptions& untangle) {

@@ -112,9 +112,8 @@ std::vector<std::uint8_t> ClothUntangler::cut_edges() const {
 /// Those at a cut that no script holds, the smallest first, without the largest of each part.
 std::vector<Region> ClothUntangler::regions() const {
   const std::vector<std::uint8_t> cut = cut_edges();
-  Components whole(mesh_.vertex_count), uncut(mesh_.vertex_count);
+  Components uncut(mesh_.vertex_count);
   for (std::size_t e = 0; e < cut.size(); ++e) {
-    whole.join(mesh_.edges[e][0], mesh_.edges[e][1]);
     if (cut[e] == 0) uncut.join(mesh_.edges[e][0], mesh_.edges[e][1]);
   }
   std::map<VertexId, Region> by_root;
@@ -123,13 +122,13 @@ std::vector<Region> ClothUntangler::regions() const {
   }
   std::map<VertexId, std::size_t> largest;
   for (const auto& [root, region] : by_root) {
-    std::size_t& size = largest[whole.root(root)];
+    std::size_t& size = largest[state_.parts.part(root)];
     size = std::max(size, region.size());
   }
   std::vector<Region> result;
   for (auto& [root, region] : by_root) {
     const bool has_script = std::ranges::any_of(region, [&](VertexId v) { return state_.is_scripted(v); });
-    if (region.size() < largest[whole.root(root)] && !has_script) result.push_back(std::move(region));
+    if (region.size() < largest[state_.parts.part(root)] && !has_script) result.push_back(std::move(region));
   }
   std::ranges::stable_sort(result, {}, &Region::size);
   return result;
@@ -217,9 +216,7 @@ std::vector<Region> ClothUntangler::crossings() const {
 }
 
 bool ClothUntangler::move_a_part() {
-  Components whole(mesh_.vertex_count);
-  for (const auto& edge : mesh_.edges) whole.join(edge[0], edge[1]);
-  const auto part_of = [&](FaceId f) { return whole.root(face(f)[0]); };
+  const auto part_of = [&](FaceId f) { return state_.parts.part(face(f)[0]); };
   std::map<VertexId, Vec3> normal_of;  // by part: the sum of the unit normals of the others' faces that it meets
   for (const FacePair& pair : pairs_) {
     if (part_of(pair[0]) == part_of(pair[1])) continue;
@@ -233,7 +230,7 @@ bool ClothUntangler::move_a_part() {
   std::erase_if(normal_of, [&](const auto& entry) {
     bool has_script = false;
     for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
-      has_script = has_script || (state_.is_scripted(v) && whole.root(v) == entry.first);
+      has_script = has_script || (state_.is_scripted(v) && state_.parts.part(v) == entry.first);
     }
     return has_script;
   });
@@ -246,7 +243,7 @@ bool ClothUntangler::move_a_part() {
         const Vec3 shift = side * distance * normal_sum.stableNormalized();
         Positions x = state_.x;
         for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
-          if (whole.root(v) == part) x.row(v) = state_.on_lattice(at(v) + shift);
+          if (state_.parts.part(v) == part) x.row(v) = state_.on_lattice(at(v) + shift);
         }
         if (keep_if_better(x, meets_another)) return true;
       }

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 
+#include "kernel/assert.h"
 #include "sim/body_return.h"
 #include "sim/membrane.h"
-#include "sim/surface_parts.h"
 
 namespace selvage::sim {
 
 UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                         const UntangleOptions& options, const FindIntersections& find) {
-  UntangleState state{mesh, bodies, options, find, SurfaceParts(mesh).cloth_flags(bodies), V, V};
+  SELVAGE_ASSERT(options.gap_m > 0);
+  const SurfaceParts parts(mesh);
+  UntangleState state{mesh, bodies, options, find, parts, parts.cloth_flags(bodies), V, V};
   UntangleReport report;
   report.before = report.remaining = state.judge(state.x);
   if (!report.before.empty()) {

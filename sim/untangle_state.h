@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/step_motion.h"
+#include "sim/surface_parts.h"
 #include "sim/untangle.h"
 
 namespace selvage::sim {
@@ -13,6 +14,7 @@ struct UntangleState {
   const CollisionBodies& bodies;
   const UntangleOptions& options;
   const FindIntersections& find;
+  const SurfaceParts parts;
   const std::vector<std::uint8_t> is_cloth;  ///< #V (SurfaceParts::cloth_flags)
   const Positions V;                         ///< where it starts
   Positions x;                               ///< where it is now
