@@ -10,7 +10,6 @@ namespace selvage::sim {
 namespace {
 
 constexpr std::int64_t kMaxSide = 10'000;  // 10^8 vertices: more than memory holds
-constexpr Range kHeight{-1e9, 1e9};
 
 SheetSpec read_sheet(TomlTable table) {
   SheetSpec sheet;
@@ -61,8 +60,8 @@ BoxSpec read_box(TomlTable table) {
 
 GarmentSpec::Sleeves read_sleeves(TomlTable table) {
   GarmentSpec::Sleeves sleeves;
-  sleeves.top_m = table.number("top_m", kHeight);
-  sleeves.bottom_m = table.number("bottom_m", kHeight);
+  sleeves.top_m = table.number("top_m", kCoordinate);
+  sleeves.bottom_m = table.number("bottom_m", kCoordinate);
   sleeves.depth_m = table.number("depth_m", kPositive);
   sleeves.length_m = table.number("length_m", kPositive);
   sleeves.cuff_radius_m = table.number("cuff_radius_m", kPositive);
@@ -75,7 +74,7 @@ GarmentSpec read_garment(TomlTable table) {
   GarmentSpec garment;
   for (TomlTable& read : table.tables("ring")) {
     GarmentSpec::Ring ring;
-    ring.height_m = read.number("height_m", kHeight);
+    ring.height_m = read.number("height_m", kCoordinate);
     ring.depth_m = read.number("depth_m", kPositive);
     ring.width_m = read.number("width_m", kPositive);
     read.finish();
@@ -90,6 +89,7 @@ GarmentSpec read_garment(TomlTable table) {
   for (const GarmentSpec::Ring& ring : garment.rings) {
     largest_m = std::max({largest_m, ring.depth_m, ring.width_m});
   }
+  if (garment.sleeves) largest_m = std::max(largest_m, garment.sleeves->length_m);
   garment.cell_m = table.number("cell_m", {largest_m / double(kMaxSide), 1e300});
   table.finish();
   return garment;

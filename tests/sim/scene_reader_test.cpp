@@ -97,6 +97,11 @@ const BadScene kBadScenes[] = {
      "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n[[cloth.garment.ring]]\nheight_m = 1\n"
      "depth_m = 1\nwidth_m = 1\n",
      4, "two rings"},
+    {"cells beyond counting",
+     "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n"
+     "ring = [{height_m = 2, depth_m = 1, width_m = 1}, {height_m = 1, depth_m = 1, width_m = 1}]\n"
+     "sleeves = {top_m = 1.8, bottom_m = 1.4, depth_m = 0.3, length_m = 1e30, cuff_radius_m = 0.1}\n",
+     5, "cell_m must be"},
     {"rings that rise",
      "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n"
      "ring = [{height_m = 1, depth_m = 1, width_m = 1},\n{height_m = 1, depth_m = 1, width_m = 1}]\n",
