@@ -160,6 +160,7 @@ StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Posit
   }
   switch (report.status) {
     case sim::StepStatus::kInvalidInput:
+    case sim::StepStatus::kAbandoned:  // nobody asked for it
       return StepDefect::kRejected;
     case sim::StepStatus::kStopped:
       return has_scripted(world) && report.witness && result.x == x_t0 ? StepDefect::kNone : StepDefect::kStoppedFreely;

@@ -13,7 +13,7 @@ namespace selvage::fuzz {
 enum class StepDefect : std::uint8_t {
   kNone,
   kTouches,        ///< S1: the motion to the returned positions touches
-  kRejected,       ///< a valid input was called invalid
+  kRejected,       ///< a valid input was called invalid, or abandoned unasked
   kStoppedFreely,  ///< S1: stopped although nothing is scripted, or without a witness, or with other positions
   kUnnamedNear,    ///< S2: a pair ends nearer than the tolerance and the report does not name it
   kOffScript,      ///< S4: a scripted vertex is neither at its candidate nor waiting

@@ -11,9 +11,9 @@
 #include "sim/friction.h"
 #include "sim/impact_zone.h"
 #include "sim/impulse.h"
-#include "sim/local_proximities.h"
 #include "sim/repulsion.h"
 #include "sim/scripted_groups.h"
+#include "sim/start_proximities.h"
 #include "sim/step_input.h"
 #include "sim/step_limit.h"
 #include "sim/step_motion.h"
@@ -27,14 +27,17 @@ namespace {
 class Attempt {
  public:
   Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const ContactTable& contacts,
-          const CollisionBodies& bodies, std::vector<std::uint8_t> surface, ScriptedGroups& groups, double dt_s)
+          StartProximities& proximities, const CollisionBodies& bodies, std::vector<std::uint8_t> surface,
+          ScriptedGroups& groups, double dt_s, const Patience& patience)
       : mesh_(mesh),
         hierarchy_(hierarchy),
         options_(options),
         contacts_(contacts),
+        proximities_(proximities),
         bodies_(bodies),
         groups_(groups),
         dt_s_(dt_s),
+        patience_(patience),
         surface_(std::move(surface)),
         tracker_(mesh, hierarchy, contacts, options.max_intervals, surface_),
         update_(mesh.vertex_count) {}
@@ -51,12 +54,18 @@ class Attempt {
       tracker_.start(motion_);
     }
     report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
+    is_abandoned_ = report_.first_collisions > patience_.collisions;
+    if (is_abandoned_) return std::nullopt;
     const PhaseTimer timer(report_.phases.response);
     apply_impulses();
+    is_abandoned_ = patience_.impulse_rounds < Patience::kEndless && !tracker_.collisions().empty();
+    if (is_abandoned_) return std::nullopt;
     move_impact_zones();
     return hold_back();
   }
 
+  /// After run().
+  [[nodiscard]] bool is_abandoned() const { return is_abandoned_; }
   [[nodiscard]] const StepMotion& motion() const { return motion_; }
   [[nodiscard]] CollisionStepReport& report() { return report_; }
   [[nodiscard]] const CollisionTracker& tracker() const { return tracker_; }
@@ -72,9 +81,12 @@ class Attempt {
   BoxHierarchy& hierarchy_;
   const CollisionOptions& options_;
   const ContactTable& contacts_;
+  StartProximities& proximities_;
   const CollisionBodies& bodies_;
   ScriptedGroups& groups_;
   const double dt_s_;
+  const Patience patience_;
+  bool is_abandoned_ = false;
   const std::vector<std::uint8_t> surface_;
   StepMotion motion_;
   CollisionTracker tracker_;
@@ -84,22 +96,14 @@ class Attempt {
 
 /// Sections 7.2 and 7.3: every contact at the start of the step.
 void Attempt::repel() {
-  std::vector<PairProximity> proximities;
   {
     const PhaseTimer timer(report_.phases.proximity);
-    const double reach = kContactReach * contacts_.thickness_upper();
-    proximities = find_proximities(mesh_, hierarchy_, motion_.V_t0(), reach, surface_);
-    if (!contacts_.is_uniform()) {
-      std::erase_if(proximities, [&](const PairProximity& pair) {
-        const double thickness_m = contacts_.of(pair.kind, pair.vertices).thickness_m;
-        return !(pair.proximity.distance_lower < kContactReach * thickness_m);
-      });
-    }
+    proximities_.find(mesh_, hierarchy_, contacts_, motion_.V_t0(), surface_);
   }
   const PhaseTimer timer(report_.phases.repulsion);
-  report_.proximities = static_cast<std::int64_t>(proximities.size());
+  report_.proximities = proximities_.count();
   std::vector<RepulsionContact> contacts;
-  for (const PairProximity& pair : local_proximities(mesh_, motion_.V_t0(), proximities)) {
+  for (const PairProximity& pair : proximities_.local()) {
     const ContactProperties properties = contacts_.of(pair.kind, pair.vertices);
     if (auto contact = make_contact(pair, properties, motion_.V_t0(), bodies_.inverse_mass)) {
       contacts.push_back(*contact);
@@ -112,7 +116,8 @@ void Attempt::repel() {
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
 void Attempt::apply_impulses() {
-  while (report_.impulse_rounds < options_.impulse_iterations && !tracker_.collisions().empty()) {
+  const std::int64_t most_rounds = std::min<std::int64_t>(options_.impulse_iterations, patience_.impulse_rounds);
+  while (report_.impulse_rounds < most_rounds && !tracker_.collisions().empty()) {
     ++report_.impulse_rounds;
     std::vector<PairChange> changes;
     for (const Collision& collision : tracker_.collisions()) {
@@ -191,6 +196,8 @@ std::string_view name_of(StepStatus status) {
       return "safe";
     case StepStatus::kStopped:
       return "stopped";
+    case StepStatus::kAbandoned:
+      return "abandoned";
     case StepStatus::kInvalidInput:
       break;
   }
@@ -210,6 +217,7 @@ struct CollisionStep::Impl {
   ContactTable contacts;
   BoxHierarchy hierarchy;
   SurfaceParts parts;
+  StartProximities proximities;
 };
 
 CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces)
@@ -218,7 +226,7 @@ CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
 
 CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
-                                              const CollisionBodies& bodies, double dt_s) {
+                                              const CollisionBodies& bodies, double dt_s, const Patience& patience) {
   const FpEnvGuard guard;
   CollisionStepResult result;
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
@@ -226,8 +234,8 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);
-  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, bodies,
-                  impl_->parts.cloth_flags(bodies), groups, dt_s);
+  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, bodies,
+                  impl_->parts.cloth_flags(bodies), groups, dt_s, patience);
   std::vector<std::int32_t> waiting;
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
@@ -242,9 +250,9 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   result.report = std::move(attempt.report());
   std::ranges::sort(waiting);
   result.report.waiting_bodies = std::move(waiting);
-  if (conflict) {
-    result.report.status = StepStatus::kStopped;
-    result.report.witness = conflict->collision;
+  if (conflict || attempt.is_abandoned()) {
+    result.report.status = conflict ? StepStatus::kStopped : StepStatus::kAbandoned;
+    if (conflict) result.report.witness = conflict->collision;
     result.x = V_t0;
     result.velocity = Positions::Zero(V_t0.rows(), 3);
     return result;

@@ -2,6 +2,7 @@
 // in; positions come out whose straight motion from the state is certified free of touching (S1). Paper, section 7.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -52,9 +53,17 @@ struct CollisionBodies {
   SqueezePolicy policy = SqueezePolicy::kStop;
 };
 
+/// When to give a step up, because the caller tries a shorter one then (paper, section 5). By default never.
+struct Patience {
+  static constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
+  std::int64_t collisions = kEndless;      ///< where the repulsions leave more than so many
+  std::int64_t impulse_rounds = kEndless;  ///< where impulses leave one after so many rounds, or after all they have
+};
+
 enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
+  kAbandoned,    ///< the caller's Patience ended; the returned positions are V_t0
   kInvalidInput  ///< NaN, sizes, domain: nothing was done
 };
 [[nodiscard]] std::string_view name_of(StepStatus status);
@@ -87,7 +96,8 @@ struct CollisionStepResult {
   CollisionStepReport report;
 };
 
-/// Holds what persists between steps (connectivity, hierarchy, scratch), so that a step allocates little.
+/// Holds what persists between steps: connectivity, hierarchy, and the proximities at the last V_t0, which a second try
+/// from the same positions needs again. None of it changes a result.
 class CollisionStep {
  public:
   /// The mesh must outlive it. With `surfaces` each pair has the thickness, tolerance and friction of its two surfaces
@@ -105,7 +115,8 @@ class CollisionStep {
   /// all others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations
   /// + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
-                                               const CollisionBodies& bodies, double dt_s);
+                                               const CollisionBodies& bodies, double dt_s,
+                                               const Patience& patience = {});
 
  private:
   struct Impl;

@@ -53,6 +53,7 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
   Positions x_, v_;
+  Patience patience_;                 ///< while the step can be halved
   std::vector<double> inverse_mass_;  ///< #V, now: pins that hold have 0
   std::vector<std::int32_t> body_;    ///< #V, now: the collider that holds the vertex, or -1
 };

@@ -185,6 +185,48 @@ TEST(CollisionStepProperties, Float32ClothStaysFreeOnItsLattice) {
   });
 }
 
+/// What a step keeps for the next one saves work and changes nothing: it gives the bits of a step that knows of no
+/// other.
+TEST(CollisionStepProperties, NeitherHistoryNorAnAbandonedTryChangesAResult) {
+  int abandoned = 0, taken = 0;
+  check_property(60, 107, [&] {
+    StepScene scene;
+    Noise noise(*rc::gen::arbitrary<std::uint64_t>());
+    random_options(scene);
+    scene.policy = SqueezePolicy::kYield;
+    add_layers(scene, integer_in(1, 4), noise);
+    if (integer_in(0, 1) == 0) scene.add(make_sphere(0.02, 1), Vec3(0, 0, scene.V_t0.col(2).maxCoeff() + 0.03), 0);
+    const Mesh mesh = scene.mesh();
+    CollisionStep step(mesh, scene.options);
+    for (int n = 0; n < 5; ++n) {
+      if (integer_in(0, 2) > 0) attack(scene, random_attack(), noise);  // else the last candidates once more
+      const Patience patience{integer_in(0, 8), integer_in(0, 4)};
+      const auto result = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, patience);
+      const auto fresh = scene.step();
+      const bool too_many = fresh.report.first_collisions > patience.collisions;
+      const bool too_hard = fresh.report.impulse_rounds > patience.impulse_rounds || fresh.report.zone_rounds > 0 ||
+                            fresh.report.fail_safe_rounds > 0 || !fresh.report.below_tolerance.empty();
+      RC_ASSERT((result.report.status == StepStatus::kAbandoned) == (too_many || too_hard));
+      if (result.report.status == StepStatus::kAbandoned) {
+        ++abandoned;
+        RC_ASSERT(result.x == scene.V_t0);
+        if (integer_in(0, 1) == 0) {
+          scene.V_candidate = 0.5 * (scene.V_t0 + scene.V_candidate);  // the shorter try
+          continue;
+        }
+      }
+      const auto again = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s);
+      RC_ASSERT(again.x == fresh.x && again.velocity == fresh.velocity);
+      RC_ASSERT(again.report.proximities == fresh.report.proximities);
+      RC_ASSERT(again.report.first_collisions == fresh.report.first_collisions);
+      scene.V_t0 = again.x;
+      ++taken;
+    }
+  });
+  EXPECT_GT(abandoned, 20);
+  EXPECT_GT(taken, 20);
+}
+
 TEST(CollisionStepProperties, ImpulsesAndFrictionKeepMomentumAndAddNoEnergy) {
   int steps_with_impulses = 0;
   check_property(60, 104, [&] {

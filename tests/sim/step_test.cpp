@@ -119,6 +119,26 @@ TEST(Simulation, Float32StatesLieOnTheLattice) {
   }
 }
 
+/// More than a few collisions, or any that impulses do not settle soon, are left to the shortest step.
+TEST(Simulation, LongerStepsThanTheShortestBearAFewCollisionsAtMost) {
+  std::string text = testing::small_scene_text(12);
+  text.replace(text.find("nx = 14, ny = 14"), 16, "nx = 30, ny = 30");
+  Simulation simulation(parse_scene(text, "small.toml"));
+  int borne = 0, refused = 0;
+  while (simulation.clock().state().frame < 12) {
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    refused += step.halvings;
+    if (step.dt_s < 1.0 / 30 / 4) continue;  // min_step_s is 4 ms: an eighth of a frame
+    EXPECT_LE(step.report.first_collisions, 30 * 30 / 400);
+    EXPECT_LE(step.report.impulse_rounds, 4);
+    EXPECT_EQ(step.report.zone_rounds, 0);
+    borne += step.report.first_collisions > 0;
+  }
+  EXPECT_GT(borne, 0);
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Simulation, StepsAreHalvedWhereRepulsionsAreNotEnough) {
   // Half a metre a step at first: the cloth would jump over the thickness of the floor.
   Simulation simulation(parse_scene(R"(
