@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
-#include <utility>
 
 #include <Eigen/Geometry>
+
+#include "sim/parallel.h"
 
 namespace selvage::sim {
 namespace {
@@ -26,10 +28,17 @@ class LocalTest {
   LocalTest(const Mesh& mesh, const Positions& V, const std::vector<PairProximity>& proximities) : mesh_(mesh), V_(V) {
     const auto is_vf = [](const PairProximity& pair) { return pair.kind == PairKind::kVf; };
     vf_ = {proximities.begin(), std::ranges::partition_point(proximities, is_vf)};
-    for (const PairProximity& pair : std::span(proximities).subspan(vf_.size())) {
-      for (const VertexId v : pair.vertices) ee_at_.emplace_back(v, &pair);
+    const auto ee = std::span(proximities).subspan(vf_.size());
+    ee_begin_.assign(static_cast<std::size_t>(V.rows()) + 1, 0);
+    for (const PairProximity& pair : ee) {
+      for (const VertexId v : pair.vertices) ++ee_begin_[static_cast<std::size_t>(v) + 1];
     }
-    std::ranges::stable_sort(ee_at_, {}, &VertexEdgePair::first);
+    std::partial_sum(ee_begin_.begin(), ee_begin_.end(), ee_begin_.begin());
+    ee_at_.resize(4 * ee.size());
+    std::vector<std::size_t> next(ee_begin_.begin(), ee_begin_.end() - 1);
+    for (const PairProximity& pair : ee) {
+      for (const VertexId v : pair.vertices) ee_at_[next[static_cast<std::size_t>(v)]++] = &pair;
+    }
   }
 
   [[nodiscard]] bool is_local(const PairProximity& pair) const {
@@ -37,8 +46,11 @@ class LocalTest {
   }
 
  private:
-  using VertexEdgePair = std::pair<VertexId, const PairProximity*>;
-
+  /// The edge pairs that the vertex belongs to.
+  [[nodiscard]] std::span<const PairProximity* const> edges_near(VertexId vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return std::span(ee_at_).subspan(ee_begin_[v], ee_begin_[v + 1] - ee_begin_[v]);
+  }
   /// The pairs of the vertex with faces.
   [[nodiscard]] std::span<const PairProximity> faces_near(VertexId vertex) const {
     const auto begin = std::ranges::lower_bound(vf_, vertex, {}, &PairProximity::first);
@@ -64,9 +76,7 @@ class LocalTest {
     for (const PairProximity& other : faces_near(vertex)) {
       if (nearer(other) && all_corners([&](VertexId v) { return face_holds(other, v); })) return false;
     }
-    const auto first_edge = std::ranges::lower_bound(ee_at_, vertex, {}, &VertexEdgePair::first);
-    for (auto it = first_edge; it != ee_at_.end() && it->first == vertex; ++it) {
-      const PairProximity* other = it->second;
+    for (const PairProximity* other : edges_near(vertex)) {
       const std::size_t across = other->vertices[0] == vertex || other->vertices[1] == vertex ? 2 : 0;
       const std::array<VertexId, 2> edge{other->vertices[across], other->vertices[across + 1]};
       if (nearer(*other) && all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) return false;
@@ -100,7 +110,8 @@ class LocalTest {
   const Mesh& mesh_;
   const Positions& V_;
   std::span<const PairProximity> vf_;
-  std::vector<VertexEdgePair> ee_at_;  ///< each edge pair at its four vertices, sorted by vertex
+  std::vector<const PairProximity*> ee_at_;  ///< each edge pair at its four vertices, by vertex
+  std::vector<std::size_t> ee_begin_;        ///< of each vertex's; one more at the end
 };
 
 }  // namespace
@@ -108,9 +119,15 @@ class LocalTest {
 std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
                                              const std::vector<PairProximity>& proximities) {
   const LocalTest test(mesh, V, proximities);
+  std::vector<std::uint8_t> is_local(proximities.size());
+  parallel_each(std::ssize(proximities), [&](Eigen::Index i) {
+    const auto pair = static_cast<std::size_t>(i);
+    is_local[pair] = test.is_local(proximities[pair]);
+  });
   std::vector<PairProximity> local;
-  std::ranges::copy_if(proximities, std::back_inserter(local),
-                       [&](const PairProximity& pair) { return test.is_local(pair); });
+  for (std::size_t pair = 0; pair < proximities.size(); ++pair) {
+    if (is_local[pair] != 0) local.push_back(proximities[pair]);
+  }
   return local;
 }
 
