@@ -45,6 +45,8 @@ class Simulation {
 
  private:
   Positions candidate_positions(double dt_s, Motion& end, DynamicsReport& report);
+  /// Whether contact presses more springs than are borne.
+  [[nodiscard]] bool overstrains(const CollisionStepResult& safe) const;
   void commit(const CollisionStepResult& safe, Motion end, double dt_s);
 
   Scene scene_;

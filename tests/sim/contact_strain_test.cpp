@@ -1,0 +1,27 @@
+#include "sim/contact_strain.h"
+
+#include <gtest/gtest.h>
+
+namespace selvage::sim {
+
+TEST(ContactStrain, CountsSpringsThatEndBeyondTheLimitAndGrewThere) {
+  // Along x, rest length 1: kept, pressed, pulled, strained before, and a bending spring.
+  const SpringSystem springs({{0, 1, SpringKind::kStructural, 1, 10, 0},
+                              {2, 3, SpringKind::kStructural, 1, 10, 0},
+                              {4, 5, SpringKind::kShear, 1, 10, 0},
+                              {6, 7, SpringKind::kStructural, 1, 10, 0},
+                              {8, 9, SpringKind::kBending, 1, 10, 0}},
+                             10);
+  Positions x_t0 = Positions::Zero(10, 3), x_t1 = x_t0;
+  const auto place = [](Positions& x, std::initializer_list<double> lengths) {
+    Eigen::Index row = 1;
+    for (const double length : lengths) x(row, 0) = length, row += 2;
+  };
+  place(x_t0, {1, 1, 1, 1.4, 1});
+  place(x_t1, {1.14, 0.84, 1.16, 1.415, 2});
+  EXPECT_EQ(springs_overstrained(springs, 0.1, x_t0, x_t1), 2);
+  EXPECT_EQ(springs_overstrained(springs, 0.09, x_t0, x_t1), 3);
+  EXPECT_EQ(springs_overstrained(springs, 0, x_t0, x_t1), 0) << "no limit";
+}
+
+}  // namespace selvage::sim
