@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace selvage::fuzz {
 namespace {
@@ -58,21 +57,13 @@ bool velocity_is_that_of_the_motion(const StepWorld& world, const Positions& x_t
   return true;
 }
 
-/// Every pair that the exact check finds nearer than the tolerance at the end must be in the report.
+/// Every pair of the cloth that the exact check finds nearer than the tolerance at the end must be in the report.
 bool all_near_pairs_are_named(const StepWorld& world, const sim::CollisionStepResult& result) {
-  verify::CheckOptions options;
-  options.min_distance = world.options.tolerance_m;
-  options.max_violations = 100000;
-  std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
-  for (const Collision& pair : result.report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
-  for (const verify::Violation& near : verify::check_frame(world.topology, raw_points(result.x), options).violations) {
-    if (near.kind != "near") continue;
-    bool all_scripted = true;
-    for (const std::int32_t vertex : near.vertices) all_scripted &= vertex < 0 || world.is_scripted(vertex);
-    const PairKind kind = near.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
-    if (!all_scripted && !named.contains({kind, near.features})) return false;
-  }
-  return true;
+  std::vector<verify::Violation> near = near_pairs(world.topology, result.x, world.options.tolerance_m);
+  std::erase_if(near, [&](const verify::Violation& violation) {
+    return std::ranges::all_of(violation.vertices, [&](std::int32_t v) { return v < 0 || world.is_scripted(v); });
+  });
+  return all_are_named(near, result.report.below_tolerance);
 }
 
 double mass_of(const StepWorld& world, Eigen::Index vertex) {

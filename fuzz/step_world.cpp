@@ -97,13 +97,6 @@ std::vector<std::uint8_t> body_faces(const StepWorld& world, const Triples& face
 
 }  // namespace
 
-std::vector<verify::Point> raw_points(const Positions& x) {
-  std::vector<verify::Point> points;
-  points.reserve(static_cast<std::size_t>(x.rows()));
-  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
-  return points;
-}
-
 std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult& result) {
   std::int64_t count = 0;
   for (const verify::Violation& violation : result.violations) {

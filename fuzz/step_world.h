@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fuzz/choice_source.h"
+#include "fuzz/near_pairs.h"
 #include "fuzz/surface_makers.h"
 #include "sim/collision_step.h"
 #include "verify/check.h"
@@ -56,6 +57,5 @@ void connect(StepWorld& world, const Triples& faces);
 
 /// Violations of the exact check that concern cloth: those whose vertices are all scripted are not the step's.
 [[nodiscard]] std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult& result);
-[[nodiscard]] std::vector<verify::Point> raw_points(const Positions& x);
 
 }  // namespace selvage::fuzz

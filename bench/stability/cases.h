@@ -15,7 +15,9 @@ namespace selvage::bench {
 [[nodiscard]] std::vector<StabilityCase> tie_cases();         ///< exact touches, everything aligned
 [[nodiscard]] std::vector<StabilityCase> scale_cases();       ///< units, offsets, lattices, the ends of the range
 [[nodiscard]] std::vector<StabilityCase> fold_cases();        ///< cloth against itself
-[[nodiscard]] std::vector<StabilityCase> long_cases();        ///< whole simulations
+[[nodiscard]] std::vector<StabilityCase> rest_cases();        ///< cloth that rests or slides on a body
+[[nodiscard]] std::vector<StabilityCase> twist_cases();       ///< twisted and knotted
+[[nodiscard]] std::vector<StabilityCase> long_cases();        ///< cloth pulled and pressed, in whole simulations
 [[nodiscard]] std::vector<StabilityCase> input_cases();       ///< what must be refused
 
 }  // namespace selvage::bench

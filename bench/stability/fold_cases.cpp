@@ -56,16 +56,7 @@ void hinge(Trial& trial) {
 }
 
 std::string falling_sheet(int n, const std::string& place, double fast_m_s) {
-  return fmt::format(R"(
-gravity_m_s2 = [0, 0, -9.81]
-drag_1_s = 0.3
-[time]
-frames_per_s = 30
-frames = 90
-max_step_s = 0.0166667
-[collision]
-thickness_m = 0.004
-friction_static = 0.4
+  return scene_start(0.3, 0.4) + fmt::format(R"(
 [[cloth]]
 sheet = {{nx = {}, ny = {}, width_m = 1, height_m = 1}}
 {}
@@ -78,7 +69,7 @@ damping_ratio = 0.2
 [[body]]
 sheet = {{nx = 2, ny = 2, width_m = 8, height_m = 8}}
 )",
-                     n, n, place, -fast_m_s);
+                                             n, n, place, -fast_m_s);
 }
 
 void fall(Trial& trial, const std::string& place, double fast_m_s) {

@@ -47,6 +47,29 @@ sim::Shape make_wedge(int cells, double length_m, double width_m, double height_
   return wedge;
 }
 
+sim::Shape make_tube(int rings, int facets, double length_m, double radius_m) {
+  sim::Shape tube;
+  tube.x.resize(Eigen::Index{rings} * facets, 3);
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int i = 0; i < facets; ++i) {
+      const double angle = kTurn * (i + 0.5 * (ring % 2)) / facets;
+      tube.x.row(ring * facets + i) << (double(ring) / (rings - 1) - 0.5) * length_m, radius_m * std::cos(angle),
+          radius_m * std::sin(angle);
+      if (ring + 1 == rings) continue;
+      const int next = (i + 1) % facets, a = ring * facets + i, b = ring * facets + next;
+      const int c = a + facets, d = b + facets;
+      if (ring % 2 == 0) {
+        tube.triangles.push_back({a, b, c});
+        tube.triangles.push_back({b, d, c});
+      } else {
+        tube.triangles.push_back({a, b, d});
+        tube.triangles.push_back({a, d, c});
+      }
+    }
+  }
+  return tube;
+}
+
 sim::Shape upside_down(sim::Shape shape) {
   shape.x.rightCols(2) *= -1;  // a turn, so orientations stay
   return shape;

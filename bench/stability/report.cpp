@@ -58,6 +58,7 @@ nlohmann::ordered_json json_of(const TrialReport& trial) {
           {"steps", trial.steps},
           {"pairs_examined", trial.pairs_examined},
           {"gap_at_least_m", trial.gap_at_least_m},  // null where there was no frame
+          {"steps_with_contact", trial.steps_with_contact},
           {"steps_with_collisions", trial.steps_with_collisions},
           {"pairs_below_tolerance", trial.pairs_below_tolerance},
           {"fail_safe_steps", trial.fail_safe_steps},
@@ -72,18 +73,20 @@ nlohmann::ordered_json json_of(const TrialReport& trial) {
 
 std::string to_markdown(std::span<const StabilityCaseReport> reports) {
   std::string text =
-      "| case | passed | steps | with collisions | fail-safe steps | gap at least, m | asked, and worst measured |\n"
-      "| --- | --- | --- | --- | --- | --- | --- |\n";
+      "| case | passed | steps | with contact | with collisions | fail-safe steps | gap at least, m | asked, and worst "
+      "measured |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const StabilityCaseReport& report : reports) {
     const auto passed = std::ranges::count_if(report.trials, [](const auto& trial) { return trial.failure.empty(); });
     double gap_m = std::numeric_limits<double>::infinity();
     for (const TrialReport& trial : report.trials) gap_m = std::min(gap_m, trial.gap_at_least_m);
     const std::string figures = worst_figures(report);
-    text += fmt::format("| {} | {} of {} | {} | {} | {} | {} | {}{}{} |\n", report.name, passed, report.trials.size(),
-                        total(report, &TrialReport::steps), total(report, &TrialReport::steps_with_collisions),
-                        total(report, &TrialReport::fail_safe_steps),
-                        std::isfinite(gap_m) ? fmt::format("{:.2g}", gap_m) : "-", report.criterion,
-                        figures.empty() ? "" : ": ", figures);
+    text +=
+        fmt::format("| {} | {} of {} | {} | {} | {} | {} | {} | {}{}{} |\n", report.name, passed, report.trials.size(),
+                    total(report, &TrialReport::steps), total(report, &TrialReport::steps_with_contact),
+                    total(report, &TrialReport::steps_with_collisions), total(report, &TrialReport::fail_safe_steps),
+                    std::isfinite(gap_m) ? fmt::format("{:.2g}", gap_m) : "-", report.criterion,
+                    figures.empty() ? "" : ": ", figures);
   }
   for (const StabilityCaseReport& report : reports) {
     for (const TrialReport& trial : report.trials) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "sim/scene_reader.h"
 
 namespace selvage::bench {
@@ -28,6 +30,20 @@ std::vector<std::uint8_t> body_faces(const sim::World& world) {
 }
 
 }  // namespace
+
+std::string scene_start(double drag_1_s, double friction, const std::string& more) {
+  return fmt::format(R"(gravity_m_s2 = [0, 0, -9.81]
+drag_1_s = {}
+{}[time]
+frames_per_s = 30
+frames = 200
+max_step_s = 0.0166667
+[collision]
+thickness_m = 0.004
+friction_static = {}
+)",
+                     drag_1_s, more, friction);
+}
 
 ScenePlay::ScenePlay(Trial& trial, const std::string& toml, double length_m)
     : offset_(trial.offset(length_m)),

@@ -9,6 +9,10 @@
 
 namespace selvage::bench {
 
+/// The tables that scenes under gravity start with: drag, steps of 1/60 s, a thickness of 4 mm, friction; `more` stands
+/// above the tables.
+[[nodiscard]] std::string scene_start(double drag_1_s, double friction, const std::string& more = "");
+
 class ScenePlay {
  public:
   /// `toml` as in docs/scenes.md; everything is moved by the trial's offset, `length_m` being the scene's length.

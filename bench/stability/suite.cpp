@@ -28,8 +28,9 @@ TrialReport run_trial(const StabilityCase& stability_case, const Variant& varian
 
 std::vector<StabilityCase> stability_cases() {
   std::vector<StabilityCase> all;
-  for (const auto& theme : {spike_cases(), needle_cases(), degenerate_cases(), layer_cases(), squeeze_cases(),
-                            fold_cases(), tie_cases(), scale_cases(), long_cases(), input_cases()}) {
+  for (const auto& theme :
+       {spike_cases(), needle_cases(), degenerate_cases(), layer_cases(), squeeze_cases(), fold_cases(), tie_cases(),
+        scale_cases(), rest_cases(), twist_cases(), long_cases(), input_cases()}) {
     all.insert(all.end(), theme.begin(), theme.end());
   }
   return all;

@@ -35,6 +35,7 @@ struct TrialReport {
   std::int64_t pairs_examined = 0;  ///< by the exact checker
   /// All features were at least this far apart at the end of every step, exactly; at most the thickness.
   double gap_at_least_m = std::numeric_limits<double>::infinity();
+  std::int64_t steps_with_contact = 0;  ///< repulsions, or collisions
   std::int64_t steps_with_collisions = 0;
   std::int64_t pairs_below_tolerance = 0;  ///< named by the step's report
   std::int64_t fail_safe_steps = 0, fail_safe_vertices = 0;
