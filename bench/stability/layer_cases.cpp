@@ -105,6 +105,22 @@ void layers_at_speed(Trial& trial) {
   }
 }
 
+/// A sheet slides over another that it presses on: friction may only slow it down.
+void rubbing_layers(Trial& trial) {
+  const int side = trial.pick(3, 6, 12);
+  StageSetup setup;
+  setup.collision.friction_static = setup.collision.friction_kinetic = 0.4;
+  const sim::Shape sheet = sim::make_sheet(side, side, 1, 1);
+  setup.add_cloth(sheet, Vec3::Zero());
+  const Part upper =
+      setup.add_cloth(sheet, Vec3(0.03, 0.02, 0.9 * setup.collision.thickness_m), kPaper, Vec3(1, 0.2, -0.5));
+  Stage stage(trial, setup);
+  const double start = stage.mean_velocity(upper).head<2>().norm();
+  for (int step = 0; step < trial.steps(20, 4); ++step) stage.step();
+  stage.require_balances();
+  trial.at_most("speed left along the sheets", stage.mean_velocity(upper).head<2>().norm() / start, 0.95);
+}
+
 void layer_reversal(Trial& trial) {
   StageSetup setup;
   const std::vector<Part> layers = add_layers(setup, 6, trial.pick(3, 5, 7), 2e-3, {});
@@ -167,6 +183,8 @@ std::vector<StabilityCase> layer_cases() {
        "no candidate is changed by a bit", rigid_turn},
       {"layers-at-speed", "a sheet is shot through eight others in one step",
        "the shot loses speed to them; momentum and energy kept", layers_at_speed},
+      {"rubbing-layers", "a sheet slides over one that it presses on", "friction slows it; momentum and energy kept",
+       rubbing_layers},
       {"layer-reversal", "six layers are asked to swap places", "they keep their order; momentum and energy kept",
        layer_reversal},
       {"card-stack", "10 to 40 cards rest on each other", "cards keep their order and their place", card_stack},
