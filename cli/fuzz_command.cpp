@@ -196,7 +196,8 @@ void add_fuzz_command(CLI::App& program, Job& job) {
   fuzz.add_flag("--resume", arguments->resume, "Continue the campaign in that folder, where there is one");
   fuzz.add_option("--shard", arguments->shard, "A part of the campaign, i/N or auto (Slurm); selvage merge joins them")
       ->capture_default_str();
-  fuzz.add_option("--case-time", arguments->case_time_s, "Seconds of processor time after which a case is a hang")
+  fuzz.add_option("--case-time", arguments->case_time_s,
+                  "Seconds of processor time after which a case is a hang, or 20 times as many asleep")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   fuzz.add_option("--only", arguments->only, "Run one case again, STREAM:NUMBER as the table prints it");

@@ -93,11 +93,9 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
   std::signal(SIGPIPE, SIG_IGN);  // a worker that died shows at its other pipe
   std::filesystem::create_directories(options_.folder);
   save();
-  {
-    // Without threads: a fork takes only one along.
-    const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    for (const auto& property : properties_) property->prepare();
-  }
+  // Until the last fork: it takes one thread along and the locks of all. At its end the control lets threads start.
+  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  for (const auto& property : properties_) property->prepare();
   for (int i = 0; i < options_.jobs; ++i) teams_.push_back(std::make_unique<Team>(setting_));
   const auto start = Clock::now();
   auto last_save = start;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include <dlfcn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -149,7 +150,10 @@ PluginInfo probe_plugin(const std::filesystem::path& library) {
   const pid_t child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (child == 0) {
-    alarm(20);  // a library that never finishes loading
+    // A library that never finishes loading: of processor time, and of sleep as in case_clock.cpp.
+    const rlimit seconds{20, 20};
+    setrlimit(RLIMIT_CPU, &seconds);
+    alarm(400);
     Reply reply;
     try {
       reply.info = Plugin(library).info();

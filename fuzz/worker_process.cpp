@@ -3,8 +3,10 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <new>
-#include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -17,15 +19,34 @@
 namespace selvage::fuzz {
 namespace {
 
-/// A sleeping case uses no processor time, and on a crowded machine a busy one may get a small share of it.
-constexpr double kClockShare = 20;
-
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 std::array<int, 2> make_pipe() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
   return ends;
+}
+
+/// Of all its threads. Nothing where it has died.
+std::optional<double> processor_seconds(pid_t process) {
+  clockid_t clock{};
+  timespec now{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &now) != 0) return std::nullopt;
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Whether none of its threads runs, waits for a processor or for a disk: all sleep, or were stopped.
+bool is_asleep(pid_t process) {
+  std::error_code error;  // of threads that end while we look
+  std::filesystem::directory_iterator thread("/proc/" + std::to_string(process) + "/task", error);
+  for (; !error && thread != end(thread); thread.increment(error)) {
+    std::ifstream file(thread->path() / "stat");
+    std::string stat;
+    std::getline(file, stat);
+    const std::size_t state = stat.rfind(')') + 2;  // behind the program's name, which may hold anything
+    if (state >= stat.size() || (stat[state] != 'S' && stat[state] != 'T')) return false;
+  }
+  return !error;
 }
 
 }  // namespace
@@ -61,7 +82,7 @@ void WorkerProcess::start() {
   jobs_ = jobs[1];
   events_ = events[0];
   beat_at_start_ = progress_->beat.load();
-  last_beat_ = -1;
+  clock_ = {};
   was_hung_ = false;
 }
 
@@ -71,7 +92,7 @@ void WorkerProcess::give(const Job& job, const std::vector<bool>& is_skipped) {
   for (Counts& row : progress_->rows) row = {};
   for (std::size_t i = 0; i < is_skipped.size(); ++i) progress_->is_skipped[i] = is_skipped[i];
   job_ = job;
-  last_beat_ = -1;
+  clock_ = {};
   send(jobs_, job);
 }
 
@@ -111,27 +132,13 @@ void WorkerProcess::revive() {
   }
 }
 
-double WorkerProcess::processor_seconds() const {
-  clockid_t clock{};
-  timespec now{};
-  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &now) != 0) return seconds_at_beat_;  // just died
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 void WorkerProcess::watch(double case_seconds) {
   if (!job_ || job_->kind != Job::Kind::kUnit) return;  // shrinking runs many cases, and is bounded by their number
   const std::int64_t beat = progress_->beat.load();
   if (beat == beat_at_start_) return;  // not at its first case yet
-  const auto now = std::chrono::steady_clock::now();
-  if (beat != last_beat_) {
-    last_beat_ = beat;
-    seconds_at_beat_ = processor_seconds();
-    clock_at_beat_ = now;
-    return;
-  }
-  const bool too_busy = processor_seconds() - seconds_at_beat_ > case_seconds;
-  const bool too_long = std::chrono::duration<double>(now - clock_at_beat_).count() > kClockShare * case_seconds;
-  if (!too_busy && !too_long) return;
+  const std::optional<double> used = processor_seconds(pid_);
+  if (!used) return;  // it has just died
+  if (!clock_.is_over({beat, *used, is_asleep(pid_), std::chrono::steady_clock::now()}, case_seconds)) return;
   was_hung_ = true;
   kill(pid_, SIGKILL);
 }

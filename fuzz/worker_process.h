@@ -1,10 +1,10 @@
 // A worker as its driver sees it: a child process, two pipes, shared progress, and a watch on its time.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <vector>
 
+#include "fuzz/case_clock.h"
 #include "fuzz/worker.h"
 
 namespace selvage::fuzz {
@@ -35,14 +35,13 @@ class WorkerProcess {
   [[nodiscard]] Death bury();
   /// Another process takes over: the unit goes on behind the case that killed the last one; a kept case is given up.
   void revive();
-  /// Kills it if the case in hand has taken more than so much processor time, or 20 times as much by the clock.
+  /// Kills it if the case in hand has taken too long (case_clock.h).
   void watch(double case_seconds);
 
   [[nodiscard]] Progress& progress() { return *progress_; }
 
  private:
   void start();
-  [[nodiscard]] double processor_seconds() const;
 
   const WorkerSetting& setting_;
   Progress* progress_ = nullptr;
@@ -50,9 +49,8 @@ class WorkerProcess {
   int jobs_ = -1, events_ = -1;
   std::optional<Job> job_;
   bool was_hung_ = false;
-  std::int64_t beat_at_start_ = 0, last_beat_ = -1;
-  double seconds_at_beat_ = 0;
-  std::chrono::steady_clock::time_point clock_at_beat_;
+  std::int64_t beat_at_start_ = 0;
+  CaseClock clock_;
 };
 
 }  // namespace selvage::fuzz

@@ -1,0 +1,28 @@
+#include "fuzz/case_clock.h"
+
+#include <algorithm>
+
+namespace selvage::fuzz {
+namespace {
+
+/// A case may sleep for a while (a lock, a file) and go on: it is not a hang before it has slept 20 times as long as it
+/// may compute.
+constexpr double kSleepShare = 20;
+/// Five times what the driver waits between two looks. A longer gap says that the driver itself was not running.
+constexpr double kLongestLook_s = 0.5;
+
+}  // namespace
+
+bool CaseClock::is_over(const WorkerSight& sight, double case_seconds) {
+  if (sight.beat != beat_) {
+    beat_ = sight.beat;
+    processor_seconds_at_beat_ = sight.processor_seconds;
+    asleep_s_ = 0;
+  } else if (sight.is_asleep) {
+    asleep_s_ += std::min(std::chrono::duration<double>(sight.now - last_look_).count(), kLongestLook_s);
+  }
+  last_look_ = sight.now;
+  return sight.processor_seconds - processor_seconds_at_beat_ > case_seconds || asleep_s_ > kSleepShare * case_seconds;
+}
+
+}  // namespace selvage::fuzz
