@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
@@ -11,9 +9,7 @@
 #include "kernel/assert.h"
 #include "kernel/box.h"
 #include "kernel/ccd_batch.h"
-#include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
-#include "kernel/lane_cull.h"
 
 namespace selvage {
 
@@ -124,63 +120,6 @@ class CollisionFinder {
   CollisionReport report_;
 };
 
-/// Proximities at one instant.
-class ProximityFinder {
- public:
-  ProximityFinder(const Mesh& mesh, const PositionsRef& V, double reach, std::size_t query_count)
-      : mesh_(mesh), V_(V), reach_(reach) {
-    if (query_count * kVerticesPerQuery < static_cast<std::size_t>(V.rows())) return;
-    lanes_.emplace(V, V);
-    if (!lanes_->is_valid()) lanes_.reset();
-  }
-
-  /// Appends those of one kind of pairs, in the order of the candidates.
-  template <typename Candidate, typename Query>
-  void append(PairKind kind, const std::vector<Candidate>& candidates, const Query& query,
-              std::vector<PairProximity>& out) const {
-    std::vector<std::vector<PairProximity>> blocks((candidates.size() + kBatchSize - 1) / kBatchSize);
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
-      const FpEnvGuard guard;
-      const std::size_t end = std::min(candidates.size(), (b + 1) * kBatchSize);
-      detail::PairNumbers left;
-      for (std::size_t first = b * kBatchSize; first < end; first += detail::kPairBlock) {
-        const auto pairs = std::span(candidates).subspan(first, std::min(detail::kPairBlock, end - first));
-        cull(pairs, left);
-        for (const std::uint32_t i : std::span(left.place).first(left.count)) ask(kind, pairs[i], query, blocks[b]);
-      }
-    });
-    for (const auto& block : blocks) out.insert(out.end(), block.begin(), block.end());
-  }
-
- private:
-  /// As in CcdBatch: preparing the lanes costs 35 ns a vertex, a query that they spare 400 ns.
-  static constexpr std::size_t kVerticesPerQuery = 4;
-
-  /// A pair that does not move and is PROVED farther apart than the reach at the end is so all along.
-  template <typename Candidate>
-  void cull(std::span<const Candidate> pairs, detail::PairNumbers& left) const {
-    if (lanes_) {
-      cull_in_lanes(*lanes_, detail::LanePairs(mesh_, pairs), reach_, left);
-      return;
-    }
-    left.count = pairs.size();
-    std::iota(left.place.begin(), left.place.begin() + static_cast<std::ptrdiff_t>(left.count), 0U);
-  }
-
-  template <typename Candidate, typename Query>
-  void ask(PairKind kind, const Candidate& pair, const Query& query, std::vector<PairProximity>& found) const {
-    const auto [first, second] = pair;
-    const auto vertices = pair_vertices(mesh_, kind, first, second);
-    const Proximity proximity = query(points<4>(V_, vertices));
-    if (!(proximity.distance_lower >= reach_)) found.push_back({kind, first, second, vertices, proximity});
-  }
-
-  const Mesh& mesh_;
-  const PositionsRef& V_;
-  double reach_;
-  std::optional<detail::LaneMotion> lanes_;  ///< none: every pair is asked
-};
-
 }  // namespace
 
 std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first, std::int32_t second) {
@@ -202,19 +141,6 @@ CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const
   SELVAGE_ASSERT(options.tolerance >= 0 && std::isfinite(options.tolerance));
   hierarchy.refit(V_t0, V_t1, {options.tolerance, active});
   return CollisionFinder(mesh, V_t0, V_t1, options, active).find(hierarchy.candidates());
-}
-
-std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V,
-                                            double reach, std::span<const std::uint8_t> active) {
-  SELVAGE_VALIDATE(validate(mesh, V, V) == InputError::kNone);
-  SELVAGE_ASSERT(reach >= 0 && std::isfinite(reach));
-  hierarchy.refit(V, V, {reach, active});
-  const Candidates candidates = hierarchy.candidates();
-  std::vector<PairProximity> found;
-  const ProximityFinder finder(mesh, V, reach, candidates.vf.size() + candidates.ee.size());
-  finder.append(PairKind::kVf, candidates.vf, detail::vf_proximity_unguarded, found);
-  finder.append(PairKind::kEe, candidates.ee, detail::ee_proximity_unguarded, found);
-  return found;
 }
 
 }  // namespace selvage

@@ -1,11 +1,10 @@
-// Proximities and collisions of a whole mesh: broad phase, then the queries, in parallel, in a fixed order (K7).
+// Collisions of a whole mesh: broad phase, then the queries, in parallel, in a fixed order (K7).
 #pragma once
 
 #include <vector>
 
 #include "kernel/box_hierarchy.h"
 #include "kernel/ccd.h"
-#include "kernel/proximity.h"
 
 namespace selvage {
 
@@ -25,14 +24,6 @@ struct CollisionReport {
   std::int64_t self_candidates = 0;   ///< queries made of vertices against their faces' opposite edges
   std::int64_t intervals = 0;         ///< time intervals they examined: a deterministic measure of work
 };
-/// A pair that is near at one instant.
-struct PairProximity {
-  PairKind kind;                     ///< kVf or kEe
-  std::int32_t first;                ///< vertex | edge
-  std::int32_t second;               ///< face | edge
-  std::array<VertexId, 4> vertices;  ///< in the order of vf_proximity / ee_proximity
-  Proximity proximity;               ///< the query's answer
-};
 
 /// The vertices of a pair in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, p} for kSelf.
 [[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
@@ -50,10 +41,5 @@ struct PairProximity {
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                               const PositionsRef& V_t1, const CcdOptions& options,
                                               std::span<const std::uint8_t> active = {});
-/// All vf and ee pairs that are nearer than `reach` at V; pairs proved to be at least that far apart are left out
-/// (kept are candidates with distance_lower < reach). Sorted by (kind, first, second). REQUIRES as above.
-[[nodiscard]] std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hierarchy,
-                                                          const PositionsRef& V, double reach,
-                                                          std::span<const std::uint8_t> active = {});
 
 }  // namespace selvage

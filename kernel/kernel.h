@@ -17,5 +17,6 @@
 #include "kernel/collisions.h"
 #include "kernel/fp_env.h"
 #include "kernel/mesh.h"
+#include "kernel/proximities.h"
 #include "kernel/proximity.h"
 #include "kernel/types.h"

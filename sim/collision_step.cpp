@@ -23,6 +23,9 @@
 namespace selvage::sim {
 namespace {
 
+/// Contacts are looked for this often in a step: where the candidate goes, and where its repulsions lead.
+constexpr int kContactRounds = 2;
+
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
  public:
@@ -94,24 +97,33 @@ class Attempt {
   CollisionStepReport report_;
 };
 
-/// Sections 7.2 and 7.3: every contact at the start of the step.
+/// Sections 7.2 and 7.3: the contacts at the start of the step that the candidate presses, then those that these push
+/// together.
 void Attempt::repel() {
   {
     const PhaseTimer timer(report_.phases.proximity);
-    proximities_.find(mesh_, hierarchy_, contacts_, motion_.V_t0(), surface_);
+    proximities_.start(hierarchy_, motion_.V_t0(), surface_);
   }
-  const PhaseTimer timer(report_.phases.repulsion);
-  report_.proximities = proximities_.count();
-  std::vector<RepulsionContact> contacts;
-  for (const PairProximity& pair : proximities_.local()) {
-    const ContactProperties properties = contacts_.of(pair.kind, pair.vertices);
-    if (auto contact = make_contact(pair, properties, motion_.V_t0(), bodies_.inverse_mass)) {
-      contacts.push_back(*contact);
+  Contacts contacts;
+  for (int round = 0; round < kContactRounds; ++round) {
+    std::vector<PairProximity> near;
+    {
+      const PhaseTimer timer(report_.phases.proximity);
+      near = proximities_.find(motion_.x());
     }
+    const PhaseTimer timer(report_.phases.repulsion);
+    for (const PairProximity& pair : near) {
+      const ContactProperties properties = contacts_.of(pair.kind, pair.vertices);
+      if (const auto contact = make_contact(pair, properties, motion_.V_t0(), bodies_.inverse_mass)) {
+        contacts.add(*contact);
+      }
+    }
+    if (!contacts.has_new()) break;
+    contacts.repel(options_, dt_s_, motion_);
   }
-  const RepulsionCount count = repel_contacts(contacts, options_, dt_s_, motion_);
-  report_.repulsions = count.repulsions;
-  report_.frictions = count.frictions;
+  report_.proximities = proximities_.count();
+  report_.repulsions = contacts.count().repulsions;
+  report_.frictions = contacts.count().frictions;
 }
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
@@ -210,7 +222,8 @@ struct CollisionStep::Impl {
         options(step_options),
         contacts(step_mesh, step_options, std::move(surfaces)),
         hierarchy(step_mesh),
-        parts(step_mesh) {}
+        parts(step_mesh),
+        proximities(step_mesh, contacts) {}
 
   const Mesh& mesh;
   CollisionOptions options;

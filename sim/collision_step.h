@@ -74,7 +74,8 @@ struct CollisionStepReport {
   /// Candidates of cloth that were farther from their start than 1024 diagonals of the scene's box, and were cut back
   /// to that before anything else (travel_limit.h): the simulation has blown up.
   std::int64_t cut_candidates = 0;
-  std::int64_t proximities = 0, repulsions = 0, frictions = 0;
+  std::int64_t proximities = 0;  ///< that were asked for: StartProximities::count()
+  std::int64_t repulsions = 0, frictions = 0;
   std::int64_t first_collisions = 0;  ///< left by the repulsions, before any impulse of section 7.4
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
   std::int32_t largest_zone = 0;             ///< vertices
@@ -96,7 +97,7 @@ struct CollisionStepResult {
   CollisionStepReport report;
 };
 
-/// Holds what persists between steps: connectivity, hierarchy, and the proximities at the last V_t0, which a second try
+/// Holds what persists between steps: connectivity, hierarchy, and the near pairs at the last V_t0, which a second try
 /// from the same positions needs again. None of it changes a result.
 class CollisionStep {
  public:

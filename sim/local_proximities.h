@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "kernel/collisions.h"
+#include "kernel/proximities.h"
 
 namespace selvage::sim {
 

@@ -58,20 +58,21 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   return result;
 }
 
-RepulsionCount repel_contacts(std::span<const RepulsionContact> contacts, const CollisionOptions& options, double dt_s,
-                              StepMotion& motion) {
-  RepulsionCount count;
-  std::vector<FrictionLoad> loads(contacts.size());
+void Contacts::repel(const CollisionOptions& options, double dt_s, StepMotion& motion) {
+  const std::size_t first_new = loads_.size();
+  loads_.resize(contacts_.size());
   for (int sweep = 0; sweep < kRepulsionSweeps; ++sweep) {
     bool settled = true;
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-      const std::size_t at = sweep % 2 == 0 ? k : contacts.size() - 1 - k;
-      const RepulsionContact& contact = contacts[at];
-      const RepulsionChange change = repel_contact(contact, motion.displacement(), options, dt_s, sweep, loads[at]);
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const std::size_t at = sweep % 2 == 0 ? k : contacts_.size() - 1 - k;
+      const int own_sweep = at < first_new ? sweep + 1 : sweep;
+      const RepulsionContact& contact = contacts_[at];
+      const RepulsionChange change =
+          repel_contact(contact, motion.displacement(), options, dt_s, own_sweep, loads_[at]);
       if (!change.repels && !change.rubs) continue;
       settled = false;
-      count.repulsions += sweep == 0 && change.repels ? 1 : 0;
-      count.frictions += sweep == 0 && change.rubs ? 1 : 0;
+      count_.repulsions += own_sweep == 0 && change.repels ? 1 : 0;
+      count_.frictions += own_sweep == 0 && change.rubs ? 1 : 0;
       for (std::size_t i = 0; i < 4; ++i) {
         if (change.change[i].isZero(0)) continue;
         const VertexId vertex = contact.interaction.vertices[i];
@@ -80,7 +81,6 @@ RepulsionCount repel_contacts(std::span<const RepulsionContact> contacts, const 
     }
     if (settled) break;
   }
-  return count;
 }
 
 }  // namespace selvage::sim

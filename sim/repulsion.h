@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sim/collision_step.h"
 #include "sim/friction.h"
@@ -78,12 +79,24 @@ struct RepulsionChange {
                                             FrictionLoad& load);
 
 struct RepulsionCount {
-  std::int64_t repulsions = 0, frictions = 0;  ///< contacts that repelled, and rubbed, in sweep 0
+  std::int64_t repulsions = 0, frictions = 0;  ///< contacts that repelled, and rubbed, in their first sweep
 };
-/// Sweeps over the contacts in their order, then back, and so on, so that neither end of the cloth is favoured, until
-/// no contact has anything to change. No sweep adds energy but for the spring's, as no contact does. Serial: same bits
-/// for any thread count.
-RepulsionCount repel_contacts(std::span<const RepulsionContact> contacts, const CollisionOptions& options, double dt_s,
-                              StepMotion& motion);
+/// The contacts of a step.
+class Contacts {
+ public:
+  void add(const RepulsionContact& contact) { contacts_.push_back(contact); }
+  [[nodiscard]] bool has_new() const { return loads_.size() < contacts_.size(); }
+  /// Sweeps over the contacts in their order, then back, and so on, so that neither end of the cloth is favoured, until
+  /// no contact has anything to change. No sweep adds energy but for the spring's, as no contact does. Serial: same
+  /// bits for any thread count. May be called again after contacts have been added.
+  void repel(const CollisionOptions& options, double dt_s, StepMotion& motion);
+
+  [[nodiscard]] const RepulsionCount& count() const { return count_; }
+
+ private:
+  std::vector<RepulsionContact> contacts_;
+  std::vector<FrictionLoad> loads_;  ///< of each contact that has been swept
+  RepulsionCount count_;
+};
 
 }  // namespace selvage::sim

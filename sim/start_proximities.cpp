@@ -1,6 +1,8 @@
 #include "sim/start_proximities.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "sim/local_proximities.h"
 #include "sim/repulsion.h"
@@ -13,23 +15,43 @@ bool same_bits(const Positions& a, const Positions& b) {
          std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
+bool is_among(const PairProximity& pair, const Candidates& sorted) {
+  return pair.kind == PairKind::kVf ? std::ranges::binary_search(sorted.vf, VfCandidate{pair.first, pair.second})
+                                    : std::ranges::binary_search(sorted.ee, EeCandidate{pair.first, pair.second});
+}
+
 }  // namespace
 
-void StartProximities::find(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts,
-                            const Positions& V_t0, const std::vector<std::uint8_t>& surface) {
+void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, const std::vector<std::uint8_t>& surface) {
+  known_.clear();
+  count_ = 0;
   if (V_t0.rows() > 0 && same_bits(V_t0, V_t0_) && surface == surface_) return;
   V_t0_ = V_t0;
   surface_ = surface;
-  const double reach = kContactReach * contacts.thickness_upper();
-  std::vector<PairProximity> near = find_proximities(mesh, hierarchy, V_t0, reach, surface);
-  if (!contacts.is_uniform()) {
+  const double reach = kContactReach * contacts_.thickness_upper();
+  near_ = NearPairs(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
+}
+
+std::vector<PairProximity> StartProximities::find(const Positions& V_t1) {
+  std::vector<std::size_t> found;
+  std::ranges::set_difference(near_.approaching(V_t0_, V_t1), known_, std::back_inserter(found));
+  if (found.empty()) return {};
+  const Candidates asked = near_.candidates(near_.with_nearer(found));
+  std::vector<PairProximity> near = ask_proximities(mesh_, V_t0_, asked, kContactReach * contacts_.thickness_upper());
+  count_ += std::ssize(asked.vf) + std::ssize(asked.ee);
+  if (!contacts_.is_uniform()) {
     std::erase_if(near, [&](const PairProximity& pair) {
-      const double thickness_m = contacts.of(pair.kind, pair.vertices).thickness_m;
-      return !(pair.proximity.distance_lower < kContactReach * thickness_m);
+      return !(pair.proximity.distance_lower < kContactReach * contacts_.of(pair.kind, pair.vertices).thickness_m);
     });
   }
-  count_ = static_cast<std::int64_t>(near.size());
-  local_ = local_proximities(mesh, V_t0, near);
+  near = local_proximities(mesh_, V_t0_, near);
+  std::erase_if(near, [&, approaching = near_.candidates(found)](const PairProximity& pair) {
+    return !is_among(pair, approaching);
+  });
+  std::vector<std::size_t> known;
+  std::ranges::set_union(known_, found, std::back_inserter(known));
+  known_ = std::move(known);
+  return near;
 }
 
 }  // namespace selvage::sim

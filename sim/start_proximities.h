@@ -1,30 +1,37 @@
-// The proximities at the start of a step. They depend on nothing else, so that they outlive a try with another dt.
+// The pairs that repel in a step: near at its start, and coming nearer.
 #pragma once
 
 #include <vector>
 
-#include "kernel/collisions.h"
-#include "sim/contact_table.h"
+#include "kernel/proximities.h"
+#include "sim/near_pairs.h"
 
 namespace selvage::sim {
 
 class StartProximities {
  public:
-  /// Those at V_t0, of pairs with a flagged vertex (`surface`, #V). Where the bits of both are those of the last call,
-  /// nothing is done: all calls have the same mesh and the same contacts.
-  void find(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts, const Positions& V_t0,
-            const std::vector<std::uint8_t>& surface);
+  /// Both must outlive this.
+  StartProximities(const Mesh& mesh, const ContactTable& contacts) : mesh_(mesh), contacts_(contacts) {}
 
-  /// Pairs nearer than kContactReach times their thickness.
+  /// A step from V_t0, of pairs with a flagged vertex (`surface`, #V). Where the bits of both are those of the last
+  /// call, the near pairs of that are used again.
+  void start(BoxHierarchy& hierarchy, const Positions& V_t0, const std::vector<std::uint8_t>& surface);
+
+  /// The pairs that repel in a motion from V_t0 to V_t1 and were not among the answers since start(): nearer than
+  /// kContactReach times their thickness at V_t0, approaching (near_pairs.h), and local (local_proximities.h).
+  [[nodiscard]] std::vector<PairProximity> find(const Positions& V_t1);
+
+  /// Queries of the kernel since start().
   [[nodiscard]] std::int64_t count() const { return count_; }
-  /// Those of them that are contacts (local_proximities.h).
-  [[nodiscard]] const std::vector<PairProximity>& local() const { return local_; }
 
  private:
+  const Mesh& mesh_;
+  const ContactTable& contacts_;
   Positions V_t0_;
   std::vector<std::uint8_t> surface_;
+  NearPairs near_;
+  std::vector<std::size_t> known_;  ///< near pairs that an answer since start() was about; ascending
   std::int64_t count_ = 0;
-  std::vector<PairProximity> local_;
 };
 
 }  // namespace selvage::sim

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernel/assert.h"
-#include "kernel/proximity.h"
+#include "kernel/proximities.h"
 
 namespace selvage::sim {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/collisions.h"
+#include "kernel/proximities.h"
 #include "tests/kernel/random_motion.h"
 #include "tests/kernel/with_threads.h"
 #include "tests/property.h"

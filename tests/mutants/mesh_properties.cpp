@@ -8,6 +8,7 @@
 #include "fuzz/step_world.h"
 #include "fuzz/surface_makers.h"
 #include "kernel/collisions.h"
+#include "kernel/proximities.h"
 #include "tests/kernel/random_motion.h"
 #include "tests/mutants/drawn_property.h"
 #include "tests/mutants/properties.h"

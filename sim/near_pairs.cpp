@@ -1,0 +1,100 @@
+#include "sim/near_pairs.h"
+
+#include <algorithm>
+
+#include "kernel/collisions.h"
+#include "sim/parallel.h"
+#include "sim/quick_proximity.h"
+#include "sim/repulsion.h"
+
+namespace selvage::sim {
+namespace {
+
+/// Distances of pairs are compared with this much room for the rounding of quick_proximity.
+constexpr double kRounding = 1 + 1e-6;
+
+NearPair make_near_pair(PairKind kind, const std::array<VertexId, 4>& vertices, const ContactTable& contacts,
+                        const Positions& V) {
+  PairVectors x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = V.row(vertices[k]);
+  const QuickProximity quick = quick_proximity(kind, x);
+  const double distance = quick.difference.norm();
+  return {vertices, quick.weights, quick.difference / distance, distance, contacts.of(kind, vertices).thickness_m};
+}
+
+bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_t1) {
+  if (pair.distance > kRounding * kContactReach * pair.thickness_m) return false;
+  Vec3 moved = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const VertexId v = pair.vertices[k];
+    moved += pair.weights[k] * (V_t1.row(v) - V_t0.row(v)).transpose();
+  }
+  return !(pair.distance + moved.dot(pair.direction) >= pair.thickness_m);
+}
+
+}  // namespace
+
+NearPairs::NearPairs(const Mesh& mesh, const ContactTable& contacts, Candidates candidates, const Positions& V_t0)
+    : candidates_(std::move(candidates)),
+      pairs_(candidates_.vf.size() + candidates_.ee.size()),
+      vertex_count_(V_t0.rows()) {
+  parallel_each(std::ssize(pairs_), [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool is_vf = at < candidates_.vf.size();
+    const auto [first, second] =
+        is_vf ? std::array{candidates_.vf[at].vertex, candidates_.vf[at].face}
+              : std::array{candidates_.ee[at - candidates_.vf.size()].a, candidates_.ee[at - candidates_.vf.size()].b};
+    const PairKind kind = is_vf ? PairKind::kVf : PairKind::kEe;
+    pairs_[at] = make_near_pair(kind, pair_vertices(mesh, kind, first, second), contacts, V_t0);
+  });
+}
+
+std::vector<std::size_t> NearPairs::approaching(const Positions& V_t0, const Positions& V_t1) const {
+  std::vector<std::uint8_t> comes(pairs_.size());
+  parallel_each(std::ssize(pairs_), [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    comes[at] = comes_near(pairs_[at], V_t0, V_t1);
+  });
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < comes.size(); ++i) {
+    if (comes[i] != 0) result.push_back(i);
+  }
+  return result;
+}
+
+std::vector<std::size_t> NearPairs::with_nearer(const std::vector<std::size_t>& pairs) const {
+  std::vector<double> reach(static_cast<std::size_t>(vertex_count_), -1);  // the farthest of `pairs` at each vertex
+  std::vector<std::uint8_t> is_taken(pairs_.size());
+  for (const std::size_t i : pairs) {
+    is_taken[i] = 1;
+    for (const VertexId v : pairs_[i].vertices) {
+      double& farthest = reach[static_cast<std::size_t>(v)];
+      farthest = std::max(farthest, kRounding * pairs_[i].distance);
+    }
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const NearPair& pair = pairs_[i];
+    const auto is_nearer = [&](VertexId v) { return pair.distance <= reach[static_cast<std::size_t>(v)]; };
+    const auto* second_side = pair.vertices.begin() + (i < candidates_.vf.size() ? 1 : 2);
+    if (is_taken[i] != 0 || (std::any_of(pair.vertices.begin(), second_side, is_nearer) &&
+                             std::any_of(second_side, pair.vertices.end(), is_nearer))) {
+      result.push_back(i);
+    }
+  }
+  return result;
+}
+
+Candidates NearPairs::candidates(const std::vector<std::size_t>& pairs) const {
+  Candidates result;
+  for (const std::size_t i : pairs) {
+    if (i < candidates_.vf.size()) {
+      result.vf.push_back(candidates_.vf[i]);
+    } else {
+      result.ee.push_back(candidates_.ee[i - candidates_.vf.size()]);
+    }
+  }
+  return result;
+}
+
+}  // namespace selvage::sim

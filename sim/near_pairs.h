@@ -1,0 +1,43 @@
+// Pairs that are near at the start of a step, and how each of them moves along its direction: which ones are worth a
+// query of the kernel. In a heap of folded cloth most near pairs rest, and do not matter.
+#pragma once
+
+#include <vector>
+
+#include "kernel/candidates.h"
+#include "sim/contact_table.h"
+
+namespace selvage::sim {
+
+/// A pair by plain doubles, without a proof (quick_proximity.h).
+struct NearPair {
+  std::array<VertexId, 4> vertices;  ///< in the order of pair_vertices()
+  std::array<double, 4> weights;     ///< signed, as in Interaction
+  Vec3 direction;                    ///< unit; from the second feature to the first
+  double distance, thickness_m;
+};
+
+class NearPairs {
+ public:
+  /// Of `candidates` at V_t0. In parallel; same bits for any number of threads.
+  NearPairs(const Mesh& mesh, const ContactTable& contacts, Candidates candidates, const Positions& V_t0);
+  NearPairs() = default;
+
+  /// Those that come nearer than their thickness, along their direction, in a motion from V_t0 to V_t1, in order: vf
+  /// before ee. Where numbers overflow or features have no size a pair comes nearer. A pair farther than kContactReach
+  /// thicknesses does not.
+  [[nodiscard]] std::vector<std::size_t> approaching(const Positions& V_t0, const Positions& V_t1) const;
+
+  /// `pairs`, and all others that are as near as one of them to features on both sides: what a pair must be compared
+  /// with to know whether its distance is a local minimum. Ascending, as `pairs`.
+  [[nodiscard]] std::vector<std::size_t> with_nearer(const std::vector<std::size_t>& pairs) const;
+
+  [[nodiscard]] Candidates candidates(const std::vector<std::size_t>& pairs) const;
+
+ private:
+  Candidates candidates_;
+  std::vector<NearPair> pairs_;  ///< vf, then ee
+  Eigen::Index vertex_count_ = 0;
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,67 @@
+#include "kernel/proximities.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "kernel/collisions.h"
+#include "tests/kernel/random_motion.h"
+#include "tests/kernel/with_threads.h"
+#include "tests/property.h"
+
+namespace selvage {
+
+namespace {
+
+std::array<Vec3, 4> points(const PositionsRef& V, const std::array<VertexId, 4>& vertices) {
+  return {V.row(vertices[0]), V.row(vertices[1]), V.row(vertices[2]), V.row(vertices[3])};
+}
+
+}  // namespace
+
+/// Exactly the pairs with distance_lower < reach, whether or not their boxes are asked; nothing nearer is left out.
+TEST(FindProximities, PropFindsEveryPairNearerThanReach) {
+  testing::check_property(150, 9, [] {
+    const auto shape = testing::random_shape();
+    const auto motion = testing::random_motion(shape.vertex_count);
+    RC_LOG() << shape << '\n' << motion << '\n';
+    const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
+    BoxHierarchy hierarchy(mesh);
+    std::vector<PairProximity> found;
+    testing::with_threads(*rc::gen::element(1, 2, 3, 8),
+                          [&] { found = find_proximities(mesh, hierarchy, motion.V_t0, motion.reach, motion.active); });
+    // All pairs there are: those whose boxes overlap when grown beyond the domain.
+    const CandidateOptions everything = {8 * kMaxCoordinate, motion.active};
+    const Candidates all = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t0, everything);
+    std::size_t next = 0;
+    const auto check = [&](PairKind kind, std::int32_t first, std::int32_t second, auto query) {
+      const auto vertices = pair_vertices(mesh, kind, first, second);
+      const Proximity expected = query(points(motion.V_t0, vertices));
+      const bool listed =
+          next < found.size() && found[next].kind == kind && found[next].first == first && found[next].second == second;
+      if (!listed) {
+        RC_ASSERT(expected.distance_upper >= motion.reach);
+        return;
+      }
+      const PairProximity& pair = found[next++];
+      RC_ASSERT(expected.distance_lower < motion.reach);
+      RC_ASSERT(pair.vertices == vertices);
+      RC_ASSERT(pair.proximity.weights == expected.weights);
+      RC_ASSERT(pair.proximity.distance == expected.distance);
+      RC_ASSERT(pair.proximity.distance_lower == expected.distance_lower);
+    };
+    for (const auto& [v, f] : all.vf) check(PairKind::kVf, v, f, vf_proximity);
+    for (const auto& [a, b] : all.ee) check(PairKind::kEe, a, b, ee_proximity);
+    RC_ASSERT(next == found.size());
+    // The first half leaves nothing out that the second would keep.
+    const Candidates near = find_near_candidates(mesh, hierarchy, motion.V_t0, motion.reach, motion.active);
+    for (const PairProximity& pair : found) {
+      const bool is_left = pair.kind == PairKind::kVf
+                               ? std::ranges::binary_search(near.vf, VfCandidate{pair.first, pair.second})
+                               : std::ranges::binary_search(near.ee, EeCandidate{pair.first, pair.second});
+      RC_ASSERT(is_left);
+    }
+  });
+}
+
+}  // namespace selvage

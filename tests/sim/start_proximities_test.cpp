@@ -1,0 +1,142 @@
+// Which pairs repel: those of all near pairs that approach and are local, and no others.
+#include "sim/start_proximities.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "kernel/collisions.h"
+#include "sim/local_proximities.h"
+#include "sim/quick_proximity.h"
+#include "sim/repulsion.h"
+#include "tests/property.h"
+#include "tests/sim/mechanics.h"
+#include "tests/sim/step_scene.h"
+
+namespace selvage::sim::testing {
+namespace {
+
+using Name = std::tuple<PairKind, std::int32_t, std::int32_t>;
+Name name_of(const PairProximity& pair) { return {pair.kind, pair.first, pair.second}; }
+
+/// Two sheets, one over the other, crumpled; some coordinates on a lattice, so that distances and directions tie.
+StepScene random_layers() {
+  StepScene scene;
+  const auto side = *rc::gen::inRange(3, 6);
+  const double gap = number_between(0.01, 0.03);
+  scene.add(make_sheet(side, side, 0.1, 0.1), Vec3::Zero());
+  scene.add(make_sheet(4, 4, 0.1, 0.1), Vec3(number_between(0, 0.03), number_between(0, 0.03), gap));
+  const double crumple = *rc::gen::element(0.0, 0.005, 0.02), motion = *rc::gen::element(0.002, 0.02);
+  for (Eigen::Index i = 0; i < scene.V_t0.size(); ++i) {
+    scene.V_t0.data()[i] += number_between(-crumple, crumple);
+    scene.V_candidate.data()[i] = scene.V_t0.data()[i] + number_between(-motion, motion);
+  }
+  scene.options.thickness_m = 0.015;
+  return scene;
+}
+
+/// How much nearer than its thickness the pair comes, by the kernel's answer.
+double approach(const PairProximity& pair, const StepScene& scene, const Positions& V_t1) {
+  double moved = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool first = k < (pair.kind == PairKind::kVf ? 1 : 2);
+    const Vec3 d = V_t1.row(pair.vertices[k]) - scene.V_t0.row(pair.vertices[k]);
+    moved += (first ? 1 : -1) * pair.proximity.weights[k] * d.dot(pair.proximity.normal);
+  }
+  return scene.options.thickness_m - pair.proximity.distance - moved;
+}
+
+/// Edges whose nearest points are anywhere, and features that touch, have many answers.
+bool is_unsure(const PairProximity& pair, const StepScene& scene) {
+  if (!(pair.proximity.distance > 1e-9)) return true;
+  if (pair.kind == PairKind::kVf) return false;
+  const auto edge = [&](std::size_t k) -> Vec3 {
+    return (scene.V_t0.row(pair.vertices[k + 1]) - scene.V_t0.row(pair.vertices[k])).normalized();
+  };
+  return edge(0).cross(edge(2)).norm() < 1e-5;
+}
+
+}  // namespace
+
+TEST(QuickProximity, PropIsAsNearAsTheKernelsAnswer) {
+  selvage::testing::check_property(200, 31, [] {
+    PairVectors x;
+    for (Vec3& point : x) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        point[axis] = *rc::gen::inRange(0, 2) != 0 ? *rc::gen::inRange(-3, 4) : number_between(-3, 3);
+      }
+    }
+    for (const PairKind kind : {PairKind::kVf, PairKind::kEe}) {
+      const bool is_vf = kind == PairKind::kVf;
+      const Vec3 u = x[is_vf ? 2 : 1] - x[is_vf ? 1 : 0], v = x[3] - x[is_vf ? 1 : 2];
+      if (u.cross(v).norm() < 1e-6 || (is_vf && u == v)) continue;  // no area, or parallel
+      const Proximity exact = is_vf ? vf_proximity(x) : ee_proximity(x);
+      const QuickProximity quick = quick_proximity(kind, x);
+      RC_ASSERT(std::abs(quick.difference.norm() - exact.distance) <= 1e-9);
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t k = 0; k < 4; ++k) sum += quick.weights[k] * x[k];
+      RC_ASSERT((sum - quick.difference).norm() <= 1e-12);
+    }
+  });
+}
+
+TEST(StartProximities, PropAreAllThatApproachAndAreLocalAndOnceEach) {
+  selvage::testing::check_property(200, 32, [] {
+    StepScene scene = random_layers();
+    const Mesh mesh = scene.mesh();
+    const ContactTable contacts(mesh, scene.options, {});
+    const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
+    BoxHierarchy hierarchy(mesh);
+    StartProximities near(mesh, contacts);
+    const double reach = kContactReach * scene.options.thickness_m;
+    const std::vector<PairProximity> local =
+        local_proximities(mesh, scene.V_t0, find_proximities(mesh, hierarchy, scene.V_t0, reach));
+
+    near.start(hierarchy, scene.V_t0, surface);
+    std::set<Name> known;
+    Positions V_t1 = scene.V_candidate;
+    for (int round = 0; round < 2; ++round) {
+      std::set<Name> found;
+      for (const PairProximity& pair : near.find(V_t1)) {
+        RC_ASSERT(found.insert(name_of(pair)).second);
+        RC_ASSERT(!known.contains(name_of(pair)));
+        RC_ASSERT(approach(pair, scene, V_t1) > -1e-9 || is_unsure(pair, scene));
+      }
+      for (const PairProximity& pair : local) {
+        if (!(approach(pair, scene, V_t1) > 1e-9) || known.contains(name_of(pair))) continue;
+        RC_ASSERT(found.contains(name_of(pair)) || is_unsure(pair, scene));
+      }
+      for (const Name& name : found) {
+        RC_ASSERT(std::ranges::any_of(local, [&](const PairProximity& pair) { return name_of(pair) == name; }));
+      }
+      known.merge(found);
+      V_t1 = scene.V_t0 + 2 * (V_t1 - scene.V_t0);  // what else comes near
+    }
+  });
+}
+
+TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
+  StepScene scene;
+  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
+  const auto upper = scene.add(make_sheet(4, 4, 0.08, 0.08), Vec3(0.01, 0.01, 0.012));
+  scene.push(upper, Vec3(0, 0, -0.01));
+  scene.options.thickness_m = 0.01;
+  const Mesh mesh = scene.mesh();
+  const ContactTable contacts(mesh, scene.options, {});
+  const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
+  BoxHierarchy hierarchy(mesh);
+  StartProximities near(mesh, contacts);
+  near.start(hierarchy, scene.V_t0, surface);
+  const std::size_t count = near.find(scene.V_candidate).size();
+  EXPECT_GT(count, 10U);
+  EXPECT_TRUE(near.find(scene.V_candidate).empty());
+  near.start(hierarchy, scene.V_t0, surface);  // another try of the same step
+  EXPECT_EQ(near.find(scene.V_candidate).size(), count);
+  EXPECT_TRUE(near.find(scene.V_t0).empty());
+  Positions lifted = scene.V_t0;
+  for (VertexId v = upper.begin; v < upper.end; ++v) lifted(v, 2) += 0.1;
+  near.start(hierarchy, lifted, surface);
+  EXPECT_TRUE(near.find(lifted + (scene.V_candidate - scene.V_t0)).empty());
+}
+
+}  // namespace selvage::sim::testing
