@@ -23,8 +23,8 @@
 namespace selvage::sim {
 namespace {
 
-/// Contacts are looked for this often in a step: where the candidate goes, and where its repulsions lead.
-constexpr int kContactRounds = 2;
+/// Contacts are looked for where the candidate goes, and again where these sweeps of its repulsions lead.
+constexpr int kFirstSweeps = 2;
 
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
@@ -105,7 +105,7 @@ void Attempt::repel() {
     proximities_.start(hierarchy_, motion_.V_t0(), surface_);
   }
   Contacts contacts;
-  for (int round = 0; round < kContactRounds; ++round) {
+  for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
     std::vector<PairProximity> near;
     {
       const PhaseTimer timer(report_.phases.proximity);
@@ -118,8 +118,7 @@ void Attempt::repel() {
         contacts.add(*contact);
       }
     }
-    if (!contacts.has_new()) break;
-    contacts.repel(options_, dt_s_, motion_);
+    contacts.repel(options_, dt_s_, sweeps, motion_);
   }
   report_.proximities = proximities_.count();
   report_.repulsions = contacts.count().repulsions;

@@ -23,7 +23,6 @@ NearPair make_near_pair(PairKind kind, const std::array<VertexId, 4>& vertices, 
 }
 
 bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_t1) {
-  if (pair.distance > kRounding * kContactReach * pair.thickness_m) return false;
   Vec3 moved = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
     const VertexId v = pair.vertices[k];
@@ -34,19 +33,34 @@ bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_
 
 }  // namespace
 
-NearPairs::NearPairs(const Mesh& mesh, const ContactTable& contacts, Candidates candidates, const Positions& V_t0)
-    : candidates_(std::move(candidates)),
-      pairs_(candidates_.vf.size() + candidates_.ee.size()),
-      vertex_count_(V_t0.rows()) {
+void NearPairs::find(const Mesh& mesh, const ContactTable& contacts, const Candidates& candidates,
+                     const Positions& V_t0) {
+  vertex_count_ = V_t0.rows();
+  const std::size_t vf_count = candidates.vf.size();
+  pairs_.resize(vf_count + candidates.ee.size());
   parallel_each(std::ssize(pairs_), [&](Eigen::Index i) {
     const auto at = static_cast<std::size_t>(i);
-    const bool is_vf = at < candidates_.vf.size();
-    const auto [first, second] =
-        is_vf ? std::array{candidates_.vf[at].vertex, candidates_.vf[at].face}
-              : std::array{candidates_.ee[at - candidates_.vf.size()].a, candidates_.ee[at - candidates_.vf.size()].b};
-    const PairKind kind = is_vf ? PairKind::kVf : PairKind::kEe;
-    pairs_[at] = make_near_pair(kind, pair_vertices(mesh, kind, first, second), contacts, V_t0);
+    if (at < vf_count) {
+      const auto [vertex, face] = candidates.vf[at];
+      pairs_[at] = make_near_pair(PairKind::kVf, pair_vertices(mesh, PairKind::kVf, vertex, face), contacts, V_t0);
+    } else {
+      const auto [a, b] = candidates.ee[at - vf_count];
+      pairs_[at] = make_near_pair(PairKind::kEe, pair_vertices(mesh, PairKind::kEe, a, b), contacts, V_t0);
+    }
   });
+  candidates_.vf.clear();
+  candidates_.ee.clear();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    if (pairs_[i].distance > kRounding * kContactReach * pairs_[i].thickness_m) continue;
+    pairs_[count++] = pairs_[i];
+    if (i < vf_count) {
+      candidates_.vf.push_back(candidates.vf[i]);
+    } else {
+      candidates_.ee.push_back(candidates.ee[i - vf_count]);
+    }
+  }
+  pairs_.resize(count);
 }
 
 std::vector<std::size_t> NearPairs::approaching(const Positions& V_t0, const Positions& V_t1) const {

@@ -19,13 +19,12 @@ struct NearPair {
 
 class NearPairs {
  public:
-  /// Of `candidates` at V_t0. In parallel; same bits for any number of threads.
-  NearPairs(const Mesh& mesh, const ContactTable& contacts, Candidates candidates, const Positions& V_t0);
-  NearPairs() = default;
+  /// Of `candidates` those nearer than kContactReach thicknesses at V_t0, in order: vf before ee. Features of no size
+  /// are near. In parallel; same bits for any number of threads.
+  void find(const Mesh& mesh, const ContactTable& contacts, const Candidates& candidates, const Positions& V_t0);
 
-  /// Those that come nearer than their thickness, along their direction, in a motion from V_t0 to V_t1, in order: vf
-  /// before ee. Where numbers overflow or features have no size a pair comes nearer. A pair farther than kContactReach
-  /// thicknesses does not.
+  /// Those that come nearer than their thickness, along their direction, in a motion from V_t0 to V_t1; ascending.
+  /// Where numbers overflow or features have no size a pair does.
   [[nodiscard]] std::vector<std::size_t> approaching(const Positions& V_t0, const Positions& V_t1) const;
 
   /// `pairs`, and all others that are as near as one of them to features on both sides: what a pair must be compared

@@ -58,10 +58,10 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   return result;
 }
 
-void Contacts::repel(const CollisionOptions& options, double dt_s, StepMotion& motion) {
+void Contacts::repel(const CollisionOptions& options, double dt_s, int sweeps, StepMotion& motion) {
   const std::size_t first_new = loads_.size();
   loads_.resize(contacts_.size());
-  for (int sweep = 0; sweep < kRepulsionSweeps; ++sweep) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     bool settled = true;
     for (std::size_t k = 0; k < contacts_.size(); ++k) {
       const std::size_t at = sweep % 2 == 0 ? k : contacts_.size() - 1 - k;

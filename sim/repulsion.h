@@ -85,11 +85,10 @@ struct RepulsionCount {
 class Contacts {
  public:
   void add(const RepulsionContact& contact) { contacts_.push_back(contact); }
-  [[nodiscard]] bool has_new() const { return loads_.size() < contacts_.size(); }
   /// Sweeps over the contacts in their order, then back, and so on, so that neither end of the cloth is favoured, until
-  /// no contact has anything to change. No sweep adds energy but for the spring's, as no contact does. Serial: same
-  /// bits for any thread count. May be called again after contacts have been added.
-  void repel(const CollisionOptions& options, double dt_s, StepMotion& motion);
+  /// no contact has anything to change, at most `sweeps` times. No sweep adds energy but for the spring's, as no
+  /// contact does. Serial: same bits for any thread count. May be called again after contacts have been added.
+  void repel(const CollisionOptions& options, double dt_s, int sweeps, StepMotion& motion);
 
   [[nodiscard]] const RepulsionCount& count() const { return count_; }
 

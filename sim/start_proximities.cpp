@@ -29,7 +29,7 @@ void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, con
   V_t0_ = V_t0;
   surface_ = surface;
   const double reach = kContactReach * contacts_.thickness_upper();
-  near_ = NearPairs(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
+  near_.find(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
 }
 
 std::vector<PairProximity> StartProximities::find(const Positions& V_t1) {
