@@ -81,9 +81,7 @@ class LocalTest {
       const std::array<VertexId, 2> edge{other->vertices[across], other->vertices[across + 1]};
       if (nearer(*other) && all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) return false;
     }
-    if (count == 2) return true;
-    return std::ranges::none_of(faces_near(corners[0]),
-                                [&](const PairProximity& other) { return nearer(other) && face_holds(other, vertex); });
+    return true;
   }
 
   [[nodiscard]] bool are_parallel(const PairProximity& pair) const {

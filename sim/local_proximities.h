@@ -11,13 +11,11 @@
 namespace selvage::sim {
 
 /// The pairs at which distance is a local minimum, in their order. Left out is
-/// - a vf pair whose point of the face lies on its boundary, where a pair of the vertex or an edge that holds it, and
-/// of
-///   a face or edge that holds that edge or corner (or of that corner and a face that holds the vertex), is strictly
-///   nearer, in another direction;
-/// - an ee pair whose point lies at an end of an edge, where that vertex is as near to a face that holds the other
-/// edge;
-///   of parallel edges, whose nearest points are anywhere, the same for all four ends.
+/// - a vf pair whose nearest point of the face lies on an edge or corner of it, where in another direction a pair is
+///   strictly nearer: of the vertex and a face that holds that edge or corner, or of an edge that holds the vertex and
+///   an edge that is that edge or holds that corner;
+/// - an ee pair whose nearest point lies at an end of an edge, where that vertex is as near to a face that holds the
+///   other edge; of parallel edges, whose nearest points are anywhere, the same for all four ends.
 /// A pair is left out for one that is nearer, or for a vf pair in place of an ee pair, so of any set of pairs that
 /// share features the nearest stays. `proximities` as from find_proximities: sorted by (kind, first, second). Linear in
 /// their number but for binary searches; in parallel, same bits for any number of threads.
