@@ -11,7 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 3\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 4\n";
 
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
@@ -87,6 +87,8 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   put(bytes, clock.tick);
   put(bytes, clock.level);
   put(bytes, clock.good_steps);
+  put(bytes, clock.good_steps_asked);
+  put(bytes, clock.on_trial);
   put(bytes, checkpoint.state.x);
   put(bytes, checkpoint.state.v);
   for_each_total(checkpoint.totals, [&](const char*, const auto& field) { put(bytes, field); });
@@ -107,6 +109,8 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file) {
   source.get(clock.tick);
   source.get(clock.level);
   source.get(clock.good_steps);
+  source.get(clock.good_steps_asked);
+  source.get(clock.on_trial);
   source.get(checkpoint.state.x);
   source.get(checkpoint.state.v);
   for_each_total(checkpoint.totals, [&](const char*, auto& field) { source.get(field); });

@@ -1,5 +1,6 @@
 #include "sim/time_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/assert.h"
@@ -7,8 +8,9 @@
 namespace selvage::sim {
 namespace {
 
-constexpr std::int32_t kGoodStepsToDouble = 3;  // section 5: "three successful time steps in a row"
-constexpr std::int32_t kLevelLimit = 20;        // 2^-20 of a frame is below a millionth
+constexpr std::int32_t kFewestGoodSteps = 3;   // section 5: "three successful time steps in a row"
+constexpr std::int32_t kMostGoodSteps = 3072;  // 10 failures in a row: no more than a try in 3,000 steps is lost
+constexpr std::int32_t kLevelLimit = 20;       // 2^-20 of a frame is below a millionth
 
 // A step given in decimals, like 0.0166667, must count as the half of 1/30 s that was meant.
 constexpr double kSlack = 1 + 1e-3;
@@ -22,6 +24,7 @@ StepClock::StepClock(double frames_per_s, double shortest_s, double longest_s) :
   max_level_ = min_level_;
   while (max_level_ < kLevelLimit && std::ldexp(frame_s, -max_level_ - 1) * kSlack >= shortest_s) ++max_level_;
   state_.level = min_level_;
+  state_.good_steps_asked = kFewestGoodSteps;
 }
 
 double StepClock::dt_s() const { return std::ldexp(1 / frames_per_s_, -state_.level); }
@@ -34,6 +37,9 @@ void StepClock::halve() {
   SELVAGE_ASSERT(can_halve());
   ++state_.level;
   state_.good_steps = 0;
+  if (state_.on_trial == 0) return;
+  state_.on_trial = 0;
+  state_.good_steps_asked = std::min(2 * state_.good_steps_asked, kMostGoodSteps);
 }
 
 void StepClock::advance(bool good) {
@@ -42,11 +48,13 @@ void StepClock::advance(bool good) {
     ++state_.frame;
     state_.tick = 0;
   }
+  if (state_.on_trial > 0 && --state_.on_trial == 0) state_.good_steps_asked = kFewestGoodSteps;
   state_.good_steps = good ? state_.good_steps + 1 : 0;
   const bool aligned = state_.tick % (2 * step_ticks()) == 0;
-  if (state_.good_steps >= kGoodStepsToDouble && state_.level > min_level_ && aligned) {
+  if (state_.good_steps >= state_.good_steps_asked && state_.level > min_level_ && aligned) {
     --state_.level;
     state_.good_steps = 0;
+    state_.on_trial = state_.good_steps_asked;
   }
 }
 

@@ -37,6 +37,39 @@ TEST(StepClock, DoublesAfterThreeGoodStepsInARow) {
   EXPECT_EQ(clock.dt_s(), 2 * dt_s);
 }
 
+/// Good steps until the step is doubled.
+int steps_to_double(StepClock& clock) {
+  const double dt_s = clock.dt_s();
+  int steps = 0;
+  for (; clock.dt_s() == dt_s; ++steps) clock.advance(true);
+  return steps;
+}
+
+TEST(StepClock, TriesLongStepsThatFailLessAndLessOften) {
+  StepClock clock(25, 0.0025, 0.04);
+  clock.halve();
+  for (const int asked : {4, 6, 12, 24, 48}) {  // three, and one to be aligned
+    EXPECT_EQ(steps_to_double(clock), asked);
+    clock.halve();
+  }
+  // A doubled step that lasts is forgiven all that.
+  EXPECT_EQ(steps_to_double(clock), 96);
+  for (int i = 0; i < 95; ++i) clock.advance(false);
+  clock.halve();
+  EXPECT_EQ(steps_to_double(clock), 192);
+  for (int i = 0; i < 192; ++i) clock.advance(false);
+  clock.halve();
+  EXPECT_EQ(steps_to_double(clock), 4);
+}
+
+TEST(StepClock, CountsOneFailureHoweverOftenItHalves) {
+  StepClock clock(25, 0.0025, 0.04);
+  clock.halve();
+  steps_to_double(clock);
+  for (int i = 0; i < 3; ++i) clock.halve();
+  EXPECT_EQ(steps_to_double(clock), 6);
+}
+
 TEST(StepClock, WaitsUntilTheDoubledStepFitsTheFrame) {
   StepClock clock(25, 0.0025, 0.04);
   clock.halve();
