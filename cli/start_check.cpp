@@ -94,10 +94,10 @@ std::string part_of_vertex(const sim::World& world, VertexId vertex) {
   return part_of_face(world, world.mesh.vertex_owner[static_cast<std::size_t>(vertex)]);
 }
 
-void require_clean_start(sim::Simulation& simulation, bool repair) {
+sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   const sim::FindIntersections judge = exact_judge(simulation.world());
   const std::vector<sim::FacePair> pairs = judge(simulation.x());
-  if (pairs.empty()) return;
+  if (pairs.empty()) return {};
   if (!repair) refuse(simulation, pairs, "move them apart, or let --repair do it");
   const sim::UntangleResult result = untangle(simulation, judge);
   if (!result.report.remaining.empty()) {
@@ -112,6 +112,7 @@ void require_clean_start(sim::Simulation& simulation, bool repair) {
              "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged\n",
              pairs.size(), result.report.moved_vertices, simulation.world().cloth_vertex_count,
              result.report.largest_move_m, result.report.rounds);
+  return {std::ssize(pairs), result.report.moved_vertices, result.report.largest_move_m};
 }
 
 }  // namespace selvage::cli

@@ -21,6 +21,8 @@ class Recorder {
   Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
            std::string producer);
 
+  /// For run.json; before the first step, and after a resumption again.
+  void note_repair(const StartRepair& repair) { totals_.repair = repair; }
   /// After every safe step. Writes the checkpoint at frames.
   void record(const StepResult& step);
   /// Writes the checkpoint where the run is now, and run.json.

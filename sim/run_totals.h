@@ -9,7 +9,14 @@
 
 namespace selvage::sim {
 
+/// What `--repair` did to a start that intersected.
+struct StartRepair {
+  std::int64_t pairs = 0, moved_vertices = 0;
+  double largest_move_m = 0;
+};
+
 struct RunTotals {
+  StartRepair repair;
   std::int64_t frames = 0, steps = 0, halvings = 0;
   std::int64_t proximities = 0, repulsions = 0, frictions = 0;
   std::int64_t steps_with_collisions = 0, first_collisions = 0;
@@ -34,6 +41,9 @@ struct RunTotals {
 /// Calls visit(name, field) for every field, in the order above: one list for run.json and for checkpoints.
 template <class Totals, class Visit>
 void for_each_total(Totals& totals, Visit visit) {
+  visit("repaired_pairs", totals.repair.pairs);
+  visit("repaired_vertices", totals.repair.moved_vertices);
+  visit("largest_repair_m", totals.repair.largest_move_m);
   visit("frames", totals.frames);
   visit("steps", totals.steps);
   visit("halvings", totals.halvings);
@@ -49,6 +59,11 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("fail_safe_vertices", totals.fail_safe_vertices);
   visit("pairs_below_tolerance", totals.pairs_below_tolerance);
   visit("waiting_bodies", totals.waiting_bodies);
+  visit("dynamics_solves", totals.dynamics_solves);
+  visit("newton_rounds", totals.newton_rounds);
+  visit("cg_iterations", totals.cg_iterations);
+  visit("unconverged_solves", totals.unconverged_solves);
+  visit("largest_residual_m", totals.largest_residual_m);
   const auto visit_phase = [&](const char* name, auto& phase) {
     visit((std::string(name) + "_s").c_str(), phase.wall_s);
     visit((std::string(name) + "_cpu_s").c_str(), phase.cpu_s);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
 
@@ -94,12 +95,17 @@ TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
   EXPECT_NE(run.err.find("repair     "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find(" of 100 cloth vertices moved, by at most 0.0"), std::string::npos) << run.err;
   EXPECT_EQ(run_program(folder_, {"verify", path("out")}).exit_code, 0);
+  const auto told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_GT(told["repaired_pairs"], 0);
+  EXPECT_GT(told["repaired_vertices"], 0);
+  EXPECT_GT(told["largest_repair_m"], 0);
 
   // The repair does the same again when the run is resumed.
   std::filesystem::rename(path("out"), path("whole"));
   ASSERT_EQ(sim(scene(4, 0.27, 0.27), {"--repair", "--frames", "2"}).exit_code, 0);
   const auto resumed = sim(scene(4, 0.27, 0.27), {"--repair", "--resume"});
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(nlohmann::json::parse(slurp(path("out") + "/run.json"))["largest_repair_m"], told["largest_repair_m"]);
   std::filesystem::rename(path("out"), path("parts"));
   ASSERT_EQ(sim(scene(4, 0.27, 0.27), {"--repair"}).exit_code, 0);
   for (const char* name : {"/frame_000000.npy", "/frame_000004.npy"}) {

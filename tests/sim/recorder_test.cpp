@@ -50,6 +50,13 @@ class RecorderTest : public ::testing::Test {
 
 }  // namespace
 
+TEST(RunTotals, AreAllOfThemInRunJsonAndInCheckpoints) {
+  RunTotals totals;
+  std::size_t bytes = 0;
+  for_each_total(totals, [&](const char*, const auto& field) { bytes += sizeof field; });
+  EXPECT_EQ(bytes, sizeof totals) << "a field that is not visited is lost when a run is resumed";
+}
+
 TEST_F(RecorderTest, WritesTheBitsThatWereSimulated) {
   Simulation simulation(scene_);
   std::vector<Positions> states = {simulation.x()};
