@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int32_t kFewestGoodSteps = 3;   // section 5: "three successful time steps in a row"
 constexpr std::int32_t kMostGoodSteps = 3072;  // 10 failures in a row: no more than a try in 3,000 steps is lost
+constexpr std::int32_t kTrial = 4;             // steps for which a doubled step must last
 constexpr std::int32_t kLevelLimit = 20;       // 2^-20 of a frame is below a millionth
 
 // A step given in decimals, like 0.0166667, must count as the half of 1/30 s that was meant.
@@ -54,7 +55,7 @@ void StepClock::advance(bool good) {
   if (state_.good_steps >= state_.good_steps_asked && state_.level > min_level_ && aligned) {
     --state_.level;
     state_.good_steps = 0;
-    state_.on_trial = state_.good_steps_asked;
+    state_.on_trial = kTrial;
   }
 }
 

@@ -1,7 +1,7 @@
 // The adaptive collision step (paper, section 5): halved when repulsions did not prevent a collision, doubled after
-// three good steps, never across the border of a frame. Where a doubled step fails before as many steps as earned it,
-// twice as many are asked for the next doubling, so that no more time is lost on short steps than long ones have failed
-// for. Cloth that hangs over an edge rests at one step and not at twice that: it was kicked after every third one.
+// three good steps, never across the border of a frame. Where a doubled step fails within a few steps, twice as many
+// are asked for the next doubling: cloth that hangs over an edge rests at one step and not at twice that, and was
+// kicked after every third one.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class StepClock {
     std::int32_t level = 0;  ///< the step is frame / 2^level
     std::int32_t good_steps = 0;
     std::int32_t good_steps_asked = 0;  ///< in a row, for the next doubling
-    std::int32_t on_trial = 0;          ///< steps that must follow the last doubling to prove it right
+    std::int32_t on_trial = 0;          ///< steps that must still follow the last doubling to prove it right
   };
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
