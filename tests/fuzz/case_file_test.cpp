@@ -106,6 +106,8 @@ TEST(CaseFile, NamesTheLineOfWhatIsWrong) {
   expect_error(replaced(kGood, "5.5", "5.5 6"), "x.case:6: unexpected '6'");
   expect_error(replaced(kGood, "a 0 1 2", "b 0 1 2"), "x.case:6: expected 'a'");
   expect_error(replaced(kGood, "touches", "maybe"), "x.case:9: the answer is");
+  expect_error(replaced(kGood, "touches", "touches apart"), "x.case:9: unexpected 'apart'");
+  expect_error(replaced(kGood, "expect ", "except "), "x.case:9: expected 'expect'");
   expect_error(kGood + std::string("more\n"), "x.case:10: nothing may follow");
 }
 

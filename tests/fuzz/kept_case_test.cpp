@@ -185,6 +185,27 @@ TEST(ShrinkBytes, LeavesWhatMatters) {
   EXPECT_EQ(shrink(kept, "unsound", 5000).bytes, "\nf 7");
 }
 
+TEST(ShrinkBytes, KeepsTheFailureAndWhatItIsPromisedFor) {
+  static int trials = 0;
+  // Without a 'v' it fails in another way; without the end of a line nothing is promised.
+  static const ByteKind planted{
+      "file", "", "format", nullptr, [](const ByteCase& kept) {
+        ++trials;
+        const auto has = [&](const char* part) { return kept.bytes.find(part) != kept.bytes.npos; };
+        return Retrial{!has("f 7") ? "" : has("v") ? "unsound" : "crashed", {}, has("\n") ? "" : "no line"};
+      }};
+  const ByteCase kept{&planted, "obj", "v 0 0 0\nv 1.2345 0 0\nf 789 1 2\ng a\n"};
+  const Retrial small = retry(shrink(kept, "unsound", 5000));
+  EXPECT_EQ(small.failure, "unsound");
+  EXPECT_EQ(small.unfit, "");
+  EXPECT_EQ(shrink(kept, "unsound", 5000).bytes.size(), 5U);
+  for (const int most : {0, 1, 20}) {
+    trials = 0;
+    (void)shrink(kept, "unsound", most);
+    EXPECT_EQ(trials, most);
+  }
+}
+
 TEST(ShrinkChoices, LeavesFewAndSmallAnswers) {
   // Fails where two answers in a row are at least 100 and 7.
   const auto failure_of = [](ChoiceSource source) -> std::string {
