@@ -51,6 +51,25 @@ TEST(CollisionStep, WithoutContactReturnsTheCandidatesBits) {
   EXPECT_GT(result.report.certificate.vf_candidates, 0);
 }
 
+TEST(CollisionStep, RelaxationSpreadsAnImpulseOverRounds) {
+  // One corner, 1 cm above the ground, is to move 2 cm. A whole impulse stops it; quarters leave 2 cm * (3/4)^n, which
+  // is less than 1 cm after the third.
+  const auto rounds_with = [](double relaxation) {
+    StepScene scene;
+    scene.add(triangle(1), Vec3::Zero(), 0);
+    Shape tip = triangle(0.1);
+    tip.x.col(2) << 0.01, 0.1, 0.1;
+    scene.push(scene.add(tip, Vec3::Zero()), Vec3(0, 0, -0.02));
+    scene.options.repulsion = false;
+    scene.options.relaxation = relaxation;
+    const CollisionStepResult result = scene.step();
+    EXPECT_EQ(exact_defect(scene, result), "");
+    return result.report.impulse_rounds;
+  };
+  EXPECT_EQ(rounds_with(1), 1);
+  EXPECT_EQ(rounds_with(0.25), 3);
+}
+
 TEST(CollisionStep, TwoSheetsThrownAtEachOtherStayApart) {
   for (const double speed_m_s : {0.1, 1.0, 10.0, 100.0}) {
     StepScene scene;

@@ -89,7 +89,10 @@ TEST_F(RecorderTest, FramesAreTheStepsThatEndAFrame) {
     Recorder recorder(folder_.path() / "frames", simulation, io::SequenceKind::kFrames, false, kProducer);
     while (simulation.clock().state().frame < kFrames) {
       recorder.record(simulation.step());
-      if (simulation.clock().at_frame()) states.push_back(simulation.x());
+      if (!simulation.clock().at_frame()) continue;
+      states.push_back(simulation.x());
+      // Whoever kills the run from here on loses nothing of this frame.
+      EXPECT_EQ(read_checkpoint(folder_.path() / "frames" / "checkpoint.bin")->recorded, std::ssize(states));
     }
   }
   const auto sequence = io::open_sequence({folder_.path() / "frames"});
@@ -171,9 +174,30 @@ TEST_F(RecorderTest, RefusesWhatIsNotItsOwn) {
     std::ofstream(file, std::ios::binary) << good.substr(0, position);
     EXPECT_THROW((void)read_checkpoint(file), io::Error) << "cut at " << position;
   }
+  std::ofstream(file, std::ios::binary) << good + "more";
+  EXPECT_THROW((void)read_checkpoint(file), io::Error);
   std::ofstream(file, std::ios::binary) << good;
   EXPECT_TRUE(read_checkpoint(file).has_value());
   EXPECT_EQ(io::open_sequence({output})->frame_count(), 3u) << "nothing was lost by the refusals";
+}
+
+TEST_F(RecorderTest, NoFileIsEverHalfWritten) {
+  // Another name of a file keeps what was in it if the file is replaced, and shows what is written into it if not.
+  const auto output = folder_.path() / "out", kept = folder_.path() / "kept";
+  Simulation simulation(scene_);
+  Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
+  recorder.finish(RunEnd::kInterrupted);
+  std::filesystem::create_directory(kept);
+  const auto files = {"checkpoint.bin", "run.json"};
+  for (const char* file : files) std::filesystem::create_hard_link(output / file, kept / file);
+  std::vector<std::string> before;
+  for (const char* file : files) before.push_back(slurp(output / file));
+  run(simulation, recorder, 2);
+  recorder.finish(RunEnd::kComplete);
+  for (std::size_t i = 0; const char* file : files) {
+    EXPECT_NE(slurp(output / file), before[i]) << file;
+    EXPECT_EQ(slurp(kept / file), before[i++]) << file;
+  }
 }
 
 TEST_F(RecorderTest, RunJsonHasTheTotals) {
