@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "sim/points.h"
 #include "sim/untangle.h"
 #include "verify/check.h"
 
@@ -31,13 +32,10 @@ sim::FindIntersections exact_judge(const sim::World& world) {
   }
   const auto vertex_count = static_cast<std::size_t>(world.x_t0.rows());
   return [topology = verify::make_topology({world.triangles, is_body}, vertex_count)](const Positions& x) {
-    std::vector<verify::Point> V;
-    V.reserve(static_cast<std::size_t>(x.rows()));
-    for (Eigen::Index v = 0; v < x.rows(); ++v) V.push_back({x(v, 0), x(v, 1), x(v, 2)});
     verify::CheckOptions options;
     options.max_violations = kMostPairs;
     std::vector<sim::FacePair> pairs;
-    for (const verify::Violation& found : verify::check_frame(topology, V, options).violations) {
+    for (const verify::Violation& found : verify::check_frame(topology, sim::points_of(x), options).violations) {
       const bool one_face = found.event == verify::EventKind::kSelf;  // a vertex, and its face without area
       pairs.push_back({found.features[one_face ? 1 : 0], found.features[1]});
     }

@@ -14,6 +14,7 @@
 #include "cli/interrupt.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
+#include "sim/points.h"
 #include "sim/subdivision.h"
 #include "verify/check.h"
 
@@ -62,8 +63,7 @@ FineFrame subdivide(const sim::Subdivision& subdivision, const io::MeshData& mes
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     V.row(static_cast<Eigen::Index>(i)) << mesh.points[i][0], mesh.points[i][1], mesh.points[i][2];
   }
-  const Positions x = subdivision(V, fine.counts);
-  for (Eigen::Index i = 0; i < x.rows(); ++i) fine.points.push_back({x(i, 0), x(i, 1), x(i, 2)});
+  fine.points = sim::points_of(subdivision(V, fine.counts));
   fine.after = intersections(subdivision.triangles(), subdivision.groups(), fine.points);
   return fine;
 }

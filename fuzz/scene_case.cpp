@@ -26,7 +26,7 @@ verify::Topology topology_of(const sim::World& world) {
 /// Violations of the motion and of the frame at its end.
 bool touches(const verify::Topology& topology, const Positions& x_t0, const Positions& x_t1, const std::string& what,
              std::vector<std::string>& facts) {
-  const std::vector<verify::Point> before = raw_points(x_t0), after = raw_points(x_t1);
+  const std::vector<verify::Point> before = sim::points_of(x_t0), after = sim::points_of(x_t1);
   const verify::CheckResult motion = verify::check_motion(topology, before, after, {});
   const verify::CheckResult frame = verify::check_frame(topology, after, {});
   if (motion.violations_total.total() != 0) append_facts(facts, "the motion of " + what, motion);

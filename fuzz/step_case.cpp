@@ -127,7 +127,7 @@ Retrial retry_step(const MeshCase& kept, const StepFunction& step) {
     verify::CheckOptions options;
     options.max_violations = kListedFacts;
     append_facts(retrial.facts, "the motion to its answer",
-                 verify::check_motion(world.topology, raw_points(kept.x[0]), raw_points(result.x), options));
+                 verify::check_motion(world.topology, sim::points_of(kept.x[0]), sim::points_of(result.x), options));
   }
   return retrial;
 }

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
+
+#include "verify/distance_check.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -59,11 +63,14 @@ bool velocity_is_that_of_the_motion(const StepWorld& world, const Positions& x_t
 
 /// Every pair of the cloth that the exact check finds nearer than the tolerance at the end must be in the report.
 bool all_near_pairs_are_named(const StepWorld& world, const sim::CollisionStepResult& result) {
-  std::vector<verify::Violation> near = near_pairs(world.topology, result.x, world.options.tolerance_m);
-  std::erase_if(near, [&](const verify::Violation& violation) {
-    return std::ranges::all_of(violation.vertices, [&](std::int32_t v) { return v < 0 || world.is_scripted(v); });
+  std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
+  for (const Collision& pair : result.report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
+  const auto near = verify::near_pairs(world.topology, sim::points_of(result.x), world.options.tolerance_m);
+  return std::ranges::all_of(near, [&](const verify::Violation& pair) {
+    const PairKind kind = pair.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
+    const auto is_scripted = [&](std::int32_t v) { return v < 0 || world.is_scripted(v); };
+    return named.contains({kind, pair.features}) || std::ranges::all_of(pair.vertices, is_scripted);
   });
-  return all_are_named(near, result.report.below_tolerance);
 }
 
 double mass_of(const StepWorld& world, Eigen::Index vertex) {
@@ -162,7 +169,7 @@ StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Posit
   if (!all_finite || result.x.cwiseAbs().maxCoeff() > kMaxCoordinate) {
     return StepDefect::kOutsideDomain;
   }
-  const auto motion = verify::check_motion(world.topology, raw_points(x_t0), raw_points(result.x), {});
+  const auto motion = verify::check_motion(world.topology, sim::points_of(x_t0), sim::points_of(result.x), {});
   if (cloth_violations(world, motion) != 0) return StepDefect::kTouches;
   if (!all_near_pairs_are_named(world, result)) return StepDefect::kUnnamedNear;
   const bool float32 = world.options.precision == sim::CollisionOptions::Precision::kFloat32;

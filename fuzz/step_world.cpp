@@ -123,7 +123,7 @@ void connect(StepWorld& world, const Triples& faces) {
 
 bool is_clean(const StepWorld& world, const Positions& x) {
   if (!x.allFinite()) return false;  // beyond the largest float32
-  return cloth_violations(world, verify::check_frame(world.topology, raw_points(x), {})) == 0;
+  return cloth_violations(world, verify::check_frame(world.topology, sim::points_of(x), {})) == 0;
 }
 
 StepWorld make_step_world(ChoiceSource& source) {

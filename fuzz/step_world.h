@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "fuzz/choice_source.h"
-#include "fuzz/near_pairs.h"
 #include "fuzz/surface_makers.h"
 #include "sim/collision_step.h"
+#include "sim/points.h"
 #include "verify/check.h"
 
 namespace selvage::fuzz {

@@ -65,7 +65,7 @@ bool subdivide(Frame& frame, SubdivisionTrial& trial) {
   const auto vertex_count = static_cast<std::size_t>(frame.x.rows());
   const sim::LoopRules rules(mesh_of(frame.triangles, vertex_count), body_faces(frame.groups));
   const Positions start = rules.midpoints(frame.x);
-  const std::vector<verify::Point> before = raw_points(start), after = raw_points(fine.x);
+  const std::vector<verify::Point> before = sim::points_of(start), after = sim::points_of(fine.x);
   const std::string level = "level " + std::to_string(trial.levels + 1);
   auto& [failure, facts, unfit] = trial.retrial;
   if (verify::check_frame(topology, before, {}).violations_total.total() > 0) {
@@ -91,7 +91,7 @@ bool subdivide(Frame& frame, SubdivisionTrial& trial) {
 Retrial retry_subdivision(const MeshCase& kept) {
   if (!(kept.x[0].cwiseAbs().maxCoeff() <= kMaxCoordinate)) return {{}, {}, "a vertex is outside the domain"};
   const Frame frame = frame_of(kept);
-  const auto start = verify::check_frame(topology_of(frame), raw_points(frame.x), {});
+  const auto start = verify::check_frame(topology_of(frame), sim::points_of(frame.x), {});
   if (start.violations_total.total() > 0) return {{}, {}, "the surface intersects itself at the start"};
   return try_subdivision(kept).retrial;
 }

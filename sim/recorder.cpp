@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
+#include "sim/points.h"
 
 namespace selvage::sim {
 namespace {
@@ -95,15 +96,7 @@ void Recorder::finish(RunEnd end) {
   io::write_atomically(folder_ / "run.json", json);
 }
 
-void Recorder::append() {
-  const Positions& x = simulation_.x();
-  io::Points points(static_cast<std::size_t>(x.rows()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    points[i] = {x(row, 0), x(row, 1), x(row, 2)};
-  }
-  writer_.append(simulation_.clock().time_s(), points);
-}
+void Recorder::append() { writer_.append(simulation_.clock().time_s(), points_of(simulation_.x())); }
 
 void Recorder::save_checkpoint() {
   write_checkpoint(folder_ / "checkpoint.bin",

@@ -1,11 +1,15 @@
 #include "verify/distance_check.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "verify/distance_filter.h"
 #include "verify/exact_distance.h"
+#include "verify/fp_guard.h"
 #include "verify/near_pairs.h"
+#include "verify/tally.h"
+#include "verify/violation.h"
 
 namespace selvage::verify {
 
@@ -24,6 +28,21 @@ void check_distances(const Topology& topology, std::span<const Point> V, double 
                      const int sign = is_vf ? compare_vf_distance(x, distance) : compare_ee_distance(x, distance);
                      if (sign < 0) chunk.add({event, {i, j}, "near"});
                    });
+}
+
+std::vector<Violation> near_pairs(const Topology& topology, std::span<const Point> V, double distance) {
+  const FpGuard guard;
+  require_positions(topology, V);
+  CheckOptions options;
+  options.max_violations = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  Tally tally(options.max_violations);
+  check_distances(topology, V, distance, options, tally);
+  std::vector<Violation> near;
+  for (const Hit& hit : tally.first_hits()) {
+    near.push_back(describe(topology, hit));
+    set_positions(near.back(), V, V);
+  }
+  return near;
 }
 
 }  // namespace selvage::verify

@@ -5,6 +5,7 @@
 #include "bench/stability/exact_watch.h"
 #include "bench/stability/hard_shapes.h"
 #include "bench/stability/stage.h"
+#include "sim/points.h"
 
 namespace selvage::bench {
 namespace {
@@ -62,8 +63,8 @@ void step_beside_unsound(Trial& trial, const StageSetup& setup, const std::vecto
   const auto vertex_count = static_cast<std::size_t>(x.rows());
   const verify::Topology all = verify::make_topology({setup.triangles}, vertex_count);
   const verify::Topology sound = verify::make_topology({setup.triangles, {}, unsound}, vertex_count);
-  trial.at_least("violations named at the start", double(verify::check_frame(all, points_of(x), {}).violations.size()),
-                 1);
+  trial.at_least("violations named at the start",
+                 double(verify::check_frame(all, sim::points_of(x), {}).violations.size()), 1);
 
   Faces faces(static_cast<Eigen::Index>(setup.triangles.size()), 3);
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
@@ -77,7 +78,7 @@ void step_beside_unsound(Trial& trial, const StageSetup& setup, const std::vecto
       step(x, candidate, {setup.inverse_mass, setup.body, setup.policy}, setup.dt_s);
   trial.require(result.report.status == sim::StepStatus::kSafe && result.x.allFinite(), "it did not end in a state");
   trial.require(result.report.first_collisions > 0, "no contact was found");
-  const verify::CheckResult motion = verify::check_motion(sound, points_of(x), points_of(result.x), {});
+  const verify::CheckResult motion = verify::check_motion(sound, sim::points_of(x), sim::points_of(result.x), {});
   trial.require(motion.violations_total.total() == 0, "sound faces touched");
   trial.report().vertices = x.rows();
   trial.report().faces = faces.rows();

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "sim/points.h"
+#include "verify/distance_check.h"
+
 namespace selvage::bench {
 namespace {
 
@@ -13,13 +16,6 @@ namespace {
 constexpr double kGapShrink = 0.5;
 
 }  // namespace
-
-std::vector<verify::Point> points_of(const Positions& x) {
-  std::vector<verify::Point> points;
-  points.reserve(static_cast<std::size_t>(x.rows()));
-  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
-  return points;
-}
 
 ExactWatch::ExactWatch(Trial& trial, const io::Triangles& triangles, const std::vector<std::uint8_t>& face_is_body,
                        std::int64_t vertex_count, const sim::CollisionOptions& options)
@@ -40,7 +36,7 @@ void ExactWatch::require_free(const verify::CheckResult& result, const char* wha
 }
 
 void ExactWatch::start(const Positions& x) {
-  require_free(verify::check_frame(topology_, points_of(x), {}), "the start");
+  require_free(verify::check_frame(topology_, sim::points_of(x), {}), "the start");
 }
 
 void ExactWatch::step(const Positions& x_t0, const Positions& x_t1, const sim::CollisionStepReport& report) {
@@ -57,30 +53,23 @@ void ExactWatch::step(const Positions& x_t0, const Positions& x_t1, const sim::C
   trial_.require(report.status == sim::StepStatus::kSafe,
                  fmt::format("step {} is {}: {}", account.steps, name_of(report.status), describe(report.input_error)));
   trial_.require(x_t1.allFinite(), fmt::format("step {} ends in positions that are not finite", account.steps));
-  require_free(verify::check_motion(topology_, points_of(x_t0), points_of(x_t1), {}), "the motion");
-  require_free(verify::check_frame(topology_, points_of(x_t1), {}), "the frame");
+  require_free(verify::check_motion(topology_, sim::points_of(x_t0), sim::points_of(x_t1), {}), "the motion");
+  require_free(verify::check_frame(topology_, sim::points_of(x_t1), {}), "the frame");
   watch_gap(x_t1, report);
 }
 
-std::vector<verify::Violation> ExactWatch::near_pairs(const Positions& x, double distance_m) const {
-  verify::CheckOptions options;
-  options.min_distance = distance_m;
-  options.max_violations = 1'000'000;
-  std::vector<verify::Violation> near = verify::check_frame(topology_, points_of(x), options).violations;
-  std::erase_if(near, [](const verify::Violation& violation) { return violation.kind != "near"; });
-  return near;
-}
-
 void ExactWatch::watch_gap(const Positions& x, const sim::CollisionStepReport& report) {
+  const io::Points points = sim::points_of(x);
+  const auto near_pairs = [&](double distance_m) { return verify::near_pairs(topology_, points, distance_m); };
   double& gap_m = trial_.report().gap_at_least_m;
-  if (gap_m > 0 && near_pairs(x, gap_m).empty()) return;
+  if (gap_m > 0 && near_pairs(gap_m).empty()) return;
   do {
     gap_m *= kGapShrink;
-  } while (gap_m > 0 && !near_pairs(x, gap_m).empty());
+  } while (gap_m > 0 && !near_pairs(gap_m).empty());
   if (gap_m >= tolerance_m_) return;
   std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
   for (const Collision& pair : report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
-  for (const verify::Violation& near : near_pairs(x, tolerance_m_)) {
+  for (const verify::Violation& near : near_pairs(tolerance_m_)) {
     const PairKind kind = near.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
     trial_.require(named.contains({kind, near.features}),
                    fmt::format("step {} ends with a pair below the tolerance that its report does not name",

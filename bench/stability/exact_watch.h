@@ -10,8 +10,6 @@
 
 namespace selvage::bench {
 
-[[nodiscard]] std::vector<verify::Point> points_of(const Positions& x);
-
 class ExactWatch {
  public:
   /// `face_is_body`: as in verify::Surface; empty: no face is. The trial must outlive it.
@@ -26,7 +24,6 @@ class ExactWatch {
 
  private:
   void require_free(const verify::CheckResult& result, const char* what);
-  [[nodiscard]] std::vector<verify::Violation> near_pairs(const Positions& x, double distance_m) const;
   void watch_gap(const Positions& x, const sim::CollisionStepReport& report);
 
   Trial& trial_;

@@ -6,6 +6,7 @@
 #include "bench/stability/exact_watch.h"
 #include "bench/stability/stage.h"
 #include "io/error.h"
+#include "sim/points.h"
 #include "sim/scene_reader.h"
 #include "sim/world.h"
 #include "verify/check.h"
@@ -122,7 +123,7 @@ void intersecting_start(Trial& trial) {
     triangles.push_back({input.faces(f, 0), input.faces(f, 1), input.faces(f, 2)});
   }
   const verify::Topology topology = verify::make_topology({triangles}, static_cast<std::size_t>(crossing.rows()));
-  const verify::CheckResult result = verify::check_frame(topology, points_of(crossing), {});
+  const verify::CheckResult result = verify::check_frame(topology, sim::points_of(crossing), {});
   trial.at_least("violations named", double(result.violations.size()), 1);
 }
 

@@ -12,6 +12,7 @@
 #include "tests/kernel/random_motion.h"
 #include "tests/mutants/drawn_property.h"
 #include "tests/mutants/properties.h"
+#include "verify/distance_check.h"
 
 namespace selvage::mutants {
 namespace {
@@ -84,13 +85,8 @@ PairName name_of(const verify::Violation& violation) {
 
 /// Exactly: the pairs nearer than d.
 std::set<PairName> near_pairs(const MovingMesh& moving, const Positions& x, double d) {
-  verify::CheckOptions options;
-  options.min_distance = d;
-  options.max_violations = 1000000;
   std::set<PairName> pairs;
-  for (const auto& violation : verify::check_frame(moving.topology, fuzz::raw_points(x), options).violations) {
-    if (violation.kind == "near") pairs.insert(name_of(violation));
-  }
+  for (const auto& pair : verify::near_pairs(moving.topology, sim::points_of(x), d)) pairs.insert(name_of(pair));
   return pairs;
 }
 
@@ -105,7 +101,7 @@ std::string judge_collisions(std::uint64_t seed) {
   verify::CheckOptions options;
   options.max_violations = 1000000;
   const auto motion =
-      verify::check_motion(moving.topology, fuzz::raw_points(moving.x[0]), fuzz::raw_points(moving.x[1]), options);
+      verify::check_motion(moving.topology, sim::points_of(moving.x[0]), sim::points_of(moving.x[1]), options);
   for (const auto& violation : motion.violations) {
     const auto answer = found.find(name_of(violation));
     if (answer == found.end()) return "missed";

@@ -72,8 +72,8 @@ std::string judge_step(const sim::Simulation& simulation, const sim::SimulationS
   if (step.report.status != sim::StepStatus::kSafe) return "a step was not safe";
   std::vector<std::uint8_t> is_body;
   const verify::Surface surface = surface_of(world, is_body);
-  const auto points = fuzz::raw_points(simulation.x());
-  if (verify::check_motion(surface, fuzz::raw_points(before.x), points, {}).violations_total.total() != 0 ||
+  const auto points = sim::points_of(simulation.x());
+  if (verify::check_motion(surface, sim::points_of(before.x), points, {}).violations_total.total() != 0 ||
       verify::check_frame(surface, points, {}).violations_total.total() != 0) {
     return "a step touches";
   }
@@ -154,7 +154,7 @@ std::string judge_recording(std::uint64_t seed) {
   const auto sequence = io::open_sequence({folder.path() / "run"}, {});
   if (sequence->frame_count() != states.size()) return "steps were lost or repeated";
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (sequence->frame(i).points != fuzz::raw_points(states[i])) return "a recorded step has other bits";
+    if (sequence->frame(i).points != sim::points_of(states[i])) return "a recorded step has other bits";
   }
   return "";
 }

@@ -6,6 +6,7 @@
 
 #include "sim/contact_table.h"
 #include "tests/sim/step_scene.h"
+#include "verify/distance_check.h"
 
 namespace selvage::sim::testing {
 namespace {
@@ -70,13 +71,9 @@ using NamedPairs = std::set<std::pair<PairKind, std::array<std::int32_t, 2>>>;
 /// The pairs of cloth that the exact checker finds nearer than `distance`; `keep` says which of them count.
 template <class Keep>
 NamedPairs exactly_near(const StepScene& scene, const Positions& x, double distance, Keep keep) {
-  verify::CheckOptions options;
-  options.min_distance = distance;
-  options.max_violations = 100000;
   NamedPairs pairs;
-  const verify::Surface surface{scene.triangles, scene.face_is_body};
-  for (const verify::Violation& near : check_frame(surface, to_points(x), options).violations) {
-    if (near.kind != "near") continue;
+  const auto topology = verify::make_topology({scene.triangles, scene.face_is_body}, scene.body.size());
+  for (const verify::Violation& near : verify::near_pairs(topology, points_of(x), distance)) {
     const PairKind kind = near.event == verify::EventKind::kVf ? PairKind::kVf : PairKind::kEe;
     if (keep(kind, near.vertices)) pairs.insert({kind, near.features});
   }

@@ -1,6 +1,7 @@
 // The scene of the robe: a figure of many parts and a garment that it wears, in short.
 #include <gtest/gtest.h>
 
+#include "sim/points.h"
 #include "sim/scene_reader.h"
 #include "sim/step.h"
 #include "verify/check.h"
@@ -15,12 +16,6 @@ Scene coarse_robe() {
   Scene scene = read_scene(std::string(SELVAGE_SOURCE_DIR) + "/sim/scenes/robe.toml");
   std::get<GarmentSpec>(scene.cloths.at(0).surface).cell_m = 0.08;
   return scene;
-}
-
-std::vector<verify::Point> points_of(const Positions& x) {
-  std::vector<verify::Point> points;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
-  return points;
 }
 
 std::vector<std::uint8_t> body_flags(const World& world) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/collision_step.h"
+#include "sim/points.h"
 #include "sim/shapes.h"
 #include "verify/check.h"
 
@@ -64,16 +65,10 @@ struct StepScene {
   double dt_s = 1e-2;
 };
 
-inline std::vector<verify::Point> to_points(const Positions& V) {
-  std::vector<verify::Point> points;
-  for (Eigen::Index v = 0; v < V.rows(); ++v) points.push_back({V(v, 0), V(v, 1), V(v, 2)});
-  return points;
-}
-
 /// What the exact checker holds against a state, "" for nothing.
 inline std::string exact_defect(const StepScene& scene, const Positions& x) {
   const verify::Surface surface{scene.triangles, scene.face_is_body};
-  const verify::CheckResult frame = check_frame(surface, to_points(x), {});
+  const verify::CheckResult frame = check_frame(surface, points_of(x), {});
   if (frame.violations_total.total() == 0) return "";
   return "frame: " + std::to_string(frame.violations_total.total()) + " violations, first " +
          frame.violations.front().kind;
@@ -85,7 +80,7 @@ inline std::string exact_defect(const StepScene& scene, const CollisionStepResul
   if (result.report.status != StepStatus::kSafe) return "the step did not succeed";
   if (!result.x.allFinite() || !result.velocity.allFinite()) return "not finite";
   const verify::Surface surface{scene.triangles, scene.face_is_body};
-  const verify::CheckResult motion = check_motion(surface, to_points(scene.V_t0), to_points(result.x), {});
+  const verify::CheckResult motion = check_motion(surface, points_of(scene.V_t0), points_of(result.x), {});
   if (motion.violations_total.total() != 0) {
     return "motion: " + std::to_string(motion.violations_total.total()) + " violations, first " +
            motion.violations.front().kind;

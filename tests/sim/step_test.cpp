@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "sim/points.h"
 #include "sim/run_totals.h"
 #include "tests/sim/small_scene.h"
 #include "verify/check.h"
@@ -17,12 +18,6 @@ namespace {
 
 Scene small_scene(int frames, const std::string& extra = "", const std::string& collision = "") {
   return parse_scene(small_scene_text(frames, extra, collision), "small.toml");
-}
-
-std::vector<verify::Point> points_of(const Positions& x) {
-  std::vector<verify::Point> points;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
-  return points;
 }
 
 // Exactly: the frame, and the motion that led to it.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/points.h"
 #include "verify/check.h"
 
 namespace selvage {
@@ -13,14 +14,8 @@ using namespace sim;
 
 namespace {
 
-std::vector<verify::Point> to_points(const Positions& x) {
-  std::vector<verify::Point> points;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) points.push_back({x(i, 0), x(i, 1), x(i, 2)});
-  return points;
-}
-
 std::int64_t violations(const io::Triangles& triangles, const Positions& x) {
-  return verify::check_frame(verify::Surface{triangles, {}}, to_points(x), {}).violations_total.total();
+  return verify::check_frame(verify::Surface{triangles, {}}, points_of(x), {}).violations_total.total();
 }
 
 Mesh mesh_of(const Shape& shape) {

@@ -14,7 +14,7 @@ FindIntersections exact_judge(const StepScene& scene) {
     verify::CheckOptions options;
     options.max_violations = 1'000'000;
     std::vector<FacePair> pairs;
-    for (const verify::Violation& found : check_frame(surface, to_points(V), options).violations) {
+    for (const verify::Violation& found : check_frame(surface, points_of(V), options).violations) {
       const bool one_face = found.event == verify::EventKind::kSelf;
       pairs.push_back({one_face ? found.features[1] : found.features[0], found.features[1]});
     }

@@ -1,0 +1,12 @@
+// Positions as files and the exact checker take them.
+#pragma once
+
+#include "io/mesh_data.h"
+#include "kernel/types.h"
+
+namespace selvage::sim {
+
+/// The same bits, row by row.
+[[nodiscard]] io::Points points_of(const Positions& x);
+
+}  // namespace selvage::sim
