@@ -87,8 +87,8 @@ MotionQuery double_root(ChoiceSource& source, PairKind kind) {
   return to_query(kind, motion);
 }
 
-// With T = t - t*, e0, e1 the sides at the touch, w0, w1 their velocities and r = alpha e0 + beta e1 the relative
-// velocity
+// With T = t - t*, e0, e1 the sides at the touch, w0, w1 their velocities, and the relative velocity
+// r = alpha e0 + beta e1,
 //   f = T (n0 + T (w0 x e1 + e0 x w1) + T^2 w0 x w1) . r,   n0 = e0 x e1,
 // the quadratic term is -(alpha w0 + beta w1) . n0 T^2: zero for beta = 0 and w0 in the plane.
 MotionQuery triple_root(ChoiceSource& source, PairKind kind) {

@@ -50,9 +50,9 @@ template <class Real>
 inline constexpr double kFarShare = 0.125;
 
 /// PROVED when true: no touch while t goes from the instant of `begin` to the instant of `end`. Touching features have
-/// the origin in their polygon, so that the cross products corner x edge around it are all multiples of one vector by
-/// factors
-/// >= 0. Two that keep opposite signs along one axis exclude that. Follows rotations, where a fixed direction cannot.
+/// the origin in their polygon, so that the cross products corner x edge around it are all multiples, none negative, of
+/// one vector. Two that keep opposite signs along one axis exclude that. Follows rotations, where a fixed direction
+/// cannot.
 template <class Real>
 [[nodiscard]] bool winds_apart(const PairMotion<Real>& motion, const DifferencePolygon<Real>& begin,
                                const DifferencePolygon<Real>& end);

@@ -11,33 +11,38 @@ namespace {
 
 constexpr std::int64_t kMaxSide = 10'000;  // 10^8 vertices: more than memory holds
 
-SheetSpec read_sheet(TomlTable table) {
+/// What `read` makes of the table, which must then hold nothing else.
+template <class Read>
+auto read_whole(TomlTable& table, Read read) {
+  auto result = read(table);
+  table.finish();
+  return result;
+}
+
+SheetSpec read_sheet(TomlTable& table) {
   SheetSpec sheet;
   sheet.nx = static_cast<std::int32_t>(table.integer("nx", 2, kMaxSide));
   sheet.ny = static_cast<std::int32_t>(table.integer("ny", 2, kMaxSide));
   sheet.width_m = table.number("width_m", kPositive);
   sheet.height_m = table.number("height_m", kPositive);
-  table.finish();
   return sheet;
 }
 
-SphereSpec read_sphere(TomlTable table) {
+SphereSpec read_sphere(TomlTable& table) {
   SphereSpec sphere;
   sphere.radius_m = table.number("radius_m", kPositive);
   sphere.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, sphere.subdivisions));
-  table.finish();
   return sphere;
 }
 
-EllipsoidSpec read_ellipsoid(TomlTable table) {
+EllipsoidSpec read_ellipsoid(TomlTable& table) {
   EllipsoidSpec ellipsoid;
   ellipsoid.size_m = table.vector("size_m", kPositive);
   ellipsoid.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, ellipsoid.subdivisions));
-  table.finish();
   return ellipsoid;
 }
 
-CapsuleSpec read_capsule(TomlTable table) {
+CapsuleSpec read_capsule(TomlTable& table) {
   CapsuleSpec capsule;
   capsule.end_m = table.vector("end_m", kCoordinate);
   capsule.radius_m = table.number("radius_m", kPositive);
@@ -46,19 +51,17 @@ CapsuleSpec read_capsule(TomlTable table) {
   if (!(capsule.end_m.norm() > std::abs(capsule.radius_m - capsule.end_radius_m))) {
     table.fail("end_m", "one end of the capsule holds the other; move end_m out, or use a sphere");
   }
-  table.finish();
   return capsule;
 }
 
-BoxSpec read_box(TomlTable table) {
+BoxSpec read_box(TomlTable& table) {
   BoxSpec box;
   box.size_m = table.vector("size_m", kPositive);
   box.cells = static_cast<std::int32_t>(table.integer("cells", 1, 1000, box.cells));
-  table.finish();
   return box;
 }
 
-GarmentSpec::Sleeves read_sleeves(TomlTable table) {
+GarmentSpec::Sleeves read_sleeves(TomlTable& table) {
   GarmentSpec::Sleeves sleeves;
   sleeves.top_m = table.number("top_m", kCoordinate);
   sleeves.bottom_m = table.number("bottom_m", kCoordinate);
@@ -66,40 +69,41 @@ GarmentSpec::Sleeves read_sleeves(TomlTable table) {
   sleeves.length_m = table.number("length_m", kPositive);
   sleeves.cuff_radius_m = table.number("cuff_radius_m", kPositive);
   sleeves.down_deg = table.number("down_deg", {-90, 90}, 0);
-  table.finish();
   return sleeves;
 }
 
-GarmentSpec read_garment(TomlTable table) {
+GarmentSpec::Ring read_ring(TomlTable& table) {
+  GarmentSpec::Ring ring;
+  ring.height_m = table.number("height_m", kCoordinate);
+  ring.depth_m = table.number("depth_m", kPositive);
+  ring.width_m = table.number("width_m", kPositive);
+  return ring;
+}
+
+GarmentSpec read_garment(TomlTable& table) {
   GarmentSpec garment;
-  for (TomlTable& read : table.tables("ring")) {
-    GarmentSpec::Ring ring;
-    ring.height_m = read.number("height_m", kCoordinate);
-    ring.depth_m = read.number("depth_m", kPositive);
-    ring.width_m = read.number("width_m", kPositive);
-    read.finish();
+  for (TomlTable& entry : table.tables("ring")) {
+    const GarmentSpec::Ring ring = read_whole(entry, read_ring);
     if (!garment.rings.empty() && !(ring.height_m < garment.rings.back().height_m)) {
-      read.fail("height_m", "height_m must fall from ring to ring; list them from the top down");
+      entry.fail("height_m", "height_m must fall from ring to ring; list them from the top down");
     }
     garment.rings.push_back(ring);
   }
   if (garment.rings.size() < 2) table.fail("a garment needs two rings or more, from the top down");
-  if (std::optional<TomlTable> sleeves = table.table("sleeves")) garment.sleeves = read_sleeves(std::move(*sleeves));
+  if (std::optional<TomlTable> sleeves = table.table("sleeves")) garment.sleeves = read_whole(*sleeves, read_sleeves);
   double largest_m = garment.rings.front().height_m - garment.rings.back().height_m;
   for (const GarmentSpec::Ring& ring : garment.rings) {
     largest_m = std::max({largest_m, ring.depth_m, ring.width_m});
   }
   if (garment.sleeves) largest_m = std::max(largest_m, garment.sleeves->length_m);
   garment.cell_m = table.number("cell_m", {largest_m / double(kMaxSide), 1e300});
-  table.finish();
   return garment;
 }
 
-MeshSpec read_mesh_spec(TomlTable table) {
+MeshSpec read_mesh_spec(TomlTable& table) {
   MeshSpec mesh;
   mesh.file = table.text("file");
   mesh.scale = table.number("scale", kPositive, mesh.scale);
-  table.finish();
   return mesh;
 }
 
@@ -113,7 +117,7 @@ class SurfaceChoice {
     std::optional<TomlTable> table = owner_.table(key);
     if (!table) return;
     if (surface_) owner_.fail(key, fmt::format("{} is a second surface; keep one", key));
-    surface_ = read(std::move(*table));
+    surface_ = read_whole(*table, read);
   }
   [[nodiscard]] Surface chosen(std::string_view choices) const {
     if (!surface_) owner_.fail(fmt::format("no surface; add a table {}", choices));

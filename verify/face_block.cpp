@@ -12,11 +12,11 @@ namespace {
 /// How far direction . x, as computed, is to be beyond that of all corners of a face, so that x is beyond its plane.
 /// u: direction, w = 2^-24, n: the exact normal of the face in its frame (|x_k| <= 1 there), s: a corner.
 /// n . (x - s) differs from the difference of the computed u . x and u . s by at most
-/// (1) the roundings of two sums of three products, 3 w |u|_1 each, and the stored points, kStoredError |u|_1
-/// each: 7.01; (2) |n - u|_1 max |x - s| with max |x - s| <= 2: each component of u rounds once to single, 2.01 w |u|_1
-/// in all; before,
-///     with e, f the edges, it errs by 8.1 * 2^-53 |e|_max |f|_max (two roundings of the factors and one of the product
-///     in each of two products, one of their difference), 48.7 * 2^-53 in all;
+/// (1) the roundings of two sums of three products, 3 w |u|_1 each, and the stored points, kStoredError |u|_1 each:
+///     7.01;
+/// (2) |n - u|_1 max |x - s| with max |x - s| <= 2: each component of u rounds once to single, 2.01 w |u|_1 in all;
+///     before, with e, f the edges, it errs by 8.1 * 2^-53 |e|_max |f|_max (two roundings of the factors and one of
+///     the product in each of two products, one of their difference), 48.7 * 2^-53 in all;
 /// (3) the rounding of high or low: 1.01 w |u|_1.
 /// 10.1 w |u|_1 + 2^-47 |e|_max |f|_max; 11 leaves room for the roundings here. Underflow in (1) and (2) stays below
 /// 2^-140.

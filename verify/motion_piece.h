@@ -29,12 +29,12 @@ typename Piece<N>::Corners middle(const Piece<N>& piece) {
 }
 
 /// Error bounds of the Bernstein coefficients of c and f over any piece. With u = 2^-53 and M_k >= all |D_jk| of the
-/// whole step as computed, hence also of every piece: (1) D at the ends of the step carries one rounding, u M. A middle
-/// adds one, of a sum <= 2 M that is then halved: u M
+/// whole step as computed, hence also of every piece:
+/// (1) D at the ends of the step carries one rounding, u M. A middle adds one, of a sum <= 2 M that is then halved: u M
 ///     again (halving may underflow by 2^-1075: nothing against u M >= 2^-353). At depth <= 7: 8.01 u M.
-/// (2) c, axis x: a product D_iy D_jz is off by (2 * 8.01 + 1) u M_y M_z, a difference of two by 2 * 17.1 + 2 = 36.3,
-/// the
-///     middle coefficient (the mean of two differences) by 36.3 + 2 = 38.3 times u M_y M_z. The bound takes 64.
+/// (2) c, axis x: a product D_iy D_jz is off by (2 * 8.01 + 1) u M_y M_z, a difference of two by
+///     2 * 17.1 + 2 = 36.3, the middle coefficient (the mean of two differences) by 36.3 + 2 = 38.3 times u M_y M_z.
+///     The bound takes 64.
 /// (3) f: a term D_0k c_k, |c_k| <= 2 M_i M_j: 38.3 + 2 * 8.01 + 2 = 56.4 times u P, P = M_x M_y M_z. End coefficients,
 ///     sums of three terms <= 6 P: 3 * 56.4 + 10 = 180. Three times an inner coefficient, sums of three (a + 2 b):
 ///     3 * (3 * 56.4 + 6) + 30 = 556, that is 186 for the coefficient. The bound takes 256 (and 3 * 256).
