@@ -18,8 +18,7 @@ NearPair make_near_pair(PairKind kind, const std::array<VertexId, 4>& vertices, 
   PairVectors x;
   for (std::size_t k = 0; k < 4; ++k) x[k] = V.row(vertices[k]);
   const QuickProximity quick = quick_proximity(kind, x);
-  const double distance = quick.difference.norm();
-  return {vertices, quick.weights, quick.difference / distance, distance, contacts.of(kind, vertices).thickness_m};
+  return {vertices, quick.weights, quick.direction, quick.distance, contacts.of(kind, vertices).thickness_m};
 }
 
 bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_t1) {

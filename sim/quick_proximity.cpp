@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/power_of_two.h"
+
 namespace selvage::sim {
 namespace {
 
@@ -41,21 +43,36 @@ std::array<double, 3> nearest_on_triangle(const std::array<Vec3, 3>& corner) {
   return weights;
 }
 
-}  // namespace
+/// Weights of the nearest points of a vertex at the origin and a face.
+std::array<double, 4> vf_weights(const std::array<Vec3, 3>& face) {
+  const auto w = nearest_on_triangle(face);
+  return {1, -w[0], -w[1], -w[2]};
+}
 
-QuickProximity quick_proximity(PairKind kind, const PairVectors& x) {
-  if (kind == PairKind::kVf) {
-    const auto w = nearest_on_triangle({x[1] - x[0], x[2] - x[0], x[3] - x[0]});
-    return {x[0] - (w[0] * x[1] + w[1] * x[2] + w[2] * x[3]), {1, -w[0], -w[1], -w[2]}};
-  }
-  // The unbounded lines' nearest points, the first share bounded; then each the other's nearest in turn (Ericson).
-  const Vec3 u = x[1] - x[0], v = x[3] - x[2], r = x[0] - x[2];
-  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), ur = u.dot(r), vr = v.dot(r);
+/// Of an edge from the origin to b and one from c to d: the unbounded lines' nearest points, the first share bounded;
+/// then each the other's nearest in turn (Ericson).
+std::array<double, 4> ee_weights(const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 v = d - c;
+  const double uu = b.squaredNorm(), uv = b.dot(v), vv = v.squaredNorm(), ur = -b.dot(c), vr = -v.dot(c);
   const double sine_squared = uu * vv - uv * uv;
   double s = sine_squared > 0 ? std::clamp((uv * vr - ur * vv) / sine_squared, 0.0, 1.0) : 0;
   const double t = std::clamp((uv * s + vr) / vv, 0.0, 1.0);
   s = std::clamp((uv * t - ur) / uu, 0.0, 1.0);
-  return {r + s * u - t * v, {1 - s, s, t - 1, -t}};
+  return {1 - s, s, t - 1, -t};
+}
+
+}  // namespace
+
+QuickProximity quick_proximity(PairKind kind, const PairVectors& x) {
+  std::array<Vec3, 3> y{x[1] - x[0], x[2] - x[0], x[3] - x[0]};
+  double largest = 0;
+  for (const Vec3& v : y) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  const double scale = power_of_two_above(largest);  // products of four lengths neither overflow nor vanish
+  for (Vec3& v : y) v /= scale;
+  const auto weights = kind == PairKind::kVf ? vf_weights(y) : ee_weights(y[0], y[1], y[2]);
+  const Vec3 difference = weights[1] * y[0] + weights[2] * y[1] + weights[3] * y[2];
+  const double distance = difference.norm();
+  return {distance * scale, difference / distance, weights};
 }
 
 }  // namespace selvage::sim

@@ -7,13 +7,14 @@
 namespace selvage::sim {
 
 struct QuickProximity {
-  Vec3 difference;                ///< the first feature's nearest point minus the second's
-  std::array<double, 4> weights;  ///< signed, as in Interaction: `difference` is the sum of weights[i] x[i]
+  double distance;
+  Vec3 direction;                 ///< unit, from the second feature's nearest point to the first's
+  std::array<double, 4> weights;  ///< signed, as in Interaction: the sum of weights[i] x[i] is distance direction
 };
 
 /// `x` in the order of pair_vertices(), kind kVf or kEe. Distances are right to rounding relative to the coordinates,
-/// but for features of no size (NaN) and nearly parallel edges, where any of the nearest points is one. A twentieth of
-/// the query's cost.
+/// but for features of no size (NaN) and nearly parallel edges, where any of the nearest points is one. Lengths times a
+/// power of two give the same bits, scaled. A twentieth of the query's cost.
 [[nodiscard]] QuickProximity quick_proximity(PairKind kind, const PairVectors& x);
 
 }  // namespace selvage::sim

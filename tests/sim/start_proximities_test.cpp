@@ -72,10 +72,16 @@ TEST(QuickProximity, PropIsAsNearAsTheKernelsAnswer) {
       if (u.cross(v).norm() < 1e-6 || (is_vf && u == v)) continue;  // no area, or parallel
       const Proximity exact = is_vf ? vf_proximity(x) : ee_proximity(x);
       const QuickProximity quick = quick_proximity(kind, x);
-      RC_ASSERT(std::abs(quick.difference.norm() - exact.distance) <= 1e-9);
+      RC_ASSERT(std::abs(quick.distance - exact.distance) <= 1e-9);
       Vec3 sum = Vec3::Zero();
       for (std::size_t k = 0; k < 4; ++k) sum += quick.weights[k] * x[k];
-      RC_ASSERT((sum - quick.difference).norm() <= 1e-12);
+      if (exact.distance > 1e-9) RC_ASSERT((sum - quick.distance * quick.direction).norm() <= 1e-12);
+      const double scale = std::ldexp(1.0, *rc::gen::element(-900, -300, 300, 900));
+      for (Vec3& point : x) point *= scale;
+      const QuickProximity scaled = quick_proximity(kind, x);
+      for (Vec3& point : x) point /= scale;
+      RC_ASSERT(scaled.distance == scale * quick.distance);
+      RC_ASSERT(scaled.weights == quick.weights);
     }
   });
 }
