@@ -23,7 +23,8 @@
 namespace selvage::sim {
 namespace {
 
-/// Contacts are looked for where the candidate goes, and again where these sweeps of its repulsions lead.
+/// Contacts are looked for where the candidate goes, and again where so many sweeps of its repulsions lead. Ten before
+/// and ten behind took 1.7 times the time of two and eight, and the same steps (curtain at full quality, frame 100).
 constexpr int kFirstSweeps = 2;
 
 /// One pass through section 7 with a given set of waiting bodies.

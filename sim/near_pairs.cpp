@@ -10,7 +10,8 @@
 namespace selvage::sim {
 namespace {
 
-/// Distances of pairs are compared with this much room for the rounding of quick_proximity.
+/// Room for the rounding of quick_proximity where distances are compared. Too much costs queries, too little an answer:
+/// far above 2^-52, far below what tells two pairs apart.
 constexpr double kRounding = 1 + 1e-6;
 
 NearPair make_near_pair(PairKind kind, const std::array<VertexId, 4>& vertices, const ContactTable& contacts,

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::int32_t kFewestGoodSteps = 3;   // section 5: "three successful time steps in a row"
 constexpr std::int32_t kMostGoodSteps = 3072;  // 10 failures in a row: no more than a try in 3,000 steps is lost
-constexpr std::int32_t kTrial = 4;             // steps for which a doubled step must last
-constexpr std::int32_t kLevelLimit = 20;       // 2^-20 of a frame is below a millionth
+constexpr std::int32_t kTrial = 4;  // steps that a doubled step must last: what kicks cloth at rest fails in one or two
+constexpr std::int32_t kLevelLimit = 20;  // 2^-20 of a frame is below a millionth
 
 // A step given in decimals, like 0.0166667, must count as the half of 1/30 s that was meant.
 constexpr double kSlack = 1 + 1e-3;

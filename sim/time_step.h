@@ -24,6 +24,7 @@ class StepClock {
     std::int32_t good_steps = 0;
     std::int32_t good_steps_asked = 0;  ///< in a row, for the next doubling
     std::int32_t on_trial = 0;          ///< steps that must still follow the last doubling to prove it right
+    friend bool operator==(const State&, const State&) = default;
   };
   [[nodiscard]] const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "io/sequence.h"
+#include "sim/checkpoint.h"
 #include "tests/sim/small_scene.h"
 
 namespace selvage {
@@ -55,6 +56,16 @@ TEST(RunTotals, AreAllOfThemInRunJsonAndInCheckpoints) {
   std::size_t bytes = 0;
   for_each_total(totals, [&](const char*, const auto& field) { bytes += sizeof field; });
   EXPECT_EQ(bytes, sizeof totals) << "a field that is not visited is lost when a run is resumed";
+}
+
+TEST_F(RecorderTest, KeepsTheWholeClockInCheckpoints) {
+  Checkpoint written;
+  written.state.clock = {.frame = 1, .tick = 2, .level = 3, .good_steps = 4, .good_steps_asked = 5, .on_trial = 6};
+  const std::filesystem::path file = folder_.path() / "checkpoint.bin";
+  write_checkpoint(file, written);
+  const auto read = read_checkpoint(file);
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(read->state.clock, written.state.clock);
 }
 
 TEST_F(RecorderTest, WritesTheBitsThatWereSimulated) {
