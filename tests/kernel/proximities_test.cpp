@@ -1,6 +1,7 @@
 #include "kernel/proximities.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,45 @@ TEST(FindProximities, PropFindsEveryPairNearerThanReach) {
       RC_ASSERT(is_left);
     }
   });
+}
+
+/// More candidates than one task takes: nothing is lost or doubled where one ends and the next begins.
+TEST(FindProximities, AnswersEveryCandidateOfManyTasks) {
+  constexpr std::int32_t kSide = 24;
+  Positions V(2 * kSide * kSide, 3);
+  Faces F(4 * (kSide - 1) * (kSide - 1), 3);
+  std::int32_t face = 0;
+  for (std::int32_t layer = 0; layer < 2; ++layer) {
+    const auto vertex = [layer](std::int32_t i, std::int32_t j) { return (layer * kSide + i) * kSide + j; };
+    for (std::int32_t i = 0; i < kSide; ++i) {
+      for (std::int32_t j = 0; j < kSide; ++j) {
+        V.row(vertex(i, j)) << i + 0.3 * layer, j + 0.2 * layer, 0.5 * layer + 0.01 * ((7 * i + 3 * j) % 5);
+        if (i + 1 == kSide || j + 1 == kSide) continue;
+        F.row(face++) << vertex(i, j), vertex(i + 1, j), vertex(i, j + 1);
+        F.row(face++) << vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1);
+      }
+    }
+  }
+  const Mesh mesh = make_mesh(2 * kSide * kSide, F);
+  BoxHierarchy hierarchy(mesh);
+  constexpr double kReach = 1;
+  hierarchy.refit(V, V, {kReach, {}});
+  const Candidates all = hierarchy.candidates();
+  ASSERT_GT(all.vf.size(), 2 * 4096U);
+  ASSERT_GT(all.ee.size(), 2 * 4096U);
+  using Name = std::tuple<PairKind, std::int32_t, std::int32_t>;
+  std::vector<Name> expected, found;
+  const auto expect = [&](PairKind kind, std::int32_t first, std::int32_t second, auto query) {
+    const auto x = points(V, pair_vertices(mesh, kind, first, second));
+    if (query(x).distance_lower < kReach) expected.emplace_back(kind, first, second);
+  };
+  for (const auto& [v, f] : all.vf) expect(PairKind::kVf, v, f, vf_proximity);
+  for (const auto& [a, b] : all.ee) expect(PairKind::kEe, a, b, ee_proximity);
+  for (const PairProximity& pair : find_proximities(mesh, hierarchy, V, kReach)) {
+    found.emplace_back(pair.kind, pair.first, pair.second);
+  }
+  ASSERT_GT(expected.size(), 2 * 4096U);
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace selvage
