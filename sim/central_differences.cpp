@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/assert.h"
+#include "sim/held_contacts.h"
 #include "sim/parallel.h"
 #include "sim/velocity_march.h"
 
@@ -73,9 +74,9 @@ void CentralDifferences::march(const VelocitySystem& system, double time_s) {
 }
 
 DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& scripted_x_t1,
-                                           std::span<const double> inverse_mass, double dt_s) {
-  const int step_count = static_cast<int>(std::ceil(dt_s / options_.step_s));
-  const double h = dt_s / step_count;
+                                           std::span<const double> inverse_mass, double dt_s, HeldContacts* contacts) {
+  const int count = step_count(dt_s);
+  const double h = dt_s / count;
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) {
       motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
@@ -86,13 +87,14 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   v_.copy(motion.v);
   springs_.look(x_, {h / 2, 0}, force_);
   springs_.multiply(x_, v_, impulses_);
-  for (int step = 0; step < step_count; ++step) {
+  for (int step = 0; step < count; ++step) {
     explicit_half_kick(inverse_mass, h);
     const LimitedMotion limited{x_, h, v_, x_t1_};
     strain_.limit_strain(inverse_mass, limited);
     strain_.limit_strain_rate(inverse_mass, limited);
+    if (contacts != nullptr) contacts->hold({h, double(step + 1) / count, x_t1_, v_});
     std::swap(x_, x_t1_);
-    if (step + 1 == step_count) last_midstep_v_ = v_;
+    if (step + 1 == count) last_midstep_v_ = v_;
     springs_.look(x_, {h / 2, 0}, force_);
     implicit_half_kick(inverse_mass, h);
   }

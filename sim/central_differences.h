@@ -1,6 +1,7 @@
 // The paper's dynamics: springs, gravity and drag by central differencing, with limits on strain (sections 3 to 5).
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "sim/dynamics.h"
@@ -30,7 +31,8 @@ class CentralDifferences : public Dynamics {
 
   /// As many equal internal steps as options.step_s asks for.
   DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
-                         double dt_s) override;
+                         double dt_s, HeldContacts* contacts = nullptr) override;
+  [[nodiscard]] bool holds_contacts(double dt_s) const override { return step_count(dt_s) > 1; }
 
   /// v(n+1) of the line above. After an advance() in several internal steps the collision step has changed an average
   /// velocity; the cloth's own at the end of the step is another, which the average must not take the place of: where
@@ -45,6 +47,7 @@ class CentralDifferences : public Dynamics {
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
+  [[nodiscard]] int step_count(double dt_s) const { return static_cast<int>(std::ceil(dt_s / options_.step_s)); }
   /// Half a step of all forces but springs' elongation within it, from v at x; the limits; and x at the end of the
   /// step.
   void explicit_half_kick(std::span<const double> inverse_mass, double h);

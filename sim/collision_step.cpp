@@ -27,12 +27,22 @@ namespace {
 /// and ten behind took 1.7 times the time of two and eight, and the same steps (curtain at full quality, frame 100).
 constexpr int kFirstSweeps = 2;
 
+std::vector<RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table,
+                                            const Positions& V_t0, std::span<const double> inverse_mass) {
+  std::vector<RepulsionContact> contacts;
+  for (const PairProximity& pair : pairs) {
+    const auto contact = make_contact(pair, table.of(pair.kind, pair.vertices), V_t0, inverse_mass);
+    if (contact) contacts.push_back(*contact);
+  }
+  return contacts;
+}
+
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
  public:
   Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const ContactTable& contacts,
           StartProximities& proximities, const CollisionBodies& bodies, std::vector<std::uint8_t> surface,
-          ScriptedGroups& groups, double dt_s, const Patience& patience)
+          ScriptedGroups& groups, double dt_s, const Patience& patience, std::span<const RepulsionContact> held)
       : mesh_(mesh),
         hierarchy_(hierarchy),
         options_(options),
@@ -42,6 +52,7 @@ class Attempt {
         groups_(groups),
         dt_s_(dt_s),
         patience_(patience),
+        held_(held),
         surface_(std::move(surface)),
         tracker_(mesh, hierarchy, contacts, options.max_intervals, surface_),
         update_(mesh.vertex_count) {}
@@ -49,6 +60,7 @@ class Attempt {
   /// A conflict where the fail-safe ends in one.
   std::optional<StepLimiter::Conflict> run(const PositionsRef& V_t0, const PositionsRef& V_candidate) {
     report_ = {};
+    met_.clear();
     motion_.start(V_t0, groups_.targets(V_t0, V_candidate), options_.precision);
     groups_.observe(motion_);
     report_.cut_candidates = limit_travel(groups_, motion_);
@@ -58,6 +70,7 @@ class Attempt {
       tracker_.start(motion_);
     }
     report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
+    if (options_.repulsion) meet_collisions();
     is_abandoned_ = report_.first_collisions > patience_.collisions;
     if (is_abandoned_) return std::nullopt;
     const PhaseTimer timer(report_.phases.response);
@@ -73,9 +86,11 @@ class Attempt {
   [[nodiscard]] const StepMotion& motion() const { return motion_; }
   [[nodiscard]] CollisionStepReport& report() { return report_; }
   [[nodiscard]] const CollisionTracker& tracker() const { return tracker_; }
+  [[nodiscard]] std::vector<RepulsionContact>& met() { return met_; }
 
  private:
   void repel();
+  void meet_collisions();
   void apply_impulses();
   void move_impact_zones();
   std::optional<StepLimiter::Conflict> hold_back();
@@ -90,7 +105,9 @@ class Attempt {
   ScriptedGroups& groups_;
   const double dt_s_;
   const Patience patience_;
+  const std::span<const RepulsionContact> held_;
   bool is_abandoned_ = false;
+  std::vector<RepulsionContact> met_;  ///< beside held_
   const std::vector<std::uint8_t> surface_;
   StepMotion motion_;
   CollisionTracker tracker_;
@@ -104,26 +121,35 @@ void Attempt::repel() {
   {
     const PhaseTimer timer(report_.phases.proximity);
     proximities_.start(hierarchy_, motion_.V_t0(), surface_);
+    proximities_.leave_out(held_);
   }
   Contacts contacts;
+  for (const RepulsionContact& held : held_) contacts.add(held);
   for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
-    std::vector<PairProximity> near;
+    std::vector<RepulsionContact> found;
     {
       const PhaseTimer timer(report_.phases.proximity);
-      near = proximities_.find(motion_.x());
+      found = make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass);
     }
     const PhaseTimer timer(report_.phases.repulsion);
-    for (const PairProximity& pair : near) {
-      const ContactProperties properties = contacts_.of(pair.kind, pair.vertices);
-      if (const auto contact = make_contact(pair, properties, motion_.V_t0(), bodies_.inverse_mass)) {
-        contacts.add(*contact);
-      }
-    }
+    for (const RepulsionContact& contact : found) contacts.add(contact);
     contacts.repel(options_, dt_s_, sweeps, motion_);
   }
+  met_ = contacts.pressed(held_.size());
   report_.proximities = proximities_.count();
   report_.repulsions = contacts.count().repulsions;
   report_.frictions = contacts.count().frictions;
+}
+
+/// What repulsions leave, as contacts: dynamics that know of them do better than impulses at the end of the step.
+void Attempt::meet_collisions() {
+  for (const Collision& collision : tracker_.collisions()) {
+    if (collision.kind == PairKind::kSelf) continue;
+    const std::array<VertexId, 4> pair = tracker_.vertices(collision);
+    const auto contact =
+        make_contact(collision, pair, contacts_.of(collision.kind, pair), motion_.V_t0(), bodies_.inverse_mass);
+    if (contact) met_.push_back(*contact);
+  }
 }
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
@@ -239,7 +265,8 @@ CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
 
 CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
-                                              const CollisionBodies& bodies, double dt_s, const Patience& patience) {
+                                              const CollisionBodies& bodies, double dt_s, const Patience& patience,
+                                              std::span<const RepulsionContact> held) {
   const FpEnvGuard guard;
   CollisionStepResult result;
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
@@ -248,7 +275,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
 
   ScriptedGroups groups(bodies);
   Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, bodies,
-                  impl_->parts.cloth_flags(bodies), groups, dt_s, patience);
+                  impl_->parts.cloth_flags(bodies), groups, dt_s, patience, held);
   std::vector<std::int32_t> waiting;
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
@@ -261,6 +288,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   }
 
   result.report = std::move(attempt.report());
+  result.met = std::move(attempt.met());
   std::ranges::sort(waiting);
   result.report.waiting_bodies = std::move(waiting);
   if (conflict || attempt.is_abandoned()) {
@@ -278,6 +306,16 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   result.x = attempt.motion().x();
   result.velocity = average_velocity(attempt.motion().displacement(), dt_s);
   return result;
+}
+
+std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
+                                                           const CollisionBodies& bodies) {
+  const FpEnvGuard guard;
+  Impl& impl = *impl_;
+  if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
+  if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
+  impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
+  return make_contacts(impl.proximities.find(V_candidate), impl.contacts, V_t0, bodies.inverse_mass);
 }
 
 }  // namespace selvage::sim

@@ -13,6 +13,7 @@
 #include "kernel/kernel.h"
 #include "sim/contact_properties.h"
 #include "sim/phase_times.h"
+#include "sim/repulsion_contact.h"
 
 namespace selvage::sim {
 
@@ -94,6 +95,9 @@ struct CollisionStepResult {
   /// #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x; at most the largest
   /// finite double.
   Positions velocity;
+  /// Contacts beside `held` that pressed, and collisions that repulsions left, as contacts: dynamics that hold contacts
+  /// should know of them in another try from the same V_t0. None without repulsion.
+  std::vector<RepulsionContact> met;
   CollisionStepReport report;
 };
 
@@ -117,7 +121,15 @@ class CollisionStep {
   /// + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,
-                                               const Patience& patience = {});
+                                               const Patience& patience = {},
+                                               std::span<const RepulsionContact> held = {});
+
+  /// For dynamics that hold contacts (held_contacts.h): those that a motion from V_t0 to V_candidate would press, to be
+  /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left.
+  /// REQUIRES valid arguments, as above; with an invalid one there is none. O(n log n) as a step; a step from the same
+  /// V_t0 need not look for near pairs again.
+  [[nodiscard]] std::vector<RepulsionContact> find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
+                                                            const CollisionBodies& bodies);
 
  private:
   struct Impl;

@@ -8,9 +8,13 @@
 
 namespace selvage::sim {
 
-/// Structural and shear springs that end beyond 1.5 strain limits and are strained by more than at the start, by a
-/// fifth of the limit or more. 0 without a limit. O(springs), in parallel.
+struct StrainedMotion {
+  PositionsRef x_t0, candidate, x_t1;  ///< at the start, after the dynamics, after the collision step
+};
+
+/// Structural and shear springs that are strained by more than before, by a fifth of the limit or more: beyond 1.5
+/// limits by the collision step alone, or beyond 3 by the whole step. 0 without a limit. O(springs), in parallel.
 [[nodiscard]] std::int64_t springs_overstrained(const SpringSystem& springs, double strain_limit,
-                                                const PositionsRef& x_t0, const PositionsRef& x_t1);
+                                                const StrainedMotion& motion);
 
 }  // namespace selvage::sim

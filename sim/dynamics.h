@@ -7,6 +7,8 @@
 
 namespace selvage::sim {
 
+class HeldContacts;
+
 /// Positions and velocities of the cloth's vertices, rows [0, cloth vertex count).
 struct Motion {
   Positions x;  ///< m
@@ -26,10 +28,14 @@ class Dynamics {
  public:
   virtual ~Dynamics() = default;
 
-  /// Advances `motion` by dt_s without any contact. Vertices with inverse mass 0 move on a straight line to their row
-  /// of `scripted_x_t1`, whose other rows are not read.
+  /// Advances `motion` by dt_s without any contact but `contacts`, if there are any. Vertices with inverse mass 0 move
+  /// on a straight line to their row of `scripted_x_t1`, whose other rows are not read.
   virtual DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1,
-                                 std::span<const double> inverse_mass, double dt_s) = 0;
+                                 std::span<const double> inverse_mass, double dt_s,
+                                 HeldContacts* contacts = nullptr) = 0;
+  /// Whether contacts act in advance(): where the step is made of several. A step that is one leaves them to the
+  /// repulsions, which are the same then.
+  [[nodiscard]] virtual bool holds_contacts(double dt_s) const = 0;
 
   /// Section 7.6: the velocity at the end of a step with contacts, from the positions there and the midstep velocity
   /// that the collision step left in motion.v. Rows with inverse mass 0 are kept.

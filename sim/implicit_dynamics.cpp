@@ -42,7 +42,8 @@ ImplicitDynamics::ImplicitDynamics(const SpringSystem& springs, const ImplicitDy
 }
 
 DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scripted_x_t1,
-                                         std::span<const double> inverse_mass, double dt_s) {
+                                         std::span<const double> inverse_mass, double dt_s,
+                                         HeldContacts* /*contacts*/) {
   const int step_count = static_cast<int>(std::ceil(dt_s / options_.step_s));
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) {

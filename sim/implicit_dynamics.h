@@ -31,7 +31,9 @@ class ImplicitDynamics : public Dynamics {
   /// and it keeps stiff ones that contact has stretched from coming back (the demo with 25 x 25 vertices, springs of
   /// 6,000 N/m and steps of 1/240 s held at most 5 J of elastic energy without it, and 1,100 J after 0.9 s with it).
   DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
-                         double dt_s) override;
+                         double dt_s, HeldContacts* contacts = nullptr) override;
+  /// Its steps are as long as collision steps.
+  [[nodiscard]] bool holds_contacts(double) const override { return false; }
 
   /// As CentralDifferences does it, with the springs where the velocity carries them in half a step: contact leaves
   /// stiff springs stretched, and a velocity that only keeps what contact changed in it gains energy from them.

@@ -99,6 +99,18 @@ std::vector<std::size_t> NearPairs::with_nearer(const std::vector<std::size_t>& 
   return result;
 }
 
+std::optional<std::size_t> NearPairs::place(PairKind kind, std::int32_t first, std::int32_t second) const {
+  const auto place_in = [](const auto& sorted, const auto& pair) -> std::optional<std::size_t> {
+    const auto at = std::ranges::lower_bound(sorted, pair);
+    if (at == sorted.end() || *at != pair) return std::nullopt;
+    return static_cast<std::size_t>(at - sorted.begin());
+  };
+  if (kind == PairKind::kVf) return place_in(candidates_.vf, VfCandidate{first, second});
+  const auto ee = place_in(candidates_.ee, EeCandidate{first, second});
+  if (!ee) return std::nullopt;
+  return candidates_.vf.size() + *ee;
+}
+
 Candidates NearPairs::candidates(const std::vector<std::size_t>& pairs) const {
   Candidates result;
   for (const std::size_t i : pairs) {

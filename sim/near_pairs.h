@@ -2,6 +2,7 @@
 // query of the kernel. In a heap of folded cloth most near pairs rest, and do not matter.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kernel/candidates.h"
@@ -31,6 +32,8 @@ class NearPairs {
   /// with to know whether its distance is a local minimum. Ascending, as `pairs`.
   [[nodiscard]] std::vector<std::size_t> with_nearer(const std::vector<std::size_t>& pairs) const;
 
+  /// Nothing if it is none of them. O(log #pairs).
+  [[nodiscard]] std::optional<std::size_t> place(PairKind kind, std::int32_t first, std::int32_t second) const;
   [[nodiscard]] Candidates candidates(const std::vector<std::size_t>& pairs) const;
 
  private:

@@ -18,19 +18,6 @@ Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg,
   return result;
 }
 
-std::optional<RepulsionContact> make_contact(const PairProximity& pair, const ContactProperties& properties,
-                                             const Positions& V_t0, std::span<const double> inverse_mass) {
-  RepulsionContact contact;
-  contact.interaction = make_interaction(pair.kind, pair.vertices, pair.proximity.weights, inverse_mass);
-  contact.properties = properties;
-  contact.x_t0 = gather(contact.interaction, V_t0);
-  contact.normal = pair.proximity.normal;
-  contact.distance = pair.proximity.distance;
-  contact.mobility = effective_mobility(contact.interaction);
-  if (!(contact.mobility > 0) || contact.normal.isZero(0)) return std::nullopt;
-  return contact;
-}
-
 RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
                               const CollisionOptions& options, double dt_s, int sweep, FrictionLoad& load) {
   RepulsionChange result;
@@ -81,6 +68,14 @@ void Contacts::repel(const CollisionOptions& options, double dt_s, int sweeps, S
     }
     if (settled) break;
   }
+}
+
+std::vector<RepulsionContact> Contacts::pressed(std::size_t left_out) const {
+  std::vector<RepulsionContact> result;
+  for (std::size_t k = left_out; k < loads_.size(); ++k) {
+    if (loads_[k].pressed > 0) result.push_back(contacts_[k]);
+  }
+  return result;
 }
 
 }  // namespace selvage::sim

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/collision_step.h"
 #include "sim/friction.h"
-#include "sim/interaction.h"
+#include "sim/repulsion_contact.h"
 #include "sim/step_motion.h"
 
 namespace selvage::sim {
@@ -41,26 +40,11 @@ struct Repulsion {
 [[nodiscard]] Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg,
                                   const CollisionOptions& options, double dt_s);
 
-/// A proximity as it repels: what does not change between rounds.
-struct RepulsionContact {
-  Interaction interaction;
-  ContactProperties properties;
-  PairVectors x_t0 = zero_vectors();
-  Vec3 normal = Vec3::Zero();
-  double distance = 0;
-  double mobility = 0;  ///< effective_mobility(interaction) > 0
-};
-
-/// Nothing where no vertex that matters can move, or where the points coincide.
-[[nodiscard]] std::optional<RepulsionContact> make_contact(const PairProximity& pair,
-                                                           const ContactProperties& properties, const Positions& V_t0,
-                                                           std::span<const double> inverse_mass);
-
-/// Sweeps over the contacts of a step. Contacts act one after the other (paper, 7.2:
-/// "either sequentially or all at once"), so each sees what the others before it did, and none has to be damped by its
-/// number of neighbours. Measured on sim/scenes/demo.toml, pairs that collide although repulsions acted on them, in 85
-/// frames: 1750 after 1 sweep, 1060 after 3, 58 after 10, 43 after 30; after 10 rounds all at once, each contact with
-/// its share of 1 / number of contacts at a vertex, 9400.
+/// Sweeps over the contacts of a step. Contacts act one after the other (paper, 7.2: "either sequentially or all at
+/// once"), so each sees what the others before it did, and none has to be damped by its number of neighbours. Measured
+/// on sim/scenes/demo.toml, pairs that collide although repulsions acted on them, in 85 frames: 1750 after 1 sweep,
+/// 1060 after 3, 58 after 10, 43 after 30; after 10 rounds all at once, each contact with its share of 1 / number of
+/// contacts at a vertex, 9400.
 inline constexpr int kRepulsionSweeps = 10;
 /// After the first sweep an approach or a slip below this share of the distance waits for the next step.
 inline constexpr double kSettledApproach = 1e-6;
@@ -78,10 +62,7 @@ struct RepulsionChange {
                                             const CollisionOptions& options, double dt_s, int sweep,
                                             FrictionLoad& load);
 
-struct RepulsionCount {
-  std::int64_t repulsions = 0, frictions = 0;  ///< contacts that repelled, and rubbed, in their first sweep
-};
-/// The contacts of a step.
+/// The contacts of a step; counts those that repelled, and rubbed, in their first sweep.
 class Contacts {
  public:
   void add(const RepulsionContact& contact) { contacts_.push_back(contact); }
@@ -91,6 +72,8 @@ class Contacts {
   void repel(const CollisionOptions& options, double dt_s, int sweeps, StepMotion& motion);
 
   [[nodiscard]] const RepulsionCount& count() const { return count_; }
+  /// Those that have pressed, but for the first `left_out` that were added.
+  [[nodiscard]] std::vector<RepulsionContact> pressed(std::size_t left_out) const;
 
  private:
   std::vector<RepulsionContact> contacts_;

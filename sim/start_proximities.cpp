@@ -32,6 +32,14 @@ void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, con
   near_.find(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
 }
 
+void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
+  for (const RepulsionContact& held : contacts) {
+    if (const auto place = near_.place(held.kind, held.first, held.second)) known_.push_back(*place);
+  }
+  std::ranges::sort(known_);
+  known_.erase(std::ranges::unique(known_).begin(), known_.end());
+}
+
 std::vector<PairProximity> StartProximities::find(const Positions& V_t1) {
   std::vector<std::size_t> found;
   std::ranges::set_difference(near_.approaching(V_t0_, V_t1), known_, std::back_inserter(found));

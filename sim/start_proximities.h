@@ -5,6 +5,7 @@
 
 #include "kernel/proximities.h"
 #include "sim/near_pairs.h"
+#include "sim/repulsion_contact.h"
 
 namespace selvage::sim {
 
@@ -20,6 +21,9 @@ class StartProximities {
   /// The pairs that repel in a motion from V_t0 to V_t1 and were not among the answers since start(): nearer than
   /// kContactReach times their thickness at V_t0, approaching (near_pairs.h), and local (local_proximities.h).
   [[nodiscard]] std::vector<PairProximity> find(const Positions& V_t1);
+
+  /// Of the pairs of these no answer tells until the next start().
+  void leave_out(std::span<const RepulsionContact> contacts);
 
   /// Queries of the kernel since start().
   [[nodiscard]] std::int64_t count() const { return count_; }

@@ -19,8 +19,9 @@ struct SimulationState {
 };
 
 struct StepResult {
-  CollisionStepReport report;  ///< of the step that was taken, or that could not be
-  DynamicsReport dynamics;     ///< of the step that was taken
+  /// Of the step that was taken, or that could not be. Its contacts are those that the dynamics held, too.
+  CollisionStepReport report;
+  DynamicsReport dynamics;  ///< of the step that was taken
   double dt_s = 0;
   /// Tries thrown away because repulsions were not enough, or the equations of implicit dynamics were not solved.
   std::int32_t halvings = 0;
@@ -44,10 +45,22 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
-  Positions candidate_positions(double dt_s, Motion& end, DynamicsReport& report);
+  struct Try {
+    bool failed = false;  ///< to be tried with half the step
+    Motion end;           ///< of the dynamics
+    RepulsionCount held;  ///< in the dynamics
+    CollisionStepResult safe;
+  };
+  Try try_step(StepResult& result);
+  Positions scripted_positions();
+  [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
+  DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
+  [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze}; }
+  /// That a step bears in all tries, and that count as none.
+  [[nodiscard]] std::int64_t few_collisions() const;
   /// Whether contact presses more springs than are borne.
-  [[nodiscard]] bool overstrains(const CollisionStepResult& safe) const;
-  void commit(const CollisionStepResult& safe, Motion end, double dt_s);
+  [[nodiscard]] bool overstrains(const Try& tried, const Positions& candidate) const;
+  void commit(const CollisionStepResult& safe, Motion end);
 
   Scene scene_;
   World world_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <set>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <oneapi/tbb/global_control.h>
@@ -86,6 +88,60 @@ TEST(CollisionStep, TwoSheetsThrownAtEachOtherStayApart) {
     EXPECT_LE(result.velocity.squaredNorm(), v_before.squaredNorm());
     EXPECT_EQ(result.report.first_collisions > 0, speed_m_s >= 1);
   }
+}
+
+TEST(CollisionStep, HeldContactsActAndAreNotMetAgain) {
+  using Name = std::tuple<PairKind, std::int32_t, std::int32_t>;
+  const auto names = [](const std::vector<RepulsionContact>& contacts) {
+    std::set<Name> result;
+    for (const RepulsionContact& contact : contacts) result.insert({contact.kind, contact.first, contact.second});
+    return result;
+  };
+  StepScene scene;
+  scene.options.thickness_m = 2e-3;
+  scene.add(sheet(8), Vec3(0, 0, 0));
+  const auto upper = scene.add(sheet(8), Vec3(0.0031, 0.0017, 2.5e-3));
+  scene.push(upper, Vec3(0, 0, -1.5e-3));
+  const Mesh mesh = scene.mesh();
+  CollisionStep step(mesh, scene.options);
+  const std::vector<RepulsionContact> held = step.find_contacts(scene.V_t0, scene.V_candidate, scene.bodies());
+  EXPECT_GT(held.size(), 20U);
+  const CollisionStepResult without = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s);
+  const CollisionStepResult with = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, {}, held);
+  EXPECT_GT(without.met.size(), 20U);
+  for (const Name& name : names(without.met)) EXPECT_TRUE(names(held).contains(name));
+  for (const Name& name : names(with.met)) EXPECT_FALSE(names(held).contains(name));
+  EXPECT_EQ(exact_defect(scene, with), "");
+  EXPECT_LT(lowest(scene.V_candidate, upper), 1.1e-3);
+  EXPECT_GT(lowest(with.x, upper), 1.3e-3) << "the contacts have acted";
+}
+
+TEST(CollisionStep, MeetsCollisionsThatItResolvesOrIsAbandonedFor) {
+  StepScene scene;
+  scene.options.thickness_m = 1e-3;
+  scene.add(sheet(8), Vec3(0, 0, 0));
+  const auto upper = scene.add(sheet(8), Vec3(0.0031, 0.0017, 5e-3));
+  scene.push(upper, Vec3(1e-3, 0, -8e-3));
+  const Mesh mesh = scene.mesh();
+  CollisionStep step(mesh, scene.options);
+  const CollisionStepResult resolved = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s);
+  const CollisionStepResult abandoned = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, Patience{0, 0});
+  EXPECT_EQ(resolved.report.status, StepStatus::kSafe);
+  EXPECT_EQ(abandoned.report.status, StepStatus::kAbandoned);
+  for (const CollisionStepResult* result : {&resolved, &abandoned}) {
+    EXPECT_EQ(std::ssize(result->met), result->report.first_collisions);
+    EXPECT_GT(result->met.size(), 20U);
+    for (const RepulsionContact& contact : result->met) {
+      // The points that meet: apart along the normal by the height between the sheets, and over each other in the end.
+      EXPECT_NEAR(contact.distance, 5e-3, 1e-9);
+      EXPECT_NEAR(std::abs(contact.normal.z()), 1, 1e-9);
+      const PairVectors x_t1 = gather(contact.interaction, scene.V_candidate);
+      const Vec3 at_t0 = relative(contact.interaction, contact.x_t0), at_t1 = relative(contact.interaction, x_t1);
+      EXPECT_LT((at_t0 + 5.0 / 8 * (at_t1 - at_t0)).norm(), 1e-6);
+    }
+  }
+  scene.options.repulsion = false;
+  EXPECT_TRUE(scene.step().met.empty());
 }
 
 TEST(CollisionStep, CandidatesBeyondTheDomainAreCutNotRefused) {

@@ -19,9 +19,16 @@ TEST(ContactStrain, CountsSpringsThatEndBeyondTheLimitAndGrewThere) {
   };
   place(x_t0, {1, 1, 1, 1.4, 1});
   place(x_t1, {1.14, 0.84, 1.16, 1.415, 2});
-  EXPECT_EQ(springs_overstrained(springs, 0.1, x_t0, x_t1), 2);
-  EXPECT_EQ(springs_overstrained(springs, 0.09, x_t0, x_t1), 3);
-  EXPECT_EQ(springs_overstrained(springs, 0, x_t0, x_t1), 0) << "no limit";
+  const auto overstrained = [&](double limit, const Positions& candidate) {
+    return springs_overstrained(springs, limit, {x_t0, candidate, x_t1});
+  };
+  EXPECT_EQ(overstrained(0.1, x_t0), 2);
+  EXPECT_EQ(overstrained(0.09, x_t0), 3);
+  EXPECT_EQ(overstrained(0, x_t0), 0) << "no limit";
+  Positions candidate = x_t0;
+  place(candidate, {1, 0.85, 1, 1, 1});
+  EXPECT_EQ(overstrained(0.1, candidate), 1) << "one was strained by the dynamics";
+  EXPECT_EQ(overstrained(0.05, candidate), 4) << "beyond three limits that does not matter";
 }
 
 }  // namespace selvage::sim

@@ -72,8 +72,12 @@ TEST(Simulation, FreeFallIsExactInPositionAndVelocity) {
 
 TEST(Simulation, AfterContactGravityActsForTheSecondHalfOfTheStep) {
   // Section 7.6: the velocity at the end is the mean velocity of the safe step and half a step of forces. Springs and
-  // the strain-rate limit keep the cloth's momentum, so its change is that of gravity alone.
-  Simulation simulation(small_scene(9));
+  // the strain-rate limit keep the cloth's momentum, so its change is that of gravity alone. In steps as short as the
+  // dynamics': in longer ones contact acts within the dynamics.
+  std::string text = small_scene_text(9);
+  const std::string steps = "max_step_s = 0.0167\nmin_step_s = 0.004";
+  text.replace(text.find(steps), steps.size(), "max_step_s = 0.001");
+  Simulation simulation(parse_scene(text, "small.toml"));
   const Eigen::Index cloth = simulation.world().cloth_vertex_count;
   Eigen::VectorXd mass_kg(cloth);
   for (Eigen::Index v = 0; v < cloth; ++v) {
@@ -116,8 +120,9 @@ TEST(Simulation, Float32StatesLieOnTheLattice) {
 
 /// More than a few collisions, or any that impulses do not settle soon, are left to the shortest step.
 TEST(Simulation, LongerStepsThanTheShortestBearAFewCollisionsAtMost) {
-  std::string text = testing::small_scene_text(12);
+  std::string text = testing::small_scene_text(12, "solver = \"implicit\"\n");  // holds no contact
   text.replace(text.find("nx = 14, ny = 14"), 16, "nx = 30, ny = 30");
+  text.insert(text.find("damping_ratio"), "velocity_m_s = [0, 0, -1]\n");
   Simulation simulation(parse_scene(text, "small.toml"));
   int borne = 0, refused = 0;
   while (simulation.clock().state().frame < 12) {
@@ -132,6 +137,52 @@ TEST(Simulation, LongerStepsThanTheShortestBearAFewCollisionsAtMost) {
   }
   EXPECT_GT(borne, 0);
   EXPECT_GT(refused, 0);
+}
+
+TEST(Simulation, DynamicsHoldsTheCollisionsThatRepulsionsLeave) {
+  // Two sheets meet at 12 m/s: 270 thicknesses a step. Nothing is near at the start of it, and repulsions do not act.
+  const std::string sheet =
+      "sheet = {nx = 6, ny = 6, width_m = 0.3, height_m = 0.3}\ndensity_kg_m2 = 0.3\n"
+      "stretch_n_m = 40\nshear_n_m = 20\n";
+  const std::string text =
+      "[time]\nframes_per_s = 15\nframes = 1\n[collision]\nthickness_m = 0.003\n"
+      "[[cloth]]\nname = \"upper\"\n" +
+      sheet +
+      "position_m = [0.01, 0.02, 0.3]\n"
+      "velocity_m_s = [0, 0, -6]\n[[cloth]]\nname = \"lower\"\n" +
+      sheet + "position_m = [0, 0, -0.3]\nvelocity_m_s = [0, 0, 6]\n";
+  Simulation simulation(parse_scene(text, "meet.toml"));
+  const Positions before = simulation.x();
+  const StepResult step = simulation.step();
+  ASSERT_EQ(step.report.status, StepStatus::kSafe);
+  EXPECT_EQ(step.halvings, 0);
+  EXPECT_EQ(step.report.first_collisions, 0);
+  EXPECT_GT(step.report.repulsions, 20);
+  EXPECT_EQ(violations(simulation.world(), before, simulation.x()), 0);
+  // Inelastic: they stop each other, a thickness apart; what does not lie over the other goes on a little.
+  const auto mean_z = [](const Positions& rows, Eigen::Index first) {
+    return rows.middleRows(first, 36).col(2).mean();
+  };
+  const SimulationState state = simulation.state();
+  EXPECT_NEAR(mean_z(state.v, 0), 0, 0.3);
+  EXPECT_NEAR(mean_z(state.v, 36), 0, 0.3);
+  EXPECT_NEAR(mean_z(state.x, 0) - mean_z(state.x, 36), 0.003, 0.003);
+}
+
+TEST(Simulation, WithoutRepulsionsTheShortestStepResolvesWhatItMustNotHold) {
+  Scene scene = small_scene(8);  // steps of 4 ms and more hold contacts
+  scene.collision.repulsion = false;
+  Simulation simulation(scene);
+  std::int64_t collisions = 0;
+  while (simulation.clock().state().frame < 8) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    ASSERT_EQ(violations(simulation.world(), before, simulation.x()), 0);
+    EXPECT_EQ(step.report.repulsions, 0);
+    collisions += step.report.first_collisions;
+  }
+  EXPECT_GT(collisions, 0);
 }
 
 TEST(Simulation, StepsAreHalvedWhereContactStrainsTheSpringsThatItHolds) {
@@ -174,6 +225,7 @@ sheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}
 TEST(Simulation, StepsAreHalvedWhereRepulsionsAreNotEnough) {
   // Half a metre a step at first: the cloth would jump over the thickness of the floor.
   Simulation simulation(parse_scene(R"(
+solver = "implicit"
 [time]
 frames_per_s = 10
 frames = 3
