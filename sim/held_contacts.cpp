@@ -129,6 +129,18 @@ PairVectors HeldContacts::displacements(const Line& line, const MidstepMotion& s
   return moved;
 }
 
+std::vector<RepulsionContact> HeldContacts::contacts() const {
+  std::vector<RepulsionContact> result;
+  for (const Line& line : lines_) {
+    RepulsionContact contact = line.contact;
+    contact.x_t0 = gather(contact.interaction, V_t0_);
+    contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
+    contact.mobility = effective_mobility(contact.interaction);
+    result.push_back(contact);
+  }
+  return result;
+}
+
 RepulsionCount HeldContacts::count() const {
   return {std::ranges::count_if(lines_, &Line::repelled), std::ranges::count_if(lines_, &Line::rubbed)};
 }

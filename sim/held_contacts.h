@@ -37,7 +37,10 @@ class HeldContacts {
   /// any number of threads.
   void hold(const MidstepMotion& step);
 
-  /// Those that did in any step.
+  /// As they were last looked at, measured at V_t0: the collision step repels them where they are at its end.
+  [[nodiscard]] std::vector<RepulsionContact> contacts() const;
+
+  /// Those that repelled, and rubbed, in any step.
   [[nodiscard]] RepulsionCount count() const;
 
  private:

@@ -115,11 +115,13 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     held = collision_step_.find_contacts(x_, in_free_flight(candidate, dt_s), bodies());
   }
   for (int round = holds ? 0 : kHoldingRounds;; ++round) {
+    std::vector<RepulsionContact> held_to_the_end;
     {
       const PhaseTimer timer(result.phases.dynamics);
       HeldContacts contacts(held, x_, candidate, world_.cloth_vertex_count, dt_s);
       result.dynamics = advance_cloth(candidate, tried.end, held.empty() ? nullptr : &contacts);
       tried.held = contacts.count();
+      held_to_the_end = contacts.contacts();
     }
     tried.failed = result.dynamics.unconverged > 0 && clock_.can_halve();
     if (tried.failed) return tried;
@@ -128,7 +130,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
       const PhaseTimer timer(result.phases.collision);
       const Patience in_last = clock_.can_halve() ? patience_ : Patience{};
       const Patience patience = is_last ? in_last : Patience{few_collisions(), kImpulseRounds};
-      tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held);
+      tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held_to_the_end);
     }
     result.phases.within += tried.safe.report.phases;
     tried.failed =

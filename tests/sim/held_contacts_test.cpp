@@ -111,6 +111,24 @@ TEST(HeldContacts, FollowTheBodyTheyLieOn) {
   EXPECT_NEAR(one.distance(), kThickness, 1e-15);
 }
 
+TEST(HeldContacts, AreGivenOnAsTheyWereLastLookedAt) {
+  // It slides over the border of the face at y = -2, and is pressed there: along the line to the border.
+  OneContact one = vertex_over_body({0, -2.1 / kStep, 0});
+  const std::vector<RepulsionContact> contacts{one.contact};
+  HeldContacts held(contacts, one.V_t0, one.V_t1, 1, 2 * kStep);
+  EXPECT_EQ(held.contacts().front().normal, one.contact.normal);
+  one.x.row(0) += kStep * one.v.row(0);
+  held.hold({kStep, 0.5, one.x, one.v});
+  one.v.row(0) = Eigen::RowVector3d(0, 0, -1);
+  one.x.row(0) += kStep * one.v.row(0);
+  held.hold({kStep, 1, one.x, one.v});
+  const RepulsionContact now = held.contacts().front();
+  EXPECT_LT((now.normal - Vec3(0, -0.1, kThickness).normalized()).norm(), 1e-12);
+  EXPECT_NEAR(now.distance, (Vec3(0, 0, kThickness) - Vec3(0, -2, 0)).dot(now.normal), 1e-12);
+  const Vec3 moved = one.x.row(0) - one.V_t0.row(0);
+  EXPECT_GE(now.distance + moved.dot(now.normal), kThickness - 1e-12);
+}
+
 TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
   // Two steps: to the side, then down. The face ends at y = -2.
   for (const double to_y : {-1.9, -2.5}) {
