@@ -29,7 +29,7 @@ class HeldContacts {
   /// One sweep of inelastic impulses, each with its friction (paper, 7.2 and 7.3): a contact comes no nearer than its
   /// thickness, or than it was before the step. They add no energy and keep linear momentum. Every contact that presses
   /// is first looked at where it is now: held where they were at the start of the collision step, cloth that a ball
-  /// pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms (0.1 % now;
+  /// pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms (within 1 % now;
   /// sim/scenes/curtain.toml at full quality, 2.2 s, against steps of 0.5 ms), and what slid off an edge was held in
   /// the air. In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave nothing
   /// for the edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2

@@ -1,4 +1,4 @@
-// The contacts of a collision step: two points of the surface, and a direction that stays what it is in the step.
+// The contacts of a collision step: two points of the surface, and the direction along which they are kept apart.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace selvage::sim {
 
-/// What does not change while it acts.
+/// Kept while the repulsions sweep; the dynamics looks for the points again (held_contacts.h).
 struct RepulsionContact {
   PairKind kind = PairKind::kVf;
   std::int32_t first = 0, second = 0;  ///< the pair, as in PairProximity

@@ -136,7 +136,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     tried.failed =
         tried.safe.report.status == StepStatus::kAbandoned || (clock_.can_halve() && overstrains(tried, candidate));
     if (!tried.failed || is_last) return tried;
-    if (tried.safe.met.empty()) round = kHoldingRounds - 1;  // nothing to hold
+    if (tried.safe.met.empty()) round = kHoldingRounds - 1;  // another round would do the same
     held.insert(held.end(), tried.safe.met.begin(), tried.safe.met.end());
   }
 }

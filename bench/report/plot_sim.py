@@ -70,7 +70,7 @@ def plot_growth(report, folder):
     style.log(gain, "x", nodes)
     gain.set_xlabel("nodes along a side")
     gain.set_ylabel("one thread's time over that of two")
-    gain.set_ylim(0, 2.2)
+    gain.set_ylim(0, 1.1 * gain.get_ylim()[1])
     gain.axhline(1, color="#bbbbbb", linewidth=0.8)
     gain.legend(fontsize=7)
     shares.set_xlabel(f"nodes along a side ({solver}, one thread)")
