@@ -40,7 +40,7 @@ void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipG
 SlipGeometry make_slip_geometry(const Interaction& interaction, const PairVectors& x_t0, const Vec3& normal,
                                 double mobility) {
   SlipGeometry slip;
-  const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+  const Eigen::Matrix3d along = normal * normal.transpose(), tangential = Eigen::Matrix3d::Identity() - along;
   if (!is_closed(interaction)) {
     slip.stop = tangential / mobility;
     return slip;
@@ -50,7 +50,7 @@ SlipGeometry make_slip_geometry(const Interaction& interaction, const PairVector
   // r is parallel to the normal, so the normal impulse (7.2) and the tangential one do not feel each other.
   const Eigen::Matrix3d mobility_of_slip =
       tangential * (mobility * Eigen::Matrix3d::Identity() + r_cross * slip.inverse_inertia * r_cross) * tangential;
-  slip.stop = pseudo_inverse(mobility_of_slip) * tangential;
+  slip.stop = pseudo_inverse(mobility_of_slip + mobility * along) * tangential;  // full rank, where the pair has it
   return slip;
 }
 

@@ -24,6 +24,8 @@ class NearPairs {
   /// are near. In parallel; same bits for any number of threads.
   void find(const Mesh& mesh, const ContactTable& contacts, const Candidates& candidates, const Positions& V_t0);
 
+  [[nodiscard]] std::size_t size() const { return pairs_.size(); }
+
   /// Those that come nearer than their thickness, along their direction, in a motion from V_t0 to V_t1; ascending.
   /// Where numbers overflow or features have no size a pair does.
   [[nodiscard]] std::vector<std::size_t> approaching(const Positions& V_t0, const Positions& V_t1) const;

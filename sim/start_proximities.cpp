@@ -15,11 +15,6 @@ bool same_bits(const Positions& a, const Positions& b) {
          std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-bool is_among(const PairProximity& pair, const Candidates& sorted) {
-  return pair.kind == PairKind::kVf ? std::ranges::binary_search(sorted.vf, VfCandidate{pair.first, pair.second})
-                                    : std::ranges::binary_search(sorted.ee, EeCandidate{pair.first, pair.second});
-}
-
 }  // namespace
 
 void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, const std::vector<std::uint8_t>& surface) {
@@ -30,6 +25,8 @@ void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, con
   surface_ = surface;
   const double reach = kContactReach * contacts_.thickness_upper();
   near_.find(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
+  decision_.assign(near_.size(), kUndecided);
+  local_.clear();
 }
 
 void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
@@ -41,25 +38,37 @@ void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
 }
 
 std::vector<PairProximity> StartProximities::find(const Positions& V_t1) {
-  std::vector<std::size_t> found;
+  std::vector<std::size_t> found, known;
   std::ranges::set_difference(near_.approaching(V_t0_, V_t1), known_, std::back_inserter(found));
-  if (found.empty()) return {};
-  const Candidates asked = near_.candidates(near_.with_nearer(found));
+  count_ += std::ssize(found);
+  decide(found);
+  std::ranges::set_union(known_, found, std::back_inserter(known));
+  known_ = std::move(known);
+  std::vector<PairProximity> result;
+  for (const std::size_t pair : found) {
+    if (decision_[pair] != kNotLocal) result.push_back(local_[static_cast<std::size_t>(decision_[pair])]);
+  }
+  return result;
+}
+
+void StartProximities::decide(const std::vector<std::size_t>& pairs) {
+  std::vector<std::size_t> open;
+  std::ranges::copy_if(pairs, std::back_inserter(open), [&](std::size_t i) { return decision_[i] == kUndecided; });
+  if (open.empty()) return;
+  const Candidates asked = near_.candidates(near_.with_nearer(open));
   std::vector<PairProximity> near = ask_proximities(mesh_, V_t0_, asked, kContactReach * contacts_.thickness_upper());
-  count_ += std::ssize(asked.vf) + std::ssize(asked.ee);
   if (!contacts_.is_uniform()) {
     std::erase_if(near, [&](const PairProximity& pair) {
       return !(pair.proximity.distance_lower < kContactReach * contacts_.of(pair.kind, pair.vertices).thickness_m);
     });
   }
-  near = local_proximities(mesh_, V_t0_, near);
-  std::erase_if(near, [&, approaching = near_.candidates(found)](const PairProximity& pair) {
-    return !is_among(pair, approaching);
-  });
-  std::vector<std::size_t> known;
-  std::ranges::set_union(known_, found, std::back_inserter(known));
-  known_ = std::move(known);
-  return near;
+  for (const std::size_t pair : open) decision_[pair] = kNotLocal;
+  for (const PairProximity& pair : local_proximities(mesh_, V_t0_, near)) {
+    const auto place = near_.place(pair.kind, pair.first, pair.second);
+    if (!place || !std::ranges::binary_search(open, *place)) continue;  // asked only to compare others with it
+    decision_[*place] = static_cast<std::int32_t>(local_.size());
+    local_.push_back(pair);
+  }
 }
 
 }  // namespace selvage::sim

@@ -25,15 +25,21 @@ class StartProximities {
   /// Of the pairs of these no answer tells until the next start().
   void leave_out(std::span<const RepulsionContact> contacts);
 
-  /// Queries of the kernel since start().
+  /// Pairs since start() that approach, local or not.
   [[nodiscard]] std::int64_t count() const { return count_; }
 
  private:
+  /// Asks the kernel about those of `pairs` (ascending) for which that was not done at V_t0 before.
+  void decide(const std::vector<std::size_t>& pairs);
+
   const Mesh& mesh_;
   const ContactTable& contacts_;
   Positions V_t0_;
   std::vector<std::uint8_t> surface_;
   NearPairs near_;
+  std::vector<std::int32_t> decision_;  ///< by near pair: its place in local_, or as below
+  std::vector<PairProximity> local_;
+  static constexpr std::int32_t kUndecided = -2, kNotLocal = -1;
   std::vector<std::size_t> known_;  ///< near pairs that an answer since start() was about; ascending
   std::int64_t count_ = 0;
 };

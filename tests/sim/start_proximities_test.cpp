@@ -121,6 +121,34 @@ TEST(StartProximities, PropAreAllThatApproachAndAreLocalAndOnceEach) {
   });
 }
 
+// Whatever was asked before of the same start: other motions, other tries, each with its own pairs to compare with.
+TEST(StartProximities, PropDoNotDependOnWhatWasAskedBefore) {
+  std::int64_t answers = 0;
+  selvage::testing::check_property(200, 33, [&] {
+    const StepScene scene = random_layers();
+    const Mesh mesh = scene.mesh();
+    const ContactTable contacts(mesh, scene.options, {});
+    const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
+    BoxHierarchy hierarchy(mesh);
+    StartProximities near(mesh, contacts);
+    for (int n = 0; n < 4; ++n) {
+      const Positions motion = scene.V_candidate - scene.V_t0;
+      const Positions V_t0 = scene.V_t0 + *rc::gen::element(0.0, 0.0, 0.5) * motion;  // often as before
+      const Positions V_t1 = V_t0 + number_between(-1, 1) * motion;
+      StartProximities fresh(mesh, contacts);
+      fresh.start(hierarchy, V_t0, surface);
+      near.start(hierarchy, V_t0, surface);
+      std::vector<Name> found, expected;
+      for (const PairProximity& pair : near.find(V_t1)) found.push_back(name_of(pair));
+      for (const PairProximity& pair : fresh.find(V_t1)) expected.push_back(name_of(pair));
+      RC_ASSERT(found == expected);
+      RC_ASSERT(near.count() == fresh.count());
+      answers += std::ssize(found);
+    }
+  });
+  EXPECT_GT(answers, 1000);
+}
+
 TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
   StepScene scene;
   scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
