@@ -40,17 +40,22 @@ void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipG
 SlipGeometry make_slip_geometry(const Interaction& interaction, const PairVectors& x_t0, const Vec3& normal,
                                 double mobility) {
   SlipGeometry slip;
-  const Eigen::Matrix3d along = normal * normal.transpose(), tangential = Eigen::Matrix3d::Identity() - along;
   if (!is_closed(interaction)) {
-    slip.stop = tangential / mobility;
+    slip.stop = (Eigen::Matrix3d::Identity() - normal * normal.transpose()) / mobility;
     return slip;
   }
   add_rotation(interaction, x_t0, slip);
-  const Eigen::Matrix3d r_cross = cross_matrix(slip.r);
-  // r is parallel to the normal, so the normal impulse (7.2) and the tangential one do not feel each other.
-  const Eigen::Matrix3d mobility_of_slip =
-      tangential * (mobility * Eigen::Matrix3d::Identity() + r_cross * slip.inverse_inertia * r_cross) * tangential;
-  slip.stop = pseudo_inverse(mobility_of_slip + mobility * along) * tangential;  // full rank, where the pair has it
+  // r is parallel to the normal, so the normal impulse (7.2) and the tangential one do not feel each other. Across it
+  // an impulse turns the pair about r x t, which takes its share of the mobility back.
+  const Vec3 t = normal.unitOrthogonal(), s = normal.cross(t);
+  const Vec3 about_t = slip.r.cross(t), about_s = slip.r.cross(s);
+  const Vec3 turned_t = slip.inverse_inertia * about_t, turned_s = slip.inverse_inertia * about_s;
+  Eigen::Matrix3d mobility_of_slip =
+      Eigen::Vector3d(mobility - about_t.dot(turned_t), mobility - about_s.dot(turned_s), mobility).asDiagonal();
+  mobility_of_slip(0, 1) = mobility_of_slip(1, 0) = -about_t.dot(turned_s);
+  const Eigen::Matrix3d inverse = pseudo_inverse(mobility_of_slip);
+  slip.stop =
+      (inverse(0, 0) * t + inverse(0, 1) * s) * t.transpose() + (inverse(1, 0) * t + inverse(1, 1) * s) * s.transpose();
   return slip;
 }
 
