@@ -14,11 +14,4 @@ inline constexpr double kRankTolerance = 1e-12;
 /// REQUIRES `matrix` symmetric, finite, semidefinite up to rounding. The zero matrix gives the zero matrix.
 [[nodiscard]] Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& matrix);
 
-/// The matrix of v -> a x v.
-[[nodiscard]] inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d result;
-  result << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return result;
-}
-
 }  // namespace selvage::sim

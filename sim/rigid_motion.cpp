@@ -14,6 +14,13 @@
 namespace selvage::sim {
 namespace {
 
+/// The matrix of v -> a x v.
+Eigen::Matrix3d cross_matrix(const Vec3& a) {
+  Eigen::Matrix3d result;
+  result << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return result;
+}
+
 double largest_coordinate(std::span<const Vec3> vectors) {
   double largest = 0;
   for (const Vec3& v : vectors) largest = std::max(largest, v.cwiseAbs().maxCoeff());

@@ -66,12 +66,14 @@ void twisted_strip(Trial& trial) {
   trial.at_most("pins that waited", double(trial.report().waiting_bodies), 0);
 }
 
-/// Until its pins have waited fifty times: what is jammed stays so.
+/// Until its pins have waited so often: what is jammed stays so.
+constexpr int kWaits = 50;
+
 void overwound_strip(Trial& trial) {
   ScenePlay play(trial, twisted_strip_scene(trial.pick(6, 10, 14), 4 * kFourTurnsDeg), 1);
   const double end_s = trial.variant().quick ? 0.1 : 3;
-  while (play.simulation().clock().time_s() < end_s && trial.report().waiting_bodies < 50) play.step();
-  if (!trial.variant().quick) trial.at_least("pins that waited", double(trial.report().waiting_bodies), 50);
+  while (play.simulation().clock().time_s() < end_s && trial.report().waiting_bodies < kWaits) play.step();
+  if (!trial.variant().quick) trial.at_least("pins that waited", double(trial.report().waiting_bodies), kWaits);
 }
 
 std::vector<VertexId> ring_of(int facets, int ring) {
