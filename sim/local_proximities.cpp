@@ -19,13 +19,18 @@ constexpr double kParallelSine = 1e-6;
 /// Cosine of 1.4e-6: the normals of a flat contact differ by rounding, and all of its pairs are needed.
 constexpr double kSameDirection = 1 - 1e-12;
 
+/// 25 degrees: the corners of sheets that lie on one another. A vertex above a flat ground is no higher than the edges
+/// beside it, but for rounding, in whatever direction it is seen from theirs.
+constexpr double kNearlySameDirection = 0.9, kHigher = 1 + 1e-6;
+
 bool holds(const std::array<VertexId, 3>& face, VertexId vertex) {
   return face[0] == vertex || face[1] == vertex || face[2] == vertex;
 }
 
 class LocalTest {
  public:
-  LocalTest(const Mesh& mesh, const Positions& V, const std::vector<PairProximity>& proximities) : mesh_(mesh), V_(V) {
+  LocalTest(const Mesh& mesh, const Positions& V, const std::vector<PairProximity>& proximities, double thickness_m)
+      : mesh_(mesh), V_(V), thickness_m_(thickness_m) {
     const auto is_vf = [](const PairProximity& pair) { return pair.kind == PairKind::kVf; };
     vf_ = {proximities.begin(), std::ranges::partition_point(proximities, is_vf)};
     const auto ee = std::span(proximities).subspan(vf_.size());
@@ -60,6 +65,19 @@ class LocalTest {
     return holds(mesh_.faces[static_cast<std::size_t>(vf.second)], vertex);
   }
 
+  /// Along the other's direction, which is nearly its own.
+  [[nodiscard]] static bool stands_higher(const PairProximity& pair, const PairProximity& other) {
+    const double cosine = std::abs(other.proximity.normal.dot(pair.proximity.normal));
+    return cosine > kNearlySameDirection && pair.proximity.distance * cosine > kHigher * other.proximity.distance;
+  }
+
+  /// From the vertex, an end of one of the pair's edges, to the point of the edge that is nearest to the other one.
+  [[nodiscard]] double distance_along(const PairProximity& ee, VertexId vertex) const {
+    const auto end = static_cast<std::size_t>(std::ranges::find(ee.vertices, vertex) - ee.vertices.begin());
+    const std::size_t partner = end ^ 1;
+    return ee.proximity.weights[partner] * (V_.row(ee.vertices[partner]) - V_.row(vertex)).norm();
+  }
+
   [[nodiscard]] bool is_local_vf(const PairProximity& pair) const {
     std::array<VertexId, 3> corners{};  // of the edge or corner that is nearest
     std::size_t count = 0;
@@ -78,6 +96,7 @@ class LocalTest {
     }
     for (const PairProximity* other : edges_near(vertex)) {
       const std::size_t across = other->vertices[0] == vertex || other->vertices[1] == vertex ? 2 : 0;
+      if (distance_along(*other, vertex) > thickness_m_ && stands_higher(pair, *other)) continue;
       const std::array<VertexId, 2> edge{other->vertices[across], other->vertices[across + 1]};
       if (nearer(*other) && all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) return false;
     }
@@ -107,6 +126,7 @@ class LocalTest {
 
   const Mesh& mesh_;
   const Positions& V_;
+  const double thickness_m_;
   std::span<const PairProximity> vf_;
   std::vector<const PairProximity*> ee_at_;  ///< each edge pair at its four vertices, by vertex
   std::vector<std::size_t> ee_begin_;        ///< of each vertex's; one more at the end
@@ -115,8 +135,8 @@ class LocalTest {
 }  // namespace
 
 std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
-                                             const std::vector<PairProximity>& proximities) {
-  const LocalTest test(mesh, V, proximities);
+                                             const std::vector<PairProximity>& proximities, double thickness_m) {
+  const LocalTest test(mesh, V, proximities, thickness_m);
   std::vector<std::uint8_t> is_local(proximities.size());
   parallel_each(std::ssize(proximities), [&](Eigen::Index i) {
     const auto pair = static_cast<std::size_t>(i);

@@ -63,7 +63,7 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
     });
   }
   for (const std::size_t pair : open) decision_[pair] = kNotLocal;
-  for (const PairProximity& pair : local_proximities(mesh_, V_t0_, near)) {
+  for (const PairProximity& pair : local_proximities(mesh_, V_t0_, near, contacts_.thickness_upper())) {
     const auto place = near_.place(pair.kind, pair.first, pair.second);
     if (!place || !std::ranges::binary_search(open, *place)) continue;  // asked only to compare others with it
     decision_[*place] = static_cast<std::int32_t>(local_.size());

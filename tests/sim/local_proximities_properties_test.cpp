@@ -1,6 +1,7 @@
 // Which pairs are contacts, against a plain reading of the header: every pair is held against every other.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -38,11 +39,18 @@ Pair make_pair(const Mesh& mesh, const PairProximity& pair) {
   return {pair.kind, feature_of(mesh.edges[i]), feature_of(mesh.edges[j]), pair.proximity};
 }
 
+constexpr double kSpacing = 0x1p-3, kThickness = kSpacing / 2;
+
 /// Which of the header's rules leaves a pair out.
 enum Rule : std::size_t { kByFace, kByEdge, kByEnd, kByParallelEnd, kRuleCount };
 using Rules = std::array<bool, kRuleCount>;
 
-void hold_vf_against(const Pair& pair, const Pair& other, Rules& rules) {
+/// From the vertex, where it is an end of the edge, to the edge's nearest point.
+double distance_along(const Feature& edge, double weight_0, double weight_1, VertexId vertex, const Positions& V) {
+  return (vertex == edge[0] ? weight_1 : weight_0) * (V.row(edge[1]) - V.row(edge[0])).norm();
+}
+
+void hold_vf_against(const Pair& pair, const Pair& other, const Positions& V, Rules& rules) {
   Feature nearest;  // of the face: an edge or a corner
   for (std::size_t k = 0; k < 3; ++k) {
     if (pair.proximity.weights[k + 1] != 0) nearest.push_back(pair.second[k]);
@@ -54,7 +62,12 @@ void hold_vf_against(const Pair& pair, const Pair& other, Rules& rules) {
   if (other.kind == PairKind::kVf) {
     rules[kByFace] |= covers;
   } else {
-    rules[kByEdge] |= covers || covers_swapped;
+    const auto& w = other.proximity.weights;
+    const VertexId vertex = pair.first.front();
+    const bool stands_higher = cosine > 0.9 && pair.proximity.distance * cosine > (1 + 1e-6) * other.proximity.distance;
+    const double longest_along = stands_higher ? kThickness : std::numeric_limits<double>::infinity();
+    rules[kByEdge] |= covers && distance_along(other.first, w[0], w[1], vertex, V) <= longest_along;
+    rules[kByEdge] |= covers_swapped && distance_along(other.second, w[2], w[3], vertex, V) <= longest_along;
   }
 }
 
@@ -82,7 +95,7 @@ std::vector<Rules> plain_reading(const Mesh& mesh, const Positions& V, const std
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (const Pair& other : pairs) {
       if (pairs[i].kind == PairKind::kVf) {
-        hold_vf_against(pairs[i], other, rules[i]);
+        hold_vf_against(pairs[i], other, V, rules[i]);
       } else {
         hold_ee_against(pairs[i], other, V, rules[i]);
       }
@@ -90,8 +103,6 @@ std::vector<Rules> plain_reading(const Mesh& mesh, const Positions& V, const std
   }
   return rules;
 }
-
-constexpr double kSpacing = 0x1p-3;
 
 /// A multiple of an eighth of the spacing: vertices come over vertices, edges and insides, and distances tie.
 double lattice_length(int begin, int end) { return kSpacing / 8 * integer_in(begin, end); }
@@ -175,7 +186,7 @@ TEST(LocalProximities, prop_are_those_of_the_plain_reading) {
       if (count != 1) continue;
       ++by_one_rule_alone[static_cast<std::size_t>(std::ranges::find(rules[i], true) - rules[i].begin())];
     }
-    for (const PairProximity& pair : local_proximities(mesh, scene.V_t0, all)) local.push_back(name(pair));
+    for (const PairProximity& pair : local_proximities(mesh, scene.V_t0, all, kThickness)) local.push_back(name(pair));
     kept += std::ssize(local);
     RC_ASSERT(local == expected);
   });

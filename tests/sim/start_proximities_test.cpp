@@ -94,9 +94,9 @@ TEST(StartProximities, PropAreAllThatApproachAndAreLocalAndOnceEach) {
     const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
     BoxHierarchy hierarchy(mesh);
     StartProximities near(mesh, contacts);
-    const double reach = kContactReach * scene.options.thickness_m;
-    const std::vector<PairProximity> local =
-        local_proximities(mesh, scene.V_t0, find_proximities(mesh, hierarchy, scene.V_t0, reach));
+    const double thickness_m = scene.options.thickness_m;
+    const std::vector<PairProximity> all = find_proximities(mesh, hierarchy, scene.V_t0, kContactReach * thickness_m);
+    const std::vector<PairProximity> local = local_proximities(mesh, scene.V_t0, all, thickness_m);
 
     near.start(hierarchy, scene.V_t0, surface);
     std::set<Name> known;
