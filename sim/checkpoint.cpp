@@ -11,7 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 4\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 5\n";
 
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
@@ -30,6 +30,20 @@ void put(std::string& bytes, const Number& number) {
 void put(std::string& bytes, const Positions& x) {
   put(bytes, static_cast<std::int64_t>(x.rows()));
   bytes += bytes_of(x);
+}
+
+template <class Visit>
+void for_each_field(auto& load, Visit visit) {
+  visit(load.vertex);
+  visit(load.face);
+  visit(load.acceleration_m_s2);
+}
+
+void put(std::string& bytes, const std::vector<ContactLoad>& loads) {
+  put(bytes, static_cast<std::int64_t>(loads.size()));
+  for (const ContactLoad& load : loads) {
+    for_each_field(load, [&](const auto& field) { put(bytes, field); });
+  }
 }
 
 // Reads what put() wrote; never past the end.
@@ -59,6 +73,15 @@ class Source {
     x.resize(rows, 3);
     const std::string_view data = take(static_cast<std::size_t>(rows * kRowBytes));
     if (!data.empty()) std::memcpy(x.data(), data.data(), data.size());
+  }
+  void get(std::vector<ContactLoad>& loads) {
+    std::int64_t count = 0;
+    get(count);
+    if (count < 0 || count > static_cast<std::int64_t>(bytes_.size())) fail("the checkpoint is damaged");
+    loads.resize(static_cast<std::size_t>(count));
+    for (ContactLoad& load : loads) {
+      for_each_field(load, [&](auto& field) { get(field); });
+    }
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
 
@@ -91,6 +114,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   put(bytes, clock.on_trial);
   put(bytes, checkpoint.state.x);
   put(bytes, checkpoint.state.v);
+  put(bytes, checkpoint.state.loads);
   for_each_total(checkpoint.totals, [&](const char*, const auto& field) { put(bytes, field); });
   put(bytes, fnv1a(bytes));
   io::write_atomically(file, bytes);
@@ -113,6 +137,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file) {
   source.get(clock.on_trial);
   source.get(checkpoint.state.x);
   source.get(checkpoint.state.v);
+  source.get(checkpoint.state.loads);
   for_each_total(checkpoint.totals, [&](const char*, auto& field) { source.get(field); });
   std::uint64_t checksum = 0;
   source.get(checksum);

@@ -19,22 +19,32 @@ struct MidstepMotion {
   LaneVectors& v;
 };
 
+/// What a vertex bears on a face: the next step of the dynamics begins with it. One sweep passes a weight on by one
+/// contact only, so that ten sheets that lay on one another, held as if the stack were new in every step, lost a third
+/// of their height within a second, in five times as many steps (docs/simulator-speed.md). Edges have none:
+/// where they remembered as well, cloth over the edge of a box crept by 0.7 mm a second (0.02 without; hold() says why
+/// vertices go first).
+struct ContactLoad {
+  std::int32_t vertex, face;
+  double acceleration_m_s2;  ///< of the pair's relative motion, > 0
+};
+
 class HeldContacts {
  public:
   /// Of a collision step of dt_s from V_t0. The first `cloth_count` vertices move as the dynamics says, the others on
-  /// straight lines to V_t1. The positions must outlive it.
-  HeldContacts(const std::vector<RepulsionContact>& contacts, const Positions& V_t0, const Positions& V_t1,
-               Eigen::Index cloth_count, double dt_s);
+  /// straight lines to V_t1. `loads` are those at V_t0, sorted. The positions must outlive it.
+  HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
+               const Positions& V_t0, const Positions& V_t1, Eigen::Index cloth_count, double dt_s);
 
-  /// One sweep of inelastic impulses, each with its friction (paper, 7.2 and 7.3): a contact comes no nearer than its
-  /// thickness, or than it was before the step. They add no energy and keep linear momentum. Every contact that presses
-  /// is first looked at where it is now: held where they were at the start of the collision step, cloth that a ball
-  /// pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms (within 1 % now;
-  /// sim/scenes/curtain.toml at full quality, 2.2 s, against steps of 0.5 ms), and what slid off an edge was held in
-  /// the air. In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave nothing
-  /// for the edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2
-  /// micrometres for ever). Call for the steps of a collision step in their order. O(contacts), serial: same bits for
-  /// any number of threads.
+  /// The loads, then one sweep of inelastic impulses, each with its friction (paper, 7.2 and 7.3): a contact comes no
+  /// nearer than its thickness, or than it was before the step, and takes back what was too much of its load. They keep
+  /// linear momentum; a contact alone adds no energy (for many tests/sim/physics_test.cpp asks the sum). Every contact
+  /// that presses is first looked at where it is now: held where they were at the start of the collision step, cloth
+  /// that a ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an
+  /// edge was held in the air. In turn back and forth, but vertices before edges always: in cloth at rest on a plane
+  /// they leave nothing for the edges between them to press, while edges alone lift one end to hold the other (a corner
+  /// swung by 2 micrometres for ever). Call for the steps of a collision step in their order. O(contacts), serial: same
+  /// bits for any number of threads.
   void hold(const MidstepMotion& step);
 
   /// As they were last looked at, measured at V_t0: the collision step repels them where they are at its end.
@@ -42,6 +52,9 @@ class HeldContacts {
 
   /// Those that repelled, and rubbed, in any step.
   [[nodiscard]] RepulsionCount count() const;
+
+  /// After the last step; sorted by vertex and face.
+  [[nodiscard]] std::vector<ContactLoad> loads() const;
 
  private:
   /// A contact, and its distance along its direction as a function of the cloth and the time.
@@ -51,14 +64,20 @@ class HeldContacts {
     std::array<double, 4> weights{};          ///< 0 for those
     std::array<double, 4> shares{};           ///< that they take of a change of the distance; 0 for those
     double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
+    double load_m_s2 = 0;                     ///< as in ContactLoad; 0 for edges
+    double pushed = 0;                        ///< in this step of the dynamics, m, >= 0
+    bool looked = false;                      ///< where it is, in bear()
     bool repelled = false, rubbed = false;
   };
 
   void set(Line& line) const;
+  void bear(Line& line, const MidstepMotion& step) const;
   void hold(Line& line, const MidstepMotion& step) const;
-  [[nodiscard]] double push(const Line& line, const MidstepMotion& step) const;
+  static void push(Line& line, double change, const MidstepMotion& step);
+  static void learn(Line& line, const MidstepMotion& step);
+  [[nodiscard]] double excess(const Line& line, const MidstepMotion& step) const;
   void look_again(Line& line, const MidstepMotion& step) const;
-  void rub(Line& line, double push, const MidstepMotion& step) const;
+  void rub(Line& line, const MidstepMotion& step) const;
   /// Of the contact's vertices at the start of the step, and what it moves them by.
   [[nodiscard]] PairVectors positions(const Line& line, const MidstepMotion& step) const;
   [[nodiscard]] PairVectors displacements(const Line& line, const MidstepMotion& step) const;

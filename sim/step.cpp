@@ -93,6 +93,7 @@ StepResult Simulation::step() {
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried.safe, std::move(tried.end));
+    loads_ = std::move(tried.loads);
     const bool few = tried.safe.report.first_collisions <= few_collisions();
     clock_.advance(few && result.dynamics.unconverged == 0);
   }
@@ -118,9 +119,10 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     std::vector<RepulsionContact> held_to_the_end;
     {
       const PhaseTimer timer(result.phases.dynamics);
-      HeldContacts contacts(held, x_, candidate, world_.cloth_vertex_count, dt_s);
+      HeldContacts contacts(held, loads_, x_, candidate, world_.cloth_vertex_count, dt_s);
       result.dynamics = advance_cloth(candidate, tried.end, held.empty() ? nullptr : &contacts);
       tried.held = contacts.count();
+      tried.loads = contacts.loads();
       held_to_the_end = contacts.contacts();
     }
     tried.failed = result.dynamics.unconverged > 0 && clock_.can_halve();
@@ -207,6 +209,7 @@ void Simulation::restore(const SimulationState& state) {
   x_ = state.x;
   v_ = state.v;
   clock_.restore(state.clock);
+  loads_ = state.loads;
 }
 
 }  // namespace selvage::sim

@@ -5,6 +5,7 @@
 
 #include "sim/collision_step.h"
 #include "sim/dynamics.h"
+#include "sim/held_contacts.h"
 #include "sim/phase_times.h"
 #include "sim/scene.h"
 #include "sim/time_step.h"
@@ -16,6 +17,7 @@ namespace selvage::sim {
 struct SimulationState {
   Positions x, v;  ///< #V by 3, m and m/s
   StepClock::State clock;
+  std::vector<ContactLoad> loads;  ///< at x; sorted by vertex and face
 };
 
 struct StepResult {
@@ -41,14 +43,15 @@ class Simulation {
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Positions& x() const { return x_; }
   [[nodiscard]] const StepClock& clock() const { return clock_; }
-  [[nodiscard]] SimulationState state() const { return {x_, v_, clock_.state()}; }
+  [[nodiscard]] SimulationState state() const { return {x_, v_, clock_.state(), loads_}; }
   void restore(const SimulationState& state);
 
  private:
   struct Try {
-    bool failed = false;  ///< to be tried with half the step
-    Motion end;           ///< of the dynamics
-    RepulsionCount held;  ///< in the dynamics
+    bool failed = false;             ///< to be tried with half the step
+    Motion end;                      ///< of the dynamics
+    RepulsionCount held;             ///< in the dynamics
+    std::vector<ContactLoad> loads;  ///< at its end
     CollisionStepResult safe;
   };
   Try try_step(StepResult& result);
@@ -68,6 +71,7 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
   Positions x_, v_;
+  std::vector<ContactLoad> loads_;
   Patience patience_;                 ///< while the step can be halved
   std::vector<double> inverse_mass_;  ///< #V, now: pins that hold have 0
   std::vector<std::int32_t> body_;    ///< #V, now: the collider that holds the vertex, or -1

@@ -14,6 +14,7 @@ struct OneContact {
   Positions V_t0, V_t1;
   Eigen::Index cloth_count;
   LaneVectors x, v;
+  std::vector<ContactLoad> loads;
 
   OneContact(const RandomPair& pair, Eigen::Index cloth_vertices) : V_t0(4, 3), cloth_count(cloth_vertices) {
     for (Eigen::Index i = 0; i < 4; ++i) V_t0.row(i) = pair.x_t0[static_cast<std::size_t>(i)];
@@ -30,12 +31,13 @@ struct OneContact {
     for (Eigen::Index i = 0; i < cloth_count; ++i) v.row(i) = pair.displacement[static_cast<std::size_t>(i)];
   }
 
-  /// One step of a collision step of one.
-  RepulsionCount step() {
+  /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with.
+  RepulsionCount step(double load_m_s2 = 0) {
     for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kStep * v.row(i);
     const std::vector<RepulsionContact> contacts{contact};
-    HeldContacts held(contacts, V_t0, V_t1, cloth_count, kStep);
+    HeldContacts held(contacts, {{contact.first, contact.second, load_m_s2}}, V_t0, V_t1, cloth_count, kStep);
     held.hold({kStep, 1, x, v});
+    loads = held.loads();
     return held.count();
   }
 
@@ -89,6 +91,95 @@ TEST(HeldContacts, ComeNoNearerThanTheThicknessAndAddNeitherMomentumNorEnergy) {
   });
 }
 
+TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadWasTooMuch) {
+  selvage::testing::check_property(300, 33, [] {
+    const RandomPair pair = random_contact(number_between(1e-3, 0.4));
+    RC_PRE(lever_share(pair.interaction) == 1);
+    OneContact without(pair, 4);
+    without.contact.properties.friction_static = without.contact.properties.friction_kinetic = number_between(0, 1);
+    OneContact with = without;
+    without.step();
+    const double load_m_s2 = number_between(0, 100);
+    with.step(load_m_s2);
+    RC_CLASSIFY(!without.loads.empty());
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      RC_ASSERT((with.v.row(i) - without.v.row(i)).norm() <= 1e-11);
+      RC_ASSERT((with.x.row(i) - without.x.row(i)).norm() <= 1e-11);
+    }
+    RC_ASSERT(with.loads.empty() == without.loads.empty());
+    if (without.contact.kind == PairKind::kEe) RC_ASSERT(with.loads.empty());
+    if (!without.loads.empty()) {
+      const double learnt_m_s2 = without.loads[0].acceleration_m_s2 + load_m_s2 / 2;
+      RC_ASSERT(std::abs(with.loads.at(0).acceleration_m_s2 - learnt_m_s2) <= 1e-10);
+    }
+  });
+}
+
+TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
+  OneContact one = vertex_over_body({0, 0, -1});
+  one.contact.first = 3;
+  one.contact.second = 7;
+  one.step();
+  ASSERT_EQ(one.loads.size(), 1U);
+  EXPECT_EQ(one.loads[0].vertex, 3);
+  EXPECT_EQ(one.loads[0].face, 7);
+  EXPECT_NEAR(one.loads[0].acceleration_m_s2, 0.5 / kStep, 1e-12);  // half of the 1 m/s that it took away in a step
+  OneContact leaves = vertex_over_body({0, 0, 1});
+  leaves.step(5);
+  EXPECT_TRUE(leaves.loads.empty());
+}
+
+TEST(HeldContacts, AColumnRestsOnItsLoads) {
+  // Vertices one above the other over a face of a body: each lies on the one below by a contact of its own.
+  constexpr int kCount = 12;
+  constexpr double kGravity = 10, kShort = 4e-4;
+  Positions V(kCount + 3, 3);
+  for (int i = 0; i < kCount; ++i) V.row(i) = Eigen::RowVector3d(0, 0, (i + 1) * kThickness);
+  V.bottomRows(3) << -2, -2, 0, 2, -2, 0, 0, 4, 0;
+  std::vector<double> inverse_mass(kCount + 3, 1.0);
+  for (int i = kCount; i < kCount + 3; ++i) inverse_mass[static_cast<std::size_t>(i)] = 0;
+  std::vector<RepulsionContact> contacts;
+  const auto add = [&](const std::array<VertexId, 4>& vertices, const std::array<double, 4>& weights) {
+    RepulsionContact contact;
+    contact.first = vertices[0];
+    contact.second = vertices[1];
+    contact.interaction = make_interaction(PairKind::kVf, vertices, weights, inverse_mass);
+    contact.x_t0 = gather(contact.interaction, V);
+    contact.normal = Vec3::UnitZ();
+    contact.properties.thickness_m = kThickness;
+    contacts.push_back(contact);
+  };
+  add({0, kCount, kCount + 1, kCount + 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3});
+  // A face of one corner alone is enough: the others have no weight.
+  for (int i = 1; i < kCount; ++i) add({i, i - 1, kCount + 1, kCount + 2}, {1, 1, 0, 0});
+
+  LaneVectors x, v;
+  x.copy(V.topRows(kCount));
+  v.resize(kCount);
+  v.set_zero();
+  std::vector<ContactLoad> loads;
+  double highest = 0, lowest = 1;  // of the distances of neighbours over the thickness
+  for (int step = 0; step < 3000; ++step) {
+    HeldContacts held(contacts, loads, V, V, kCount, kShort);
+    for (int i = 0; i < kCount; ++i) {
+      v.row(i).z() -= kShort * kGravity;
+      x.row(i) += kShort * v.row(i);
+    }
+    held.hold({kShort, 1, x, v});
+    loads = held.loads();
+    for (int i = 0; i < kCount; ++i) {
+      const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kThickness;
+      highest = std::max(highest, gap);
+      lowest = std::min(lowest, gap);
+    }
+  }
+  EXPECT_GT(lowest, 0.99);
+  EXPECT_LT(highest, 1.01);
+  for (int i = 0; i < kCount; ++i) EXPECT_LT(v.row(i).norm(), 1e-6) << i;
+  ASSERT_EQ(loads.size(), static_cast<std::size_t>(kCount));
+  EXPECT_NEAR(loads[0].acceleration_m_s2, kCount * kGravity, 1e-3) << "the lowest bears all";
+}
+
 TEST(HeldContacts, StickWithinTheConeAndSlideBeyond) {
   OneContact sticks = vertex_over_body({0.4, 0, -1});
   EXPECT_EQ(sticks.step().frictions, 1);
@@ -115,7 +206,7 @@ TEST(HeldContacts, AreGivenOnAsTheyWereLastLookedAt) {
   // It slides over the border of the face at y = -2, and is pressed there: along the line to the border.
   OneContact one = vertex_over_body({0, -2.1 / kStep, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
-  HeldContacts held(contacts, one.V_t0, one.V_t1, 1, 2 * kStep);
+  HeldContacts held(contacts, {}, one.V_t0, one.V_t1, 1, 2 * kStep);
   EXPECT_EQ(held.contacts().front().normal, one.contact.normal);
   one.x.row(0) += kStep * one.v.row(0);
   held.hold({kStep, 0.5, one.x, one.v});
@@ -134,7 +225,7 @@ TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
   for (const double to_y : {-1.9, -2.5}) {
     OneContact one = vertex_over_body({0, to_y / kStep, 0});
     const std::vector<RepulsionContact> contacts{one.contact};
-    HeldContacts held(contacts, one.V_t0, one.V_t1, 1, 2 * kStep);
+    HeldContacts held(contacts, {}, one.V_t0, one.V_t1, 1, 2 * kStep);
     one.x.row(0) += kStep * one.v.row(0);
     held.hold({kStep, 0.5, one.x, one.v});
     one.v.row(0) = Eigen::RowVector3d(0, 0, -0.5);

@@ -352,6 +352,25 @@ TEST(Physics, SheetComesToRestAndStays) {
   EXPECT_LT((late - early).topRows(49).rowwise().norm().maxCoeff() / 0.2, 1e-6) << "m/s";
 }
 
+TEST(Physics, SheetsThatLieOnOneAnotherKeepTheirDistances) {
+  // Of 30 mm 23.1 are left, which is lost where the stack is put down. Where loads ended with a collision step 19.1
+  // were, without loads 18.2, and 17 tries were thrown away.
+  constexpr int kLayers = 10, kVertices = 4 * 4;
+  Simulation simulation(
+      parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.5\n"
+                  "max_step_s = 0.0166667\n[collision]\nthickness_m = 0.003\nfriction_static = 0.3\n"
+                  "[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.045, height_m = 0.045}\ncopies = 10\n"
+                  "copy_offset_m = [0, 0, 0.0032]\nposition_m = [0, 0, 0.0032]\ndensity_kg_m2 = 0.2\n"
+                  "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\ndamping_ratio = 0.1\n" +
+                      plane(),
+                  "stack.toml"));
+  std::int64_t halvings = 0;
+  while (simulation.clock().time_s() < 0.5 - 1e-9) halvings += simulation.step().halvings;
+  EXPECT_EQ(halvings, 0);
+  const double top = mean(simulation.x(), kVertices * (kLayers - 1), kVertices * kLayers).z();
+  EXPECT_GT(top, 0.72 * kLayers * 0.003);
+}
+
 TEST(Physics, SheetOverTheEdgeOfABoxComesToRest) {
   // Its weight and its friction hold it with room to spare: 43 % hangs, and an edge turned by 90 degrees divides the
   // pull by exp(0.6 pi / 2) = 2.6. It moved by 6 mm in the fifth second, at steps of 1/60 s or a tenth of that, when
