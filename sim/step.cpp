@@ -93,7 +93,8 @@ StepResult Simulation::step() {
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried.safe, std::move(tried.end));
-    loads_ = std::move(tried.loads);
+    // Where a body had to wait there was no room, and what presses without room would be learnt without end.
+    loads_ = tried.safe.report.waiting_bodies.empty() ? std::move(tried.loads) : std::vector<ContactLoad>();
     const bool few = tried.safe.report.first_collisions <= few_collisions();
     clock_.advance(few && result.dynamics.unconverged == 0);
   }
