@@ -66,7 +66,6 @@ class HeldContacts {
     double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
     double load_m_s2 = 0;                     ///< as in ContactLoad; 0 for edges
     double pushed = 0;                        ///< in this step of the dynamics, m, >= 0
-    bool looked = false;                      ///< where it is, in bear()
     bool repelled = false, rubbed = false;
   };
 
