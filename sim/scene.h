@@ -101,6 +101,7 @@ struct Scene {
   double drag_1_s = 0, quadratic_drag_1_m = 0;
   StrainLimits strain;
   CollisionOptions collision;
+  std::int32_t contact_sweeps = 1;  ///< over the contacts that explicit dynamics hold, in each of their steps
   SqueezePolicy squeeze = SqueezePolicy::kStop;
   std::vector<ClothSpec> cloths;
   std::vector<BodySpec> bodies;

@@ -256,7 +256,13 @@ Scene read_root(TomlTable root) {
   }
   std::optional<TomlTable> collision = root.table("collision");
   const bool stiffness_given = collision && collision->has("repulsion_stiffness_n_m");
-  if (collision) scene.collision = read_collision(std::move(*collision));
+  if (collision) {
+    if (scene.solver != Solver::kExplicit && collision->has("contact_sweeps")) {
+      collision->fail("contact_sweeps", "contact_sweeps is for solver = \"explicit\" alone; leave it out");
+    }
+    scene.contact_sweeps = static_cast<std::int32_t>(collision->integer("contact_sweeps", 1, 100, 1));
+    scene.collision = read_collision(std::move(*collision));
+  }
   ContactReader contacts(scene.collision);
   std::set<std::string> names;
   for (TomlTable& table : root.tables("cloth")) {

@@ -120,7 +120,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     std::vector<RepulsionContact> held_to_the_end;
     {
       const PhaseTimer timer(result.phases.dynamics);
-      HeldContacts contacts(held, loads_, x_, candidate, world_.cloth_vertex_count, dt_s);
+      HeldContacts contacts(held, loads_, x_, candidate, world_.cloth_vertex_count, dt_s, scene_.contact_sweeps);
       result.dynamics = advance_cloth(candidate, tried.end, held.empty() ? nullptr : &contacts);
       tried.held = contacts.count();
       tried.loads = contacts.loads();

@@ -245,6 +245,9 @@ std::string describe(const Scene& scene, const World& world) {
     line(what, part);
     what = "";
   }
+  if (scene.collision.repulsion && scene.contact_sweeps > 1) {
+    line("", fmt::format("{} sweeps over held contacts in a step of the dynamics", scene.contact_sweeps));
+  }
   const auto describe_own = [&](const auto& part) {
     if (!part.contact) return;
     line("", fmt::format("{}: {}", part.name, fmt::join(describe(*part.contact, scene.collision.repulsion), ", ")));

@@ -32,10 +32,10 @@ struct OneContact {
   }
 
   /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with.
-  RepulsionCount step(double load_m_s2 = 0) {
+  RepulsionCount step(double load_m_s2 = 0, int sweeps = 1) {
     for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kStep * v.row(i);
     const std::vector<RepulsionContact> contacts{contact};
-    HeldContacts held(contacts, {{contact.first, contact.second, load_m_s2}}, V_t0, V_t1, cloth_count, kStep);
+    HeldContacts held(contacts, {{contact.first, contact.second, load_m_s2}}, V_t0, V_t1, cloth_count, kStep, sweeps);
     held.hold({kStep, 1, x, v});
     loads = held.loads();
     return held.count();
@@ -70,6 +70,61 @@ OneContact vertex_over_body(const Vec3& velocity, const Vec3& moved = Vec3::Zero
   return one;
 }
 
+/// Vertices one above the other over a face of a body, a thickness apart: each lies on the one below by a contact of
+/// its own.
+struct Column {
+  static constexpr int kCount = 12;
+  static constexpr double kGravity = 10, kShort = 4e-4;
+  Positions V = Positions(kCount + 3, 3);
+  std::vector<RepulsionContact> contacts;
+  std::vector<ContactLoad> loads;
+  LaneVectors x, v;
+  double highest = 0, lowest = 1;  ///< of the distances of neighbours over the thickness, ever
+
+  Column() {
+    for (int i = 0; i < kCount; ++i) V.row(i) = Eigen::RowVector3d(0, 0, (i + 1) * kThickness);
+    V.bottomRows(3) << -2, -2, 0, 2, -2, 0, 0, 4, 0;
+    add({0, kCount, kCount + 1, kCount + 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3});
+    // A face of one corner alone is enough: the others have no weight.
+    for (int i = 1; i < kCount; ++i) add({i, i - 1, kCount + 1, kCount + 2}, {1, 1, 0, 0});
+    x.copy(V.topRows(kCount));
+    v.resize(kCount);
+    v.set_zero();
+  }
+
+  void add(const std::array<VertexId, 4>& vertices, const std::array<double, 4>& weights) {
+    std::vector<double> inverse_mass(kCount + 3, 1.0);
+    for (int i = kCount; i < kCount + 3; ++i) inverse_mass[static_cast<std::size_t>(i)] = 0;
+    RepulsionContact contact;
+    contact.first = vertices[0];
+    contact.second = vertices[1];
+    contact.interaction = make_interaction(PairKind::kVf, vertices, weights, inverse_mass);
+    contact.x_t0 = gather(contact.interaction, V);
+    contact.normal = Vec3::UnitZ();
+    contact.properties.thickness_m = kThickness;
+    contacts.push_back(contact);
+  }
+
+  /// A collision step of 40 steps of the dynamics.
+  void step() {
+    constexpr int kSteps = 40;
+    HeldContacts held(contacts, loads, V, V, kCount, kSteps * kShort, 1);
+    for (int step = 1; step <= kSteps; ++step) {
+      for (int i = 0; i < kCount; ++i) {
+        v.row(i).z() -= kShort * kGravity;
+        x.row(i) += kShort * v.row(i);
+      }
+      held.hold({kShort, double(step) / kSteps, x, v});
+      for (int i = 0; i < kCount; ++i) {
+        const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kThickness;
+        highest = std::max(highest, gap);
+        lowest = std::min(lowest, gap);
+      }
+    }
+    loads = held.loads();
+  }
+};
+
 }  // namespace
 
 TEST(HeldContacts, ComeNoNearerThanTheThicknessAndAddNeitherMomentumNorEnergy) {
@@ -91,7 +146,7 @@ TEST(HeldContacts, ComeNoNearerThanTheThicknessAndAddNeitherMomentumNorEnergy) {
   });
 }
 
-TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadWasTooMuch) {
+TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadOrOverRelaxedSweepsWereTooMuch) {
   selvage::testing::check_property(300, 33, [] {
     const RandomPair pair = random_contact(number_between(1e-3, 0.4));
     RC_PRE(lever_share(pair.interaction) == 1);
@@ -100,7 +155,7 @@ TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadWasTooMuch) {
     OneContact with = without;
     without.step();
     const double load_m_s2 = number_between(0, 100);
-    with.step(load_m_s2);
+    with.step(load_m_s2, integer_in(1, 5));
     RC_CLASSIFY(!without.loads.empty());
     for (Eigen::Index i = 0; i < 4; ++i) {
       RC_ASSERT((with.v.row(i) - without.v.row(i)).norm() <= 1e-11);
@@ -130,58 +185,13 @@ TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
 }
 
 TEST(HeldContacts, AColumnRestsOnItsLoads) {
-  // Vertices one above the other over a face of a body: each lies on the one below by a contact of its own.
-  constexpr int kCount = 12;
-  constexpr double kGravity = 10, kShort = 4e-4;
-  Positions V(kCount + 3, 3);
-  for (int i = 0; i < kCount; ++i) V.row(i) = Eigen::RowVector3d(0, 0, (i + 1) * kThickness);
-  V.bottomRows(3) << -2, -2, 0, 2, -2, 0, 0, 4, 0;
-  std::vector<double> inverse_mass(kCount + 3, 1.0);
-  for (int i = kCount; i < kCount + 3; ++i) inverse_mass[static_cast<std::size_t>(i)] = 0;
-  std::vector<RepulsionContact> contacts;
-  const auto add = [&](const std::array<VertexId, 4>& vertices, const std::array<double, 4>& weights) {
-    RepulsionContact contact;
-    contact.first = vertices[0];
-    contact.second = vertices[1];
-    contact.interaction = make_interaction(PairKind::kVf, vertices, weights, inverse_mass);
-    contact.x_t0 = gather(contact.interaction, V);
-    contact.normal = Vec3::UnitZ();
-    contact.properties.thickness_m = kThickness;
-    contacts.push_back(contact);
-  };
-  add({0, kCount, kCount + 1, kCount + 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3});
-  // A face of one corner alone is enough: the others have no weight.
-  for (int i = 1; i < kCount; ++i) add({i, i - 1, kCount + 1, kCount + 2}, {1, 1, 0, 0});
-
-  LaneVectors x, v;
-  x.copy(V.topRows(kCount));
-  v.resize(kCount);
-  v.set_zero();
-  std::vector<ContactLoad> loads;
-  double highest = 0, lowest = 1;  // of the distances of neighbours over the thickness
-  const auto take_step = [&](HeldContacts& held, double share) {
-    for (int i = 0; i < kCount; ++i) {
-      v.row(i).z() -= kShort * kGravity;
-      x.row(i) += kShort * v.row(i);
-    }
-    held.hold({kShort, share, x, v});
-    for (int i = 0; i < kCount; ++i) {
-      const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kThickness;
-      highest = std::max(highest, gap);
-      lowest = std::min(lowest, gap);
-    }
-  };
-  for (int collision_step = 0; collision_step < 75; ++collision_step) {
-    constexpr int kSteps = 40;
-    HeldContacts held(contacts, loads, V, V, kCount, kSteps * kShort);
-    for (int step = 1; step <= kSteps; ++step) take_step(held, double(step) / kSteps);
-    loads = held.loads();
-  }
-  EXPECT_GT(lowest, 0.99);
-  EXPECT_LT(highest, 1.01);
-  for (int i = 0; i < kCount; ++i) EXPECT_LT(v.row(i).norm(), 1e-6) << i;
-  ASSERT_EQ(loads.size(), static_cast<std::size_t>(kCount));
-  EXPECT_NEAR(loads[0].acceleration_m_s2, kCount * kGravity, 1e-3) << "the lowest bears all";
+  Column column;
+  for (int collision_step = 0; collision_step < 75; ++collision_step) column.step();
+  EXPECT_GT(column.lowest, 0.99);
+  EXPECT_LT(column.highest, 1.01);
+  for (int i = 0; i < Column::kCount; ++i) EXPECT_LT(column.v.row(i).norm(), 1e-6) << i;
+  ASSERT_EQ(column.loads.size(), static_cast<std::size_t>(Column::kCount));
+  EXPECT_NEAR(column.loads[0].acceleration_m_s2, Column::kCount * Column::kGravity, 1e-3) << "the lowest bears all";
 }
 
 TEST(HeldContacts, StickWithinTheConeAndSlideBeyond) {
@@ -210,7 +220,7 @@ TEST(HeldContacts, AreGivenOnAsTheyWereLastLookedAt) {
   // It slides over the border of the face at y = -2, and is pressed there: along the line to the border.
   OneContact one = vertex_over_body({0, -2.1 / kStep, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
-  HeldContacts held(contacts, {}, one.V_t0, one.V_t1, 1, 2 * kStep);
+  HeldContacts held(contacts, {}, one.V_t0, one.V_t1, 1, 2 * kStep, 1);
   EXPECT_EQ(held.contacts().front().normal, one.contact.normal);
   one.x.row(0) += kStep * one.v.row(0);
   held.hold({kStep, 0.5, one.x, one.v});
@@ -229,7 +239,7 @@ TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
   for (const double to_y : {-1.9, -2.5}) {
     OneContact one = vertex_over_body({0, to_y / kStep, 0});
     const std::vector<RepulsionContact> contacts{one.contact};
-    HeldContacts held(contacts, {}, one.V_t0, one.V_t1, 1, 2 * kStep);
+    HeldContacts held(contacts, {}, one.V_t0, one.V_t1, 1, 2 * kStep, 1);
     one.x.row(0) += kStep * one.v.row(0);
     held.hold({kStep, 0.5, one.x, one.v});
     one.v.row(0) = Eigen::RowVector3d(0, 0, -0.5);

@@ -66,6 +66,9 @@ const BadScene kBadScenes[] = {
     {"an unknown policy", "squeeze = \"explode\"\n" + kScene, 1, "\"stop\", \"yield\""},
     {"an unknown solver", "solver = \"magic\"\n" + kScene, 1, "\"explicit\", \"implicit\""},
     {"a limit of the other solver", "solver = \"implicit\"\nstrain_rate_limit = 0.1\n" + kScene, 2, "leave it out"},
+    {"sweeps under the other solver", "solver = \"implicit\"\n" + kScene + "[collision]\ncontact_sweeps = 4\n", 11,
+     "leave it out"},
+    {"no sweep", kScene + "[collision]\ncontact_sweeps = 0\n", 10, "contact_sweeps must be an integer"},
     {"two surfaces", kScene + "[[body]]\nsphere = {radius_m = 1}\nbox = {size_m = [1, 1, 1]}\n", 11, "second surface"},
     {"no surface", kScene + "[[body]]\nname = \"air\"\n", 9, "no surface"},
     {"a name twice", kScene + "[[body]]\nname = \"cloth\"\nsphere = {radius_m = 1}\n", 10, "a second \"cloth\""},
@@ -172,6 +175,7 @@ TEST(SceneReader, DefaultsAreThePapers) {
   EXPECT_EQ(scene.collision.thickness_m, 1e-3);
   EXPECT_EQ(scene.collision.tolerance_m, 1e-6);
   EXPECT_EQ(scene.collision.overlap_fraction, 0.1);
+  EXPECT_EQ(scene.contact_sweeps, 1);
   EXPECT_EQ(scene.collision.repulsion_stiffness_n_m, 50) << "that of the stretch springs (7.2)";
   EXPECT_EQ(scene.strain.strain, 0.1);
   EXPECT_EQ(scene.strain.strain_rate, 0.1);
@@ -194,6 +198,7 @@ duration_s = 2
 min_step_s = 0.005
 [collision]
 friction_static = 0.6
+contact_sweeps = 3
 precision = "float32"
 [[cloth]]
 name = "curtain"
@@ -230,6 +235,7 @@ rotation_deg = [0, 0, 90]
   EXPECT_EQ(scene.squeeze, SqueezePolicy::kYield);
   EXPECT_EQ(scene.collision.friction_static, 0.6);
   EXPECT_EQ(scene.collision.friction_kinetic, 0.6) << "one coefficient, as in the paper";
+  EXPECT_EQ(scene.contact_sweeps, 3);
   EXPECT_EQ(scene.collision.precision, CollisionOptions::Precision::kFloat32);
   const ClothSpec& cloth = scene.cloths.at(0);
   EXPECT_EQ(cloth.placement.rotation_deg, Vec3(90, 0, 0));
