@@ -14,8 +14,8 @@ namespace {
 /// all of it velocities, which last by themselves, are learnt as forces, and it swings.
 constexpr double kLearning = 0.5;
 
-/// Of what is missing, in all sweeps but the last (successive over-relaxation): 25 sheets that are laid over a ball keep
-/// 2.5 to 3 mm of 3 under four sweeps with it, 1.3 to 3 without, 0.8 to 3 under one (docs/simulator-speed.md).
+/// Of what is missing, in all sweeps but the last (successive over-relaxation): 25 sheets that are laid over a ball
+/// keep 2.5 to 3 mm of 3 under four sweeps with it, 1.3 to 3 without, 0.8 to 3 under one (docs/simulator-speed.md).
 constexpr double kOverRelaxation = 1.7;
 
 void move(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
