@@ -70,7 +70,9 @@ void HeldContacts::hold(const MidstepMotion& step) {
       for (std::size_t k = 0; k < kind->size(); ++k) {
         Line& line = lines_[(*kind)[backwards_ ? kind->size() - 1 - k : k]];
         hold(line, is_last ? 1 : kOverRelaxation, step);
-        if (is_last) rub(line, step);
+        if (!is_last || !(line.pushed > 0)) continue;
+        line.repelled = true;
+        rub(line, step);
       }
     }
     backwards_ = !backwards_;
@@ -135,8 +137,6 @@ void HeldContacts::look_again(Line& line, const MidstepMotion& step) const {
 }
 
 void HeldContacts::rub(Line& line, const MidstepMotion& step) const {
-  if (!(line.pushed > 0)) return;
-  line.repelled = true;
   const RepulsionContact& contact = line.contact;
   const Interaction& interaction = contact.interaction;
   FrictionLoad load{line.pushed};
