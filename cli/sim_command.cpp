@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <oneapi/tbb/global_control.h>
 
 #include "cli/interrupt.h"
@@ -107,15 +105,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
   return ExitCode::kClean;
 }
 
-/// Buffers of megabytes come and go in every step; what is given back to the system comes back cleared, page by page.
-/// docs/simulator-speed.md has what that cost.
-void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-}
-
 ExitCode simulate(const SimArguments& arguments) {
-  keep_freed_memory();
   std::optional<tbb::global_control> limit;
   if (arguments.threads) limit.emplace(tbb::global_control::max_allowed_parallelism, *arguments.threads);
   sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);
