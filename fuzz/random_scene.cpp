@@ -41,6 +41,7 @@ class SceneText {
     length("tolerance_m", thickness() * std::ldexp(1.0, -source_.range(1, 16)));
     if (source_.coin()) value("friction_static", 0.1 * source_.range(1, 9));
     if (source_.one_in(4)) line("repulsion = false");
+    if (source_.one_in(3)) line("contact_sweeps = " + std::to_string(source_.range(2, 5)));
     line("impulse_rounds = " + std::to_string(source_.range(0, 6)));
     line("zone_rounds = " + std::to_string(source_.range(0, 6)));
     if (source_.one_in(3)) line("precision = \"float32\"");

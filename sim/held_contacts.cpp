@@ -10,12 +10,13 @@ namespace selvage::sim {
 namespace {
 
 /// Share of what a contact had to add that it remembers. A column of twelve that is put down in steps of 0.4 ms keeps
-/// every distance to a hundredth and comes to rest (tests/sim/held_contacts_test.cpp); with nothing it sinks, and with
-/// all of it velocities, which last by themselves, are learnt as forces, and it swings.
+/// every distance to a hundredth and comes to rest (tests/sim/held_contacts_test.cpp). Measured: with nothing it sinks,
+/// and with all of it velocities, which last by themselves, are learnt as forces, and it swings.
 constexpr double kLearning = 0.5;
 
-/// Of what is missing, in all sweeps but the last (successive over-relaxation): 25 sheets that are laid over a ball
-/// keep 2.5 to 3 mm of 3 under four sweeps with it, 1.3 to 3 without, 0.8 to 3 under one (docs/simulator-speed.md).
+/// Factor on what is missing, in all sweeps but the last (successive over-relaxation); what was too much is taken back
+/// as it is. Measured: 25 sheets that are laid over a ball keep 2.5 to 3 mm of 3 under four sweeps with it, 1.3 to 3
+/// without, 0.8 to 3 under one (docs/simulator-speed.md).
 constexpr double kOverRelaxation = 1.7;
 
 void move(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
@@ -48,6 +49,7 @@ void HeldContacts::set(Line& line) const {
   const Interaction& interaction = line.contact.interaction;
   const Vec3& normal = line.contact.normal;
   const PairVectors unit = distribute(interaction, normal);
+  line.lever_share = lever_share(interaction);
   line.scripted_t0 = line.scripted_t1 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const VertexId vertex = interaction.vertices[i];
@@ -69,6 +71,7 @@ void HeldContacts::hold(const MidstepMotion& step) {
     for (const std::vector<std::size_t>* kind : {&vf_, &ee_}) {
       for (std::size_t k = 0; k < kind->size(); ++k) {
         Line& line = lines_[(*kind)[backwards_ ? kind->size() - 1 - k : k]];
+        if (!is_last && line.lever_share < 1) continue;  // once, or the limit of its lever would not hold
         hold(line, is_last ? 1 : kOverRelaxation, step);
         if (!is_last || !(line.pushed > 0)) continue;
         line.repelled = true;
@@ -105,7 +108,7 @@ void HeldContacts::learn(Line& line, const MidstepMotion& step) {
 }
 
 void HeldContacts::push(Line& line, double change, const MidstepMotion& step) {
-  line.pushed += change;
+  line.pushed += line.lever_share * change;
   for (std::size_t i = 0; i < 4; ++i) {
     if (line.shares[i] != 0) move(line.vertices[i], change * line.shares[i] * line.contact.normal, step);
   }
@@ -198,6 +201,7 @@ std::vector<ContactLoad> HeldContacts::loads() const {
     const Line& line = lines_[at];
     if (line.load_m_s2 > 0) result.push_back({line.contact.first, line.contact.second, line.load_m_s2});
   }
+  // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
   std::ranges::stable_sort(result, {}, pair_of);
   const auto same = [](const ContactLoad& a, const ContactLoad& b) { return pair_of(a) == pair_of(b); };
   result.erase(std::ranges::unique(result, same).begin(), result.end());

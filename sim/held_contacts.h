@@ -36,16 +36,16 @@ class HeldContacts {
   HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
                const Positions& V_t0, const Positions& V_t1, Eigen::Index cloth_count, double dt_s, int sweeps);
 
-  /// The loads, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3): a contact comes no
-  /// nearer than its thickness, or than it was before the step, and takes back what was too much of its load, or in the
-  /// sweeps before, which are over-relaxed. They keep linear momentum; a contact alone, which ends alike after any
-  /// number of sweeps, adds no energy (for many tests/sim/physics_test.cpp asks the sum). Every contact
-  /// that presses is first looked at where it is now: held where they were at the start of the collision step, cloth
-  /// that a ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an
-  /// edge was held in the air. In turn back and forth, but vertices before edges always: in cloth at rest on a plane
-  /// they leave nothing for the edges between them to press, while edges alone lift one end to hold the other (a corner
-  /// swung by 2 micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a sweep,
-  /// serial: same bits for any number of threads.
+  /// The loads, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). A contact alone
+  /// ends no nearer than its thickness, or than it was before the step, after any number of sweeps, and adds no
+  /// energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far. Where its lever is limited
+  /// (interaction.h) it is pushed once, as far as that lets it. Of many something is left (tests/sim/physics_test.cpp
+  /// asks their energy). They keep linear momentum. Every contact that presses is first looked at where it is now:
+  /// held where they were at the start of the collision step, cloth that a ball pulls along at 3.6 m/s gained 8 % of
+  /// kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. In turn back and forth,
+  /// but vertices before edges always: in cloth at rest on a plane they leave nothing for the edges between them to
+  /// press, while edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever). Call for the
+  /// steps of a collision step in their order. O(contacts) a sweep, serial: same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
   /// As they were last looked at, measured at V_t0: the collision step repels them where they are at its end.
@@ -65,6 +65,7 @@ class HeldContacts {
     std::array<double, 4> weights{};          ///< 0 for those
     std::array<double, 4> shares{};           ///< that they take of a change of the distance; 0 for those
     double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
+    double lever_share = 1;                   ///< of a change of the distance that is done
     double load_m_s2 = 0;                     ///< as in ContactLoad; 0 for edges
     double pushed = 0;                        ///< in this step of the dynamics, m, >= 0
     bool repelled = false, rubbed = false;

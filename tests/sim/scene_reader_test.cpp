@@ -69,6 +69,7 @@ const BadScene kBadScenes[] = {
     {"sweeps under the other solver", "solver = \"implicit\"\n" + kScene + "[collision]\ncontact_sweeps = 4\n", 11,
      "leave it out"},
     {"no sweep", kScene + "[collision]\ncontact_sweeps = 0\n", 10, "contact_sweeps must be an integer"},
+    {"too many sweeps", kScene + "[collision]\ncontact_sweeps = 101\n", 10, "contact_sweeps must be an integer"},
     {"two surfaces", kScene + "[[body]]\nsphere = {radius_m = 1}\nbox = {size_m = [1, 1, 1]}\n", 11, "second surface"},
     {"no surface", kScene + "[[body]]\nname = \"air\"\n", 9, "no surface"},
     {"a name twice", kScene + "[[body]]\nname = \"cloth\"\nsphere = {radius_m = 1}\n", 10, "a second \"cloth\""},

@@ -357,9 +357,10 @@ TEST(World, PartsAreInOrderAndPinsAreColliders) {
 }
 
 TEST(World, DescriptionNamesOnlyWhatIsModelled) {
-  const Scene full = small_scene(1);
+  Scene full = small_scene(1);
+  full.contact_sweeps = 4;
   const std::string all = describe(full, build_world(full));
-  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "ball"}) {
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "ball", "4 sweeps"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part;
   }
   const Scene bare = parse_scene(R"(
@@ -374,7 +375,7 @@ stretch_n_m = 40
 )",
                                  "bare.toml");
   const std::string least = describe(bare, build_world(bare));
-  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "body", "pin", "drag"}) {
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "body", "pin", "drag", "sweeps"}) {
     EXPECT_EQ(least.find(part), std::string::npos) << part;
   }
 }
