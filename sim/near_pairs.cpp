@@ -1,8 +1,11 @@
 #include "sim/near_pairs.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <span>
 
-#include "kernel/collisions.h"
+#include "kernel/lane_motion.h"
 #include "sim/parallel.h"
 #include "sim/quick_proximity.h"
 #include "sim/repulsion.h"
@@ -14,12 +17,62 @@ namespace {
 /// far above 2^-52, far below what tells two pairs apart.
 constexpr double kRounding = 1 + 1e-6;
 
-NearPair make_near_pair(PairKind kind, const std::array<VertexId, 4>& vertices, const ContactTable& contacts,
-                        const Positions& V) {
-  PairVectors x;
-  for (std::size_t k = 0; k < 4; ++k) x[k] = V.row(vertices[k]);
-  const QuickProximity quick = quick_proximity(kind, x);
-  return {vertices, quick.weights, quick.direction, quick.distance, contacts.of(kind, vertices).thickness_m};
+/// Candidates of one task. The tasks are the same for any number of threads, and so is the order of what they find.
+constexpr std::size_t kTaskSize = 4 * detail::kPairBlock;
+
+/// What the tasks found, each what it was given in order.
+template <typename Candidate>
+struct Found {
+  struct Task {
+    std::vector<NearPair> pairs;
+    std::vector<Candidate> candidates;
+  };
+  std::vector<Task> tasks;
+
+  [[nodiscard]] std::size_t count() const {
+    return std::accumulate(tasks.begin(), tasks.end(), std::size_t{0},
+                           [](std::size_t sum, const Task& task) { return sum + task.pairs.size(); });
+  }
+  /// Joins them. REQUIRES room for count().
+  void copy_to(NearPair* pairs, Candidate* candidates) const {
+    std::vector<std::size_t> begin(tasks.size());
+    for (std::size_t i = 1; i < tasks.size(); ++i) begin[i] = begin[i - 1] + tasks[i - 1].pairs.size();
+    tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+      std::ranges::copy(tasks[i].pairs, pairs + begin[i]);
+      std::ranges::copy(tasks[i].candidates, candidates + begin[i]);
+    });
+  }
+};
+
+template <typename Candidate>
+void find_block(const Mesh& mesh, const ContactTable& contacts, std::span<const Candidate> block, const Positions& V,
+                QuickProximities& quick, typename Found<Candidate>::Task& found) {
+  const detail::LanePairs lanes(mesh, block);
+  quick_proximities(lanes, V, quick);
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    std::array<VertexId, 4> vertices{};
+    for (std::size_t k = 0; k < 4; ++k) vertices[k] = static_cast<VertexId>(lanes.vertices(k)[i]);
+    const double thickness_m = contacts.of(lanes.kind(), vertices).thickness_m;
+    if (quick.distance[i] > kRounding * kContactReach * thickness_m) continue;
+    const QuickProximity proximity = quick[i];
+    found.pairs.push_back({vertices, proximity.weights, proximity.direction, proximity.distance, thickness_m});
+    found.candidates.push_back(block[i]);
+  }
+}
+
+template <typename Candidate>
+Found<Candidate> find_near(const Mesh& mesh, const ContactTable& contacts, const std::vector<Candidate>& all,
+                           const Positions& V) {
+  Found<Candidate> found{std::vector<typename Found<Candidate>::Task>((all.size() + kTaskSize - 1) / kTaskSize)};
+  tbb::parallel_for(std::size_t{0}, found.tasks.size(), [&](std::size_t task) {
+    QuickProximities quick;
+    const std::size_t end = std::min(all.size(), (task + 1) * kTaskSize);
+    for (std::size_t first = task * kTaskSize; first < end; first += detail::kPairBlock) {
+      const auto block = std::span(all).subspan(first, std::min(detail::kPairBlock, end - first));
+      find_block(mesh, contacts, block, V, quick, found.tasks[task]);
+    }
+  });
+  return found;
 }
 
 bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_t1) {
@@ -31,71 +84,56 @@ bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_
   return !(pair.distance + moved.dot(pair.direction) >= pair.thickness_m);
 }
 
+/// The numbers below `count` for which is_one(i), ascending; asked in parallel.
+template <typename IsOne>
+std::vector<std::size_t> those_where(std::size_t count, const IsOne& is_one) {
+  std::vector<std::uint8_t> answer(count);
+  parallel_each(static_cast<Eigen::Index>(count), [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    answer[at] = is_one(at);
+  });
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (answer[i] != 0) result.push_back(i);
+  }
+  return result;
+}
+
 }  // namespace
 
 void NearPairs::find(const Mesh& mesh, const ContactTable& contacts, const Candidates& candidates,
                      const Positions& V_t0) {
   vertex_count_ = V_t0.rows();
-  const std::size_t vf_count = candidates.vf.size();
-  pairs_.resize(vf_count + candidates.ee.size());
-  parallel_each(std::ssize(pairs_), [&](Eigen::Index i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (at < vf_count) {
-      const auto [vertex, face] = candidates.vf[at];
-      pairs_[at] = make_near_pair(PairKind::kVf, pair_vertices(mesh, PairKind::kVf, vertex, face), contacts, V_t0);
-    } else {
-      const auto [a, b] = candidates.ee[at - vf_count];
-      pairs_[at] = make_near_pair(PairKind::kEe, pair_vertices(mesh, PairKind::kEe, a, b), contacts, V_t0);
-    }
-  });
-  candidates_.vf.clear();
-  candidates_.ee.clear();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    if (pairs_[i].distance > kRounding * kContactReach * pairs_[i].thickness_m) continue;
-    pairs_[count++] = pairs_[i];
-    if (i < vf_count) {
-      candidates_.vf.push_back(candidates.vf[i]);
-    } else {
-      candidates_.ee.push_back(candidates.ee[i - vf_count]);
-    }
-  }
-  pairs_.resize(count);
+  const auto vf = find_near(mesh, contacts, candidates.vf, V_t0);
+  const auto ee = find_near(mesh, contacts, candidates.ee, V_t0);
+  candidates_.vf.resize(vf.count());
+  candidates_.ee.resize(ee.count());
+  pairs_.resize(vf.count() + ee.count());
+  vf.copy_to(pairs_.data(), candidates_.vf.data());
+  ee.copy_to(pairs_.data() + vf.count(), candidates_.ee.data());
 }
 
 std::vector<std::size_t> NearPairs::approaching(const Positions& V_t0, const Positions& V_t1) const {
-  std::vector<std::uint8_t> comes(pairs_.size());
-  parallel_each(std::ssize(pairs_), [&](Eigen::Index i) {
-    const auto at = static_cast<std::size_t>(i);
-    comes[at] = comes_near(pairs_[at], V_t0, V_t1);
-  });
-  std::vector<std::size_t> result;
-  for (std::size_t i = 0; i < comes.size(); ++i) {
-    if (comes[i] != 0) result.push_back(i);
-  }
-  return result;
+  return those_where(pairs_.size(), [&](std::size_t i) { return comes_near(pairs_[i], V_t0, V_t1); });
 }
 
 std::vector<std::size_t> NearPairs::with_nearer(const std::vector<std::size_t>& pairs) const {
   std::vector<double> reach(static_cast<std::size_t>(vertex_count_), -1);  // the farthest of `pairs` at each vertex
-  std::vector<std::uint8_t> is_taken(pairs_.size());
   for (const std::size_t i : pairs) {
-    is_taken[i] = 1;
     for (const VertexId v : pairs_[i].vertices) {
       double& farthest = reach[static_cast<std::size_t>(v)];
       farthest = std::max(farthest, kRounding * pairs_[i].distance);
     }
   }
-  std::vector<std::size_t> result;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+  std::vector<std::size_t> nearer = those_where(pairs_.size(), [&](std::size_t i) {
     const NearPair& pair = pairs_[i];
     const auto is_nearer = [&](VertexId v) { return pair.distance <= reach[static_cast<std::size_t>(v)]; };
     const auto* second_side = pair.vertices.begin() + (i < candidates_.vf.size() ? 1 : 2);
-    if (is_taken[i] != 0 || (std::any_of(pair.vertices.begin(), second_side, is_nearer) &&
-                             std::any_of(second_side, pair.vertices.end(), is_nearer))) {
-      result.push_back(i);
-    }
-  }
+    return std::any_of(pair.vertices.begin(), second_side, is_nearer) &&
+           std::any_of(second_side, pair.vertices.end(), is_nearer);
+  });
+  std::vector<std::size_t> result;
+  std::ranges::set_union(pairs, nearer, std::back_inserter(result));  // a distance may be NaN
   return result;
 }
 

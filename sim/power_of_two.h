@@ -1,7 +1,9 @@
 // Exact scaling by powers of two, so that squares and products stay in the range of doubles.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
+
+#include "kernel/power_of_two.h"
 
 namespace selvage::sim {
 
@@ -9,9 +11,7 @@ namespace selvage::sim {
 /// REQUIRES 0 <= length < 2^1023.
 [[nodiscard]] inline double power_of_two_above(double length) {
   constexpr int kLeastExponent = -1000;
-  int exponent = kLeastExponent;
-  if (length > 0) std::frexp(length, &exponent);
-  return std::ldexp(1.0, exponent < kLeastExponent ? kLeastExponent : exponent);
+  return detail::power_of_two(length > 0 ? std::max(detail::exponent_of(length), kLeastExponent) : kLeastExponent);
 }
 
 }  // namespace selvage::sim

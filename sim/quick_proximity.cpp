@@ -1,78 +1,203 @@
 #include "sim/quick_proximity.h"
 
-#include <algorithm>
 #include <limits>
-
-#include <Eigen/Geometry>
 
 #include "sim/power_of_two.h"
 
-namespace selvage::sim {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/quick_proximity.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-/// The origin's nearest point on the segment from a to b: its share of b.
-double share_on_segment(const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  return std::clamp(-a.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-}
+#include "kernel/lane_vector-inl.h"
 
-/// The nearest of the points a (1 - s) + b s on an edge of the triangle, if nearer than `best`.
-void consider_edge(const std::array<Vec3, 3>& corner, std::size_t a, std::size_t b, double& best,
-                   std::array<double, 3>& weights) {
-  const double share = share_on_segment(corner[a], corner[b]);
-  const double squared = (corner[a] + share * (corner[b] - corner[a])).squaredNorm();
-  if (squared >= best) return;
-  best = squared;
-  weights = {};
-  weights[a] = 1 - share;
-  weights[b] = share;
-}
+HWY_BEFORE_NAMESPACE();
+namespace selvage::sim::HWY_NAMESPACE {
 
-/// The origin's nearest point of a triangle.
-std::array<double, 3> nearest_on_triangle(const std::array<Vec3, 3>& corner) {
-  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-  std::array<double, 3> areas{};
-  for (std::size_t k = 0; k < 3; ++k) areas[k] = corner[(k + 1) % 3].cross(corner[(k + 2) % 3]).dot(normal);
-  if (areas[0] > 0 && areas[1] > 0 && areas[2] > 0) {
-    const double sum = areas[0] + areas[1] + areas[2];
-    return {areas[0] / sum, areas[1] / sum, areas[2] / sum};
+namespace hn = hwy::HWY_NAMESPACE;
+using detail::HWY_NAMESPACE::Absolute;
+using detail::HWY_NAMESPACE::Cross;
+using detail::HWY_NAMESPACE::Dot;
+using detail::HWY_NAMESPACE::Largest;
+using detail::HWY_NAMESPACE::Minus;
+using detail::HWY_NAMESPACE::Plus;
+using detail::HWY_NAMESPACE::Times;
+using detail::HWY_NAMESPACE::Value3;
+
+/// One pair a lane; the functions below say what happens in each. Comparisons with NaN are false on every target.
+template <class D>
+struct Nearest {
+  using Value = hn::Vec<D>;
+  using Vector = Value3<D>;
+
+  /// Of the pair's vertices after the first, which is the origin.
+  struct Weights {
+    Value of[3];
+  };
+
+  static HWY_INLINE Value Within01(Value share) {
+    const Value zero = hn::Zero(D()), one = hn::Set(D(), 1.0);
+    return hn::IfThenElse(hn::Lt(share, zero), zero, hn::IfThenElse(hn::Lt(one, share), one, share));
   }
-  double best = std::numeric_limits<double>::infinity();
-  std::array<double, 3> weights{};
-  for (std::size_t k = 0; k < 3; ++k) consider_edge(corner, k, (k + 1) % 3, best, weights);
-  return weights;
+
+  /// power_of_two_above() of `length`, whose biased exponent is one below that of its bound's.
+  static HWY_INLINE Value PowerOfTwoAbove(Value length) {
+    const hn::RebindToSigned<D> bits;
+    const auto least = hn::BitCast(bits, hn::Set(D(), power_of_two_above(0)));
+    const auto exponent = hn::ShiftRight<52>(hn::BitCast(bits, length));
+    const auto above = hn::ShiftLeft<52>(hn::Add(exponent, hn::Set(bits, 1)));
+    return hn::BitCast(D(), hn::IfThenElse(hn::Gt(above, least), above, least));
+  }
+
+  /// The nearest of the points a (1 - s) + b s on an edge of the triangle, if nearer than `best`.
+  template <std::size_t kA, std::size_t kB>
+  static HWY_INLINE void ConsiderEdge(const Vector* corner, Value& best, Weights& weights) {
+    const Vector &a = corner[kA], ab = Minus<D>(corner[kB], a);
+    const Value share = Within01(hn::Div(hn::Neg(Dot<D>(a, ab)), Dot<D>(ab, ab)));
+    const Vector point = Plus<D>(a, Times<D>(share, ab));
+    const Value squared = Dot<D>(point, point);
+    const auto is_farther = hn::Ge(squared, best);
+    best = hn::IfThenElse(is_farther, best, squared);
+    weights.of[kA] = hn::IfThenElse(is_farther, weights.of[kA], hn::Sub(hn::Set(D(), 1.0), share));
+    weights.of[kB] = hn::IfThenElse(is_farther, weights.of[kB], share);
+    weights.of[3 - kA - kB] = hn::IfThenElse(is_farther, weights.of[3 - kA - kB], hn::Zero(D()));
+  }
+
+  /// Of the origin and a face.
+  static HWY_INLINE Weights Vf(const Vector* corner) {
+    const Value zero = hn::Zero(D());
+    const Vector normal = Cross<D>(Minus<D>(corner[1], corner[0]), Minus<D>(corner[2], corner[0]));
+    const Value areas[3] = {Dot<D>(Cross<D>(corner[1], corner[2]), normal),
+                            Dot<D>(Cross<D>(corner[2], corner[0]), normal),
+                            Dot<D>(Cross<D>(corner[0], corner[1]), normal)};
+    const auto is_inside = hn::And(hn::Gt(areas[0], zero), hn::And(hn::Gt(areas[1], zero), hn::Gt(areas[2], zero)));
+    Value best = hn::Set(D(), std::numeric_limits<double>::infinity());
+    Weights weights{{zero, zero, zero}};
+    ConsiderEdge<0, 1>(corner, best, weights);
+    ConsiderEdge<1, 2>(corner, best, weights);
+    ConsiderEdge<2, 0>(corner, best, weights);
+    const Value sum = hn::Add(hn::Add(areas[0], areas[1]), areas[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      weights.of[k] = hn::Neg(hn::IfThenElse(is_inside, hn::Div(areas[k], sum), weights.of[k]));
+    }
+    return weights;
+  }
+
+  /// Of an edge from the origin to b and one from c to d: the unbounded lines' nearest points, the first share bounded;
+  /// then each the other's nearest in turn (Ericson).
+  static HWY_INLINE Weights Ee(const Vector& b, const Vector& c, const Vector& d) {
+    const Vector v = Minus<D>(d, c);
+    const Value uu = Dot<D>(b, b), uv = Dot<D>(b, v), vv = Dot<D>(v, v), ur = hn::Neg(Dot<D>(b, c)),
+                vr = hn::Neg(Dot<D>(v, c));
+    const Value sine_squared = hn::Sub(hn::Mul(uu, vv), hn::Mul(uv, uv));
+    const Value on_line = Within01(hn::Div(hn::Sub(hn::Mul(uv, vr), hn::Mul(ur, vv)), sine_squared));
+    const Value first = hn::IfThenElseZero(hn::Gt(sine_squared, hn::Zero(D())), on_line);
+    const Value t = Within01(hn::Div(hn::Add(hn::Mul(uv, first), vr), vv));
+    const Value s = Within01(hn::Div(hn::Sub(hn::Mul(uv, t), ur), uu));
+    return {{s, hn::Sub(t, hn::Set(D(), 1.0)), hn::Neg(t)}};
+  }
+
+  Value distance;
+  Vector direction;
+  Value first_weight;
+  Weights weights;
+
+  /// x: the pair's vertices.
+  template <PairKind kKind>
+  static HWY_INLINE Nearest Of(const Vector* x) {
+    Vector y[3], largest{hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+    for (std::size_t k = 0; k < 3; ++k) {
+      y[k] = Minus<D>(x[k + 1], x[0]);
+      largest = Largest<D>(largest, Absolute<D>(y[k]));
+    }
+    // So scaled products of four lengths neither overflow nor vanish.
+    const Value scale = PowerOfTwoAbove(hn::Max(largest.x, hn::Max(largest.y, largest.z)));
+    const Value down = hn::Div(hn::Set(D(), 1.0), scale);  // exact
+    for (Vector& v : y) v = Times<D>(down, v);
+    Nearest result;
+    if constexpr (kKind == PairKind::kVf) {
+      result.weights = Vf(y);
+      result.first_weight = hn::Set(D(), 1.0);
+    } else {
+      result.weights = Ee(y[0], y[1], y[2]);
+      result.first_weight = hn::Sub(hn::Set(D(), 1.0), result.weights.of[0]);
+    }
+    const Value* w = result.weights.of;
+    const Vector difference = Plus<D>(Plus<D>(Times<D>(w[0], y[0]), Times<D>(w[1], y[1])), Times<D>(w[2], y[2]));
+    const Value length = hn::Sqrt(Dot<D>(difference, difference));
+    result.distance = hn::Mul(length, scale);
+    result.direction = {hn::Div(difference.x, length), hn::Div(difference.y, length), hn::Div(difference.z, length)};
+    return result;
+  }
+};
+
+using Many = hn::CappedTag<double, detail::kMostWideLanes>;
+using One = hn::CappedTag<double, 1>;
+
+void Write(const Nearest<Many>& nearest, std::size_t i, QuickProximities& to) {
+  const Many d;
+  hn::StoreU(nearest.distance, d, to.distance.data() + i);
+  hn::StoreU(nearest.direction.x, d, to.direction[0].data() + i);
+  hn::StoreU(nearest.direction.y, d, to.direction[1].data() + i);
+  hn::StoreU(nearest.direction.z, d, to.direction[2].data() + i);
+  hn::StoreU(nearest.first_weight, d, to.weights[0].data() + i);
+  for (std::size_t k = 0; k < 3; ++k) hn::StoreU(nearest.weights.of[k], d, to.weights[k + 1].data() + i);
 }
 
-/// Weights of the nearest points of a vertex at the origin and a face.
-std::array<double, 4> vf_weights(const std::array<Vec3, 3>& face) {
-  const auto w = nearest_on_triangle(face);
-  return {1, -w[0], -w[1], -w[2]};
+template <PairKind kKind>
+void FindKind(const detail::LanePairs& pairs, const double* V, QuickProximities& result) {
+  const Many d;
+  const hn::RebindToSigned<Many> place;
+  for (std::size_t i = 0; i < pairs.count(); i += hn::Lanes(d)) {
+    Value3<Many> x[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto vertex = hn::LoadU(hn::Rebind<std::uint32_t, Many>(), pairs.vertices(k) + i);
+      const auto wide = hn::BitCast(place, hn::PromoteTo(hn::RebindToUnsigned<Many>(), vertex));
+      const auto row = hn::Add(hn::Add(wide, wide), wide);
+      x[k] = {hn::GatherIndex(d, V, row), hn::GatherIndex(d, V + 1, row), hn::GatherIndex(d, V + 2, row)};
+    }
+    Write(Nearest<Many>::Of<kKind>(x), i, result);
+  }
+}
+void FindMany(const detail::LanePairs& pairs, const double* V, QuickProximities& result) {
+  pairs.kind() == PairKind::kVf ? FindKind<PairKind::kVf>(pairs, V, result) : FindKind<PairKind::kEe>(pairs, V, result);
 }
 
-/// Of an edge from the origin to b and one from c to d: the unbounded lines' nearest points, the first share bounded;
-/// then each the other's nearest in turn (Ericson).
-std::array<double, 4> ee_weights(const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 v = d - c;
-  const double uu = b.squaredNorm(), uv = b.dot(v), vv = v.squaredNorm(), ur = -b.dot(c), vr = -v.dot(c);
-  const double sine_squared = uu * vv - uv * uv;
-  double s = sine_squared > 0 ? std::clamp((uv * vr - ur * vv) / sine_squared, 0.0, 1.0) : 0;
-  const double t = std::clamp((uv * s + vr) / vv, 0.0, 1.0);
-  s = std::clamp((uv * t - ur) / uu, 0.0, 1.0);
-  return {1 - s, s, t - 1, -t};
+QuickProximity FindOne(PairKind kind, const PairVectors& points) {
+  const One d;
+  Value3<One> x[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    x[k] = {hn::Set(d, points[k].x()), hn::Set(d, points[k].y()), hn::Set(d, points[k].z())};
+  }
+  const auto nearest = kind == PairKind::kVf ? Nearest<One>::Of<PairKind::kVf>(x) : Nearest<One>::Of<PairKind::kEe>(x);
+  const auto& [u, v, w] = nearest.direction;
+  const auto& weights = nearest.weights.of;
+  return {
+      hn::GetLane(nearest.distance),
+      {hn::GetLane(u), hn::GetLane(v), hn::GetLane(w)},
+      {hn::GetLane(nearest.first_weight), hn::GetLane(weights[0]), hn::GetLane(weights[1]), hn::GetLane(weights[2])}};
 }
 
-}  // namespace
+}  // namespace selvage::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-QuickProximity quick_proximity(PairKind kind, const PairVectors& x) {
-  std::array<Vec3, 3> y{x[1] - x[0], x[2] - x[0], x[3] - x[0]};
-  double largest = 0;
-  for (const Vec3& v : y) largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  const double scale = power_of_two_above(largest);  // products of four lengths neither overflow nor vanish
-  for (Vec3& v : y) v /= scale;
-  const auto weights = kind == PairKind::kVf ? vf_weights(y) : ee_weights(y[0], y[1], y[2]);
-  const Vec3 difference = weights[1] * y[0] + weights[2] * y[1] + weights[3] * y[2];
-  const double distance = difference.norm();
-  return {distance * scale, difference / distance, weights};
+#if HWY_ONCE
+namespace selvage::sim {
+
+HWY_EXPORT(FindOne);
+HWY_EXPORT(FindMany);
+
+QuickProximity quick_proximity(PairKind kind, const PairVectors& x) { return HWY_DYNAMIC_DISPATCH(FindOne)(kind, x); }
+
+void quick_proximities(const detail::LanePairs& pairs, const Positions& V, QuickProximities& result) {
+  HWY_DYNAMIC_DISPATCH(FindMany)(pairs, V.data(), result);
+}
+
+QuickProximity QuickProximities::operator[](std::size_t i) const {
+  return {distance[i],
+          {direction[0][i], direction[1][i], direction[2][i]},
+          {weights[0][i], weights[1][i], weights[2][i], weights[3][i]}};
 }
 
 }  // namespace selvage::sim
+#endif

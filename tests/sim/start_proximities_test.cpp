@@ -7,7 +7,6 @@
 
 #include "kernel/collisions.h"
 #include "sim/local_proximities.h"
-#include "sim/quick_proximity.h"
 #include "sim/repulsion.h"
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
@@ -57,34 +56,6 @@ bool is_unsure(const PairProximity& pair, const StepScene& scene) {
 }
 
 }  // namespace
-
-TEST(QuickProximity, PropIsAsNearAsTheKernelsAnswer) {
-  selvage::testing::check_property(200, 31, [] {
-    PairVectors x;
-    for (Vec3& point : x) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        point[axis] = *rc::gen::inRange(0, 2) != 0 ? *rc::gen::inRange(-3, 4) : number_between(-3, 3);
-      }
-    }
-    for (const PairKind kind : {PairKind::kVf, PairKind::kEe}) {
-      const bool is_vf = kind == PairKind::kVf;
-      const Vec3 u = x[is_vf ? 2 : 1] - x[is_vf ? 1 : 0], v = x[3] - x[is_vf ? 1 : 2];
-      if (u.cross(v).norm() < 1e-6 || (is_vf && u == v)) continue;  // no area, or parallel
-      const Proximity exact = is_vf ? vf_proximity(x) : ee_proximity(x);
-      const QuickProximity quick = quick_proximity(kind, x);
-      RC_ASSERT(std::abs(quick.distance - exact.distance) <= 1e-9);
-      Vec3 sum = Vec3::Zero();
-      for (std::size_t k = 0; k < 4; ++k) sum += quick.weights[k] * x[k];
-      if (exact.distance > 1e-9) RC_ASSERT((sum - quick.distance * quick.direction).norm() <= 1e-12);
-      const double scale = std::ldexp(1.0, *rc::gen::element(-900, -300, 300, 900));
-      for (Vec3& point : x) point *= scale;
-      const QuickProximity scaled = quick_proximity(kind, x);
-      for (Vec3& point : x) point /= scale;
-      RC_ASSERT(scaled.distance == scale * quick.distance);
-      RC_ASSERT(scaled.weights == quick.weights);
-    }
-  });
-}
 
 TEST(StartProximities, PropAreAllThatApproachAndAreLocalAndOnceEach) {
   selvage::testing::check_property(200, 32, [] {
