@@ -70,6 +70,10 @@ void print_totals(const sim::RunTotals& totals) {
              totals.steps_with_collisions, totals.impulse_rounds, totals.zone_rounds, totals.largest_zone_vertices);
   fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}\n", totals.fail_safe_vertices,
              totals.pairs_below_tolerance, totals.waiting_bodies);
+  if (totals.cut_candidates > 0) {
+    fmt::print("vertices cut back {} times: they went farther in a step than 1024 times the size of the scene\n",
+               totals.cut_candidates);
+  }
   if (totals.dynamics_solves > 0) {
     fmt::print("implicit solves {}, Newton rounds {}, iterations {}, largest residual {:.2g} m, not converged {}\n",
                totals.dynamics_solves, totals.newton_rounds, totals.cg_iterations, totals.largest_residual_m,
@@ -148,8 +152,8 @@ void add_sim_command(CLI::App& program, Job& job) {
       "Move cloth that starts intersecting until it does not, and say how far; springs keep their rest lengths");
   command.add_flag(
       "--strict", arguments->strict,
-      "Exit code 1 also where the fail-safe was needed, the tolerance was missed, a body waited or an implicit "
-      "solve did not converge");
+      "Exit code 1 also where the fail-safe was needed, the tolerance was missed, a body waited, cloth was cut back or "
+      "an implicit solve did not converge");
   command.callback([arguments, &job] { job = [arguments] { return simulate(*arguments); }; });
 }
 

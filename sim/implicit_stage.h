@@ -47,13 +47,16 @@ class ImplicitStage {
   ImplicitStage(const SpringSystem& springs, const StabilizerSystem* stabilizers, const FieldForces& fields);
 
   /// x holds the first guess, and the given positions of vertices with inverse mass 0, which are kept. It ends where
-  /// the equations hold within kResidual_m or what rounding leaves, or after kMaxRounds: then it is the best that was
-  /// found, and the report says so. `acceleration` becomes a(x, v), without that of the vertices held.
+  /// the equations hold within kResidual_m, or, after a round, within what rounding leaves up to kMostRounding_m, or
+  /// after kMaxRounds: then it is the best that was found, and the report says so. `acceleration` becomes a(x, v),
+  /// without that of the vertices held.
   StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration);
 
   static constexpr std::int32_t kMaxRounds = 50;
   /// A thousandth of the default collision tolerance. In velocity it is an error of 1e-9 m / h.
   static constexpr double kResidual_m = 1e-9;
+  /// What cloth falls in a frame of 1/30 s: where rounding leaves more than that, nothing was solved.
+  static constexpr double kMostRounding_m = 5e-3;
 
  private:
   // A spring where it was last looked at: direction, length, pull along it, and its second derivatives times h^2.

@@ -23,6 +23,7 @@ void RunTotals::add(const StepResult& step) {
   fail_safe_vertices += report.fail_safe_vertices;
   pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
   waiting_bodies += static_cast<std::int64_t>(report.waiting_bodies.size());
+  cut_candidates += report.cut_candidates;
   dynamics_solves += step.dynamics.solves;
   newton_rounds += step.dynamics.newton_rounds;
   cg_iterations += step.dynamics.cg_iterations;
@@ -45,6 +46,8 @@ std::string RunTotals::shortfalls() const {
   add_clause(fail_safe_vertices, "vertices were held back by the fail-safe");
   add_clause(pairs_below_tolerance, "pairs ended a step nearer than the tolerance");
   add_clause(waiting_bodies, "times a body waited");
+  add_clause(cut_candidates,
+             "times a vertex went farther in a step than 1024 times the size of the scene, and was cut back");
   add_clause(unconverged_solves, "implicit solves did not converge");
   return text;
 }

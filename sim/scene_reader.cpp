@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "sim/contact_reader.h"
 #include "sim/surface_reader.h"
+#include "sim/time_step.h"
 #include "sim/toml_table.h"
 
 namespace selvage::sim {
@@ -190,7 +191,7 @@ BodySpec read_body(TomlTable table, const std::vector<BodySpec>& earlier, std::s
 
 TimeSpec read_time(TomlTable table) {
   TimeSpec time;
-  time.frames_per_s = table.number("frames_per_s", {0, 1e6, true}, time.frames_per_s);
+  time.frames_per_s = table.number("frames_per_s", {1e-6, 1e6}, time.frames_per_s);
   if (table.has("frames") == table.has("duration_s")) table.fail("give frames or duration_s, and not both");
   if (table.has("frames")) {
     time.frame_count = table.integer("frames", 1, kMaxFrames - 1);
@@ -202,7 +203,7 @@ TimeSpec read_time(TomlTable table) {
   const double frame_s = 1 / time.frames_per_s;
   const auto step = [&](std::string_view key, double longest_s) -> std::optional<double> {
     if (!table.has(key)) return std::nullopt;
-    return table.number(key, {frame_s * 1e-6, longest_s});
+    return table.number(key, {kLeastStepShare * frame_s, longest_s});
   };
   time.dynamics_step_s = step("dynamics_step_s", frame_s);
   time.max_step_s = step("max_step_s", frame_s);

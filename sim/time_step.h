@@ -8,12 +8,15 @@
 
 namespace selvage::sim {
 
+/// Of a frame: no step is shorter. More of them than that are no simulation that anyone waits for.
+inline constexpr double kLeastStepShare = 1e-6;
+
 /// Time is counted in ticks of frame / 2^n, so that it does not drift and every frame is met exactly.
 class StepClock {
  public:
   /// Steps are frames divided by powers of two, between shortest_s and longest_s; if no such step lies between them,
   /// the largest one below longest_s. Starts with the longest (section 5). REQUIRES 0 < shortest_s <= longest_s and
-  /// shortest_s at least a millionth of a frame.
+  /// shortest_s at least kLeastStepShare of a frame.
   StepClock(double frames_per_s, double shortest_s, double longest_s);
 
   /// Everything that changes; the rest follows from the constructor's arguments.

@@ -41,29 +41,49 @@ void TomlTable::fail(std::string_view key, const std::string& message) const {
 
 void TomlTable::fail(const std::string& message) const { fail_at(table_, fmt::format("{}: {}", name_, message)); }
 
-// A value, or one of the two of {draft = ..., full = ...}.
-const toml::node& TomlTable::for_quality(const toml::node& node) const {
+// The two of {draft = ..., full = ...}, or none.
+std::optional<TomlTable::TwoNodes> TomlTable::by_quality(const toml::node& node) {
   const toml::table* table = node.as_table();
-  if (table == nullptr || table->size() != 2) return node;
-  const toml::node* draft = table->get("draft");
-  const toml::node* full = table->get("full");
-  if (draft == nullptr || full == nullptr) return node;
-  return source_.quality == Quality::kDraft ? *draft : *full;
+  if (table == nullptr || table->size() != 2) return std::nullopt;
+  const toml::node *draft = table->get("draft"), *full = table->get("full");
+  if (draft == nullptr || full == nullptr) return std::nullopt;
+  return TwoNodes(draft, full);
 }
 
 const toml::node* TomlTable::find(std::string_view key, bool required, std::string_view what) {
   asked_.emplace_back(key);
   const toml::node* node = table_.get(key);
   if (node == nullptr && required) fail(fmt::format("{} is missing; add {} = {}", key, key, what));
-  return node == nullptr ? nullptr : &for_quality(*node);
+  return node;
+}
+
+const toml::node* TomlTable::find_for_quality(std::string_view key) {
+  const toml::node* node = find(key, false, "");
+  const auto both = node == nullptr ? std::nullopt : by_quality(*node);
+  if (!both) return node;
+  return source_.quality == Quality::kDraft ? both->first : both->second;
+}
+
+// What is wrong in the value of the other quality is wrong as well.
+template <class Read>
+auto TomlTable::value_of(std::string_view key, const toml::node& node, const Read& read) const {
+  const auto both = by_quality(node);
+  if (!both && node.is_table()) {
+    fail(key, fmt::format("{} is a table; give one value, or {{draft = ..., full = ...}} with both", key));
+  }
+  if (!both) return read(node);
+  auto draft = read(*both->first), full = read(*both->second);
+  return source_.quality == Quality::kDraft ? draft : full;
 }
 
 double TomlTable::number(std::string_view key, const Range& range, std::optional<double> fallback) {
   const toml::node* node = find(key, !fallback, describe(range));
   if (node == nullptr) return *fallback;
-  const std::optional<double> value = as_number(*node);
-  if (!value || !inside(*value, range)) fail(key, fmt::format("{} must be {}", key, describe(range)));
-  return *value;
+  return value_of(key, *node, [&](const toml::node& one) {
+    const std::optional<double> value = as_number(one);
+    if (!value || !inside(*value, range)) fail(key, fmt::format("{} must be {}", key, describe(range)));
+    return *value;
+  });
 }
 
 std::int64_t TomlTable::integer(std::string_view key, std::int64_t lower, std::int64_t upper,
@@ -71,74 +91,89 @@ std::int64_t TomlTable::integer(std::string_view key, std::int64_t lower, std::i
   const std::string what = fmt::format("an integer from {} to {}", lower, upper);
   const toml::node* node = find(key, !fallback, what);
   if (node == nullptr) return *fallback;
-  const std::optional<std::int64_t> value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
-  if (!value || *value < lower || *value > upper) fail(key, fmt::format("{} must be {}", key, what));
-  return *value;
+  return value_of(key, *node, [&](const toml::node& one) {
+    const std::optional<std::int64_t> value = one.is_integer() ? one.value<std::int64_t>() : std::nullopt;
+    if (!value || *value < lower || *value > upper) fail(key, fmt::format("{} must be {}", key, what));
+    return *value;
+  });
 }
 
 bool TomlTable::boolean(std::string_view key, bool fallback) {
   const toml::node* node = find(key, false, "");
   if (node == nullptr) return fallback;
-  if (!node->is_boolean()) fail(key, fmt::format("{} must be true or false", key));
-  return *node->value<bool>();
+  return value_of(key, *node, [&](const toml::node& one) {
+    if (!one.is_boolean()) fail(key, fmt::format("{} must be true or false", key));
+    return *one.value<bool>();
+  });
 }
 
 std::string TomlTable::text(std::string_view key, std::optional<std::string> fallback) {
   const toml::node* node = find(key, !fallback, "\"...\"");
   if (node == nullptr) return *fallback;
-  if (!node->is_string()) fail(key, fmt::format("{} must be a string in quotes", key));
-  return *node->value<std::string>();
+  return value_of(key, *node, [&](const toml::node& one) {
+    if (!one.is_string()) fail(key, fmt::format("{} must be a string in quotes", key));
+    return *one.value<std::string>();
+  });
 }
 
 std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string_view>& choices) {
-  const std::string value = text(key, std::string(choices.front()));
-  const auto found = std::find(choices.begin(), choices.end(), value);
-  if (found == choices.end()) {
-    fail(key, fmt::format("{} is \"{}\"; choose one of \"{}\"", key, value, fmt::join(choices, "\", \"")));
-  }
-  return static_cast<std::size_t>(found - choices.begin());
+  const toml::node* node = find(key, false, "");
+  if (node == nullptr) return 0;
+  return value_of(key, *node, [&](const toml::node& one) {
+    if (!one.is_string()) fail(key, fmt::format("{} must be a string in quotes", key));
+    const std::string value = *one.value<std::string>();
+    const auto found = std::ranges::find(choices, value);
+    if (found == choices.end()) {
+      fail(key, fmt::format("{} is \"{}\"; choose one of \"{}\"", key, value, fmt::join(choices, "\", \"")));
+    }
+    return static_cast<std::size_t>(found - choices.begin());
+  });
 }
 
 Vec3 TomlTable::vector(std::string_view key, const Range& range, std::optional<Vec3> fallback) {
   const toml::node* node = find(key, !fallback, "[x, y, z]");
   if (node == nullptr) return *fallback;
-  const toml::array* array = node->as_array();
-  if (array == nullptr || array->size() != 3) fail(key, fmt::format("{} must be three numbers [x, y, z]", key));
-  Vec3 value;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::optional<double> number = as_number((*array)[k]);
-    if (!number || !inside(*number, range)) {
-      fail(key, fmt::format("{}[{}] must be {}", key, k, describe(range)));
+  return value_of(key, *node, [&](const toml::node& one) {
+    const toml::array* array = one.as_array();
+    if (array == nullptr || array->size() != 3) fail(key, fmt::format("{} must be three numbers [x, y, z]", key));
+    Vec3 value;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::optional<double> number = as_number((*array)[k]);
+      if (!number || !inside(*number, range)) {
+        fail(key, fmt::format("{}[{}] must be {}", key, k, describe(range)));
+      }
+      value[static_cast<Eigen::Index>(k)] = *number;
     }
-    value[static_cast<Eigen::Index>(k)] = *number;
-  }
-  return value;
+    return value;
+  });
 }
 
 std::vector<std::int64_t> TomlTable::integers(std::string_view key, std::int64_t lower, std::int64_t upper) {
   const toml::node* node = find(key, true, "[...]");
-  const toml::array* array = node->as_array();
-  if (array == nullptr || array->empty()) fail(key, fmt::format("{} must be a list of integers", key));
-  std::vector<std::int64_t> values;
-  for (const toml::node& item : *array) {
-    const std::optional<std::int64_t> value = item.is_integer() ? item.value<std::int64_t>() : std::nullopt;
-    if (!value || *value < lower || *value > upper) {
-      fail_at(item, fmt::format("{}: {} must hold integers from {} to {}", name_, key, lower, upper));
+  return value_of(key, *node, [&](const toml::node& one) {
+    const toml::array* array = one.as_array();
+    if (array == nullptr || array->empty()) fail(key, fmt::format("{} must be a list of integers", key));
+    std::vector<std::int64_t> values;
+    for (const toml::node& item : *array) {
+      const std::optional<std::int64_t> value = item.is_integer() ? item.value<std::int64_t>() : std::nullopt;
+      if (!value || *value < lower || *value > upper) {
+        fail_at(item, fmt::format("{}: {} must hold integers from {} to {}", name_, key, lower, upper));
+      }
+      values.push_back(*value);
     }
-    values.push_back(*value);
-  }
-  return values;
+    return values;
+  });
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
-  const toml::node* node = find(key, false, "");
+  const toml::node* node = find_for_quality(key);
   if (node == nullptr) return std::nullopt;
   if (!node->is_table()) fail(key, fmt::format("{} must be a table", key));
   return TomlTable(*node->as_table(), std::string(key), source_);
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
-  const toml::node* node = find(key, false, "");
+  const toml::node* node = find_for_quality(key);
   std::vector<TomlTable> found;
   if (node == nullptr) return found;
   const toml::array* array = node->as_array();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/error.h"
@@ -62,8 +63,14 @@ class TomlTable {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
+  using TwoNodes = std::pair<const toml::node*, const toml::node*>;
+
   const toml::node* find(std::string_view key, bool required, std::string_view what);
-  [[nodiscard]] const toml::node& for_quality(const toml::node& node) const;
+  const toml::node* find_for_quality(std::string_view key);
+  [[nodiscard]] static std::optional<TwoNodes> by_quality(const toml::node& node);
+  /// read(node), or both of {draft = ..., full = ...}; the one that holds.
+  template <class Read>
+  auto value_of(std::string_view key, const toml::node& node, const Read& read) const;
   [[noreturn]] void fail_at(const toml::node& node, const std::string& message) const;
 
   const toml::table& table_;

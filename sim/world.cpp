@@ -7,6 +7,7 @@
 
 #include "io/mesh_reader.h"
 #include "sim/cloth.h"
+#include "sim/time_step.h"
 
 namespace selvage::sim {
 namespace {
@@ -180,6 +181,23 @@ class WorldBuilder {
   ContactSurfaces contacts_;
 };
 
+void require_stable_step(const Scene& scene, double stable_step_s) {
+  const std::optional<double> given_s = scene.time.dynamics_step_s;
+  if (given_s && !(*given_s < stable_step_s)) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    fmt::format("{}: dynamics_step_s = {} is not stable for these springs; lower it below {:.3g} or "
+                                "leave it out, or set solver = \"implicit\"",
+                                scene.file.string(), *given_s, stable_step_s));
+  }
+  if (!(stable_step_s >= kLeastStepShare / scene.time.frames_per_s)) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    fmt::format("{}: these springs are stable below steps of {:.3g} s only, more than a million in a "
+                                "frame; lower the stiffest of stretch_n_m, shear_n_m and bend_n_m, raise density_kg_m2 "
+                                "or frames_per_s, or set solver = \"implicit\"",
+                                scene.file.string(), stable_step_s));
+  }
+}
+
 }  // namespace
 
 World build_world(const Scene& scene) {
@@ -188,13 +206,7 @@ World build_world(const Scene& scene) {
   const std::int32_t cloth_vertex_count = builder.vertex_count();
   for (const BodySpec& body : scene.bodies) builder.add_body(body);
   World world = builder.take(cloth_vertex_count);
-  if (scene.solver == Solver::kExplicit && scene.time.dynamics_step_s &&
-      !(*scene.time.dynamics_step_s < world.stable_step_s)) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: dynamics_step_s = {} is not stable for these springs; lower it below {:.3g} or "
-                                "leave it out, or set solver = \"implicit\"",
-                                scene.file.string(), *scene.time.dynamics_step_s, world.stable_step_s));
-  }
+  if (scene.solver == Solver::kExplicit) require_stable_step(scene, world.stable_step_s);
   return world;
 }
 

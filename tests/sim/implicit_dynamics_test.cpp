@@ -92,6 +92,30 @@ TEST(ImplicitStage, SaysThatItDidNotConverge) {
   EXPECT_EQ(totals.largest_residual_m, 3e-5);
 }
 
+// What the stiffest springs round away must hide neither that cloth falls, nor that nothing was solved.
+TEST(ImplicitStage, RoundingOfStiffSpringsIsNoSolution) {
+  const auto cloth = random_cloth(11);
+  const SpringSystem springs = stiffer(cloth.springs, 1e28);
+  const Positions still = Positions::Zero(cloth.x.rows(), 3);
+  Positions acceleration;
+  for (const bool is_stretched : {false, true}) {
+    std::vector<Spring> at_rest = springs.springs();
+    for (Spring& spring : at_rest) {
+      spring.rest_length_m = (is_stretched ? 0.9 : 1) * (cloth.x.row(spring.b) - cloth.x.row(spring.a)).norm();
+    }
+    const SpringSystem stiff(at_rest, springs.vertex_count());
+    ImplicitStage stage(stiff, nullptr, {{0, 0, -9.81}});
+    Positions x = cloth.x;
+    const StageReport report = stage.solve({cloth.x, still, cloth.inverse_mass, kFrame}, x, acceleration);
+    const double fall_m = (cloth.x - x).col(2).mean();
+    if (is_stretched) {
+      EXPECT_FALSE(report.converged);
+    } else {
+      EXPECT_TRUE(!report.converged || std::abs(fall_m - 9.81 * kFrame * kFrame) < 1e-6) << fall_m;
+    }
+  }
+}
+
 TEST(ImplicitDynamics, DampedOscillatorConvergesAtSecondOrder) {
   // An eighth of the step, a sixty-fourth of the error.
   const double m = 0.05, k = 20, c = 0.4, length = 1 + m * 9.81 / k, t = 0.5;

@@ -117,8 +117,10 @@ const BadScene kBadScenes[] = {
      "starts where"},
     {"a shortest step above the longest", "[time]\nframes = 1\nmax_step_s = 1e-3\nmin_step_s = 2e-3\n", 4,
      "min_step_s"},
-    {"one quality of two", "[time]\nframes = {draft = 2}\n", 2, "an integer"},
+    {"a frame without end", "[time]\nframes_per_s = 1e-7\nframes = 1\n", 2, "at least 1e-06"},
+    {"one quality of two", "[time]\nframes = {draft = 2}\n", 2, "{draft = ..., full = ...} with both"},
     {"a bad value for one quality", "[time]\nframes = {draft = 0, full = 2}\n", 2, "an integer"},
+    {"a bad value for the other", "[time]\nframes = {draft = 2, full = \"x\"}\n", 2, "an integer"},
     {"shear on a mesh",
      "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 1\nstretch_n_m = 1\nmesh = {file = \"a.obj\"}\n"
      "shear_n_m = 2\n",

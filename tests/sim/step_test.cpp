@@ -70,6 +70,29 @@ TEST(Simulation, FreeFallIsExactInPositionAndVelocity) {
   }
 }
 
+// A sheet 1 m wide that flies by 2 km a frame, farther than a step may go; then one whose step cannot be shortened.
+TEST(Simulation, AStepThatGoesTooFarIsShortenedOrSaysThatItWasCut) {
+  const std::string sheet =
+      "[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 1, height_m = 1}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n"
+      "velocity_m_s = [6e4, 0, 0]\n";
+  for (const bool can_halve : {true, false}) {
+    Simulation simulation(parse_scene(
+        "[time]\nframes = 1\n" + std::string(can_halve ? "" : "min_step_s = 0.0333333\n") + sheet, "fast.toml"));
+    const double start_m = simulation.x()(0, 0);
+    RunTotals totals;
+    while (simulation.clock().state().frame < 1) totals.add(simulation.step());
+    const double way_m = simulation.x()(0, 0) - start_m;
+    if (can_halve) {
+      EXPECT_NEAR(way_m, 6e4 / 30, 1e-6);
+      EXPECT_EQ(totals.shortfalls(), "");
+    } else {
+      EXPECT_LT(way_m, 2000);
+      EXPECT_EQ(totals.cut_candidates, 16);
+      EXPECT_NE(totals.shortfalls().find("cut back"), std::string::npos) << totals.shortfalls();
+    }
+  }
+}
+
 TEST(Simulation, AfterContactGravityActsForTheSecondHalfOfTheStep) {
   // Section 7.6: the velocity at the end is the mean velocity of the safe step and half a step of forces. Springs and
   // the strain-rate limit keep the cloth's momentum, so its change is that of gravity alone. In steps as short as the
@@ -384,6 +407,16 @@ TEST(World, RefusesAnUnstableDynamicsStep) {
   std::string text = small_scene_text(1);
   text.replace(text.find("[time]\n"), 7, "[time]\ndynamics_step_s = 0.02\n");
   EXPECT_THROW((void)build_world(parse_scene(text, "small.toml")), io::Error);
+}
+
+// More than a million steps a frame: with 1e20 N/m their number was no int, and the cloth stayed where it was.
+TEST(World, RefusesSpringsThatNoStepOfTheDynamicsIsShortEnoughFor) {
+  for (const char* stiffness : {"1e14", "1e20", "1e300"}) {
+    std::string text = small_scene_text(1);
+    text.replace(text.find("stretch_n_m = 40"), 16, std::string("stretch_n_m = ") + stiffness);
+    EXPECT_THROW((void)build_world(parse_scene(text, "small.toml")), io::Error) << stiffness;
+    EXPECT_NO_THROW((void)build_world(parse_scene("solver = \"implicit\"\n" + text, "small.toml"))) << stiffness;
+  }
 }
 
 TEST(World, ReadsMeshFilesBesideTheScene) {
