@@ -192,7 +192,8 @@ BodySpec read_body(TomlTable table, const std::vector<BodySpec>& earlier, std::s
 TimeSpec read_time(TomlTable table) {
   TimeSpec time;
   time.frames_per_s = table.number("frames_per_s", {1e-6, 1e6}, time.frames_per_s);
-  if (table.has("frames") == table.has("duration_s")) table.fail("give frames or duration_s, and not both");
+  if (table.has("frames") && table.has("duration_s")) table.fail("give frames or duration_s, and not both");
+  if (!table.has("frames") && !table.has("duration_s")) table.fail("nothing says how long; add frames or duration_s");
   if (table.has("frames")) {
     time.frame_count = table.integer("frames", 1, kMaxFrames - 1);
   } else {

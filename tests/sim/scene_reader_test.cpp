@@ -37,6 +37,7 @@ const BadScene kBadScenes[] = {
     {"unknown root key", "gravty = 1\n" + kScene, 1, "unknown key \"gravty\"; known here: time, gravity_m_s2"},
     {"unknown key in a part", kScene + "[[body]]\nspher = {radius_m = 1}\nsphere = {radius_m = 1}\n", 10, "\"spher\""},
     {"unknown key in a surface", kScene + "[[body]]\nsphere = {radius_m = 1, cells = 2}\n", 10, "\"cells\""},
+    {"no length", "[time]\nframes_per_s = 30\n", 1, "add frames or duration_s"},
     {"both ends of a choice", "[time]\nframes = 3\nduration_s = 1\n", 1, "frames or duration_s"},
     {"a negative density",
      "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = -1\nstretch_n_m = 1\n"
