@@ -88,7 +88,7 @@ std::string read_file(const fs::path& file, std::size_t byte_limit) {
     bytes.resize(begin + got);
     if (got < chunk && bytes.size() <= byte_limit) return bytes;
   }
-  bad_input(file.string(), "larger than " + std::to_string(byte_limit) + " bytes, the most that is read of such a file");
+  bad_input(file.string(), "larger than " + std::to_string(byte_limit) + " bytes; shorten or split it");
 }
 
 }  // namespace selvage::io
