@@ -8,6 +8,7 @@
 
 #include "bench/broad_bench.h"
 #include "cli/command.h"
+#include "cli/output_check.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
 
@@ -56,6 +57,7 @@ std::vector<int> sheet_sides(int largest) {
 }
 
 ExitCode bench_broad(const BroadArguments& arguments) {
+  require_separate_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
   const auto rivals = bench::load_rivals(bench::rivals_beside_program());
   for (const bench::LoadedRival& rival : rivals) {
     if (!rival.create) fmt::print(stderr, "selvage: without {}: {}\n", rival.name, rival.absent);

@@ -1,6 +1,7 @@
 #include "cli/bench_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "cli/bench_stability_command.h"
 #include "cli/bench_verify_command.h"
 #include "cli/command.h"
+#include "cli/output_check.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
 
@@ -58,6 +60,7 @@ std::string table(const bench::QueryBenchReport& report) {
 }
 
 ExitCode bench_queries(const Arguments& arguments) {
+  require_separate_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
   std::vector<bench::QueryFile> files;
   std::size_t count = 0;
   for (const std::string& name : arguments.files) {
@@ -114,6 +117,9 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   const bool from_files = !arguments.frame_t0.empty();
   if (from_files && arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
   if (!from_files && !arguments.truth.empty()) throw UsageError("--truth belongs to frames from files: name two");
+  std::vector<std::filesystem::path> inputs = {arguments.frame_t0, arguments.frame_t1};
+  for (const std::vector<std::string>& files : arguments.truth) inputs.insert(inputs.end(), files.begin(), files.end());
+  require_separate_outputs(inputs, {arguments.json});
   const bench::MeshMotion motion =
       from_files ? bench::mesh_motion(io::read_mesh(arguments.frame_t0), io::read_mesh(arguments.frame_t1))
                  : bench::crumpled_sheet(arguments.sheet);

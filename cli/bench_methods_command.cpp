@@ -8,6 +8,7 @@
 #include "bench/method_bench.h"
 #include "cli/command.h"
 #include "cli/hard_queries.h"
+#include "cli/output_check.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
 
@@ -34,6 +35,7 @@ std::string table(const bench::SetReport& report) {
 }
 
 ExitCode bench_methods(const MethodsArguments& arguments) {
+  require_separate_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
   std::vector<bench::SetReport> reports;
   const auto run = [&](const bench::QuerySet& set) {
     if (set.queries.empty()) return;

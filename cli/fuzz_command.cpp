@@ -1,6 +1,7 @@
 #include "cli/fuzz_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/fuzz_table.h"
 #include "cli/interrupt.h"
+#include "cli/output_check.h"
 #include "cli/page/conformance_page.h"
 #include "cli/shard.h"
 #include "cli/terminal.h"
@@ -127,6 +129,10 @@ fuzz::DriverOptions driver_options(const Arguments& arguments) {
 /// Someone else's code under the query level.
 ExitCode run_plugin(const Arguments& arguments) {
   if (!arguments.properties.empty()) throw UsageError("--plugin runs the conformance test and nothing else");
+  const std::filesystem::path folder = arguments.artifacts;
+  const std::filesystem::path json = folder / "conformance.json", plain = folder / "conformance.txt",
+                              html = folder / "conformance.html";
+  require_separate_outputs({arguments.plugin}, {json, plain, html});
   const fuzz::PluginInfo info = fuzz::probe_plugin(arguments.plugin);
   fuzz::Properties properties;
   properties.push_back(fuzz::make_conformance(arguments.plugin));
@@ -142,9 +148,9 @@ ExitCode run_plugin(const Arguments& arguments) {
   const fuzz::Ledger& ledger = driver.ledger();
   const ConformanceRun page{"selvage " SELVAGE_VERSION, arguments.plugin, arguments.artifacts, finished};
   const std::string text = fuzz::conformance_text(ledger, info, arguments.artifacts);
-  io::write_atomically(options.folder / "conformance.json", fuzz::conformance_json(ledger, info));
-  io::write_atomically(options.folder / "conformance.txt", text);
-  io::write_atomically(options.folder / "conformance.html", conformance_page(ledger, *properties.front(), info, page));
+  io::write_atomically(json, fuzz::conformance_json(ledger, info));
+  io::write_atomically(plain, text);
+  io::write_atomically(html, conformance_page(ledger, *properties.front(), info, page));
   fmt::print("{}", text);
   if (!ledger.properties.front().findings.empty()) return ExitCode::kViolation;
   return finished ? ExitCode::kClean : ExitCode::kInterrupted;

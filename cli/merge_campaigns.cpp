@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/fuzz_table.h"
+#include "cli/output_check.h"
 #include "fuzz/driver.h"
 #include "io/atomic_file.h"
 
@@ -50,9 +51,11 @@ bool are_campaigns(const std::vector<fs::path>& sources) {
 }
 
 ExitCode merge_campaigns(const std::vector<fs::path>& sources, const fs::path& output) {
+  std::vector<fs::path> files;
+  for (const fs::path& folder : sources) files.push_back(folder / fuzz::kLedgerFile);
+  require_separate_outputs(files, {output / fuzz::kLedgerFile});
   std::vector<fuzz::Ledger> parts;
-  for (const fs::path& folder : sources) {
-    const fs::path file = folder / fuzz::kLedgerFile;
+  for (const fs::path& file : files) {
     parts.push_back(fuzz::parse_ledger(io::read_file(file), file.string()));
   }
   const fuzz::Ledger merged = fuzz::merge(parts);

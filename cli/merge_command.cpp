@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/exit_code.h"
 #include "cli/merge_campaigns.h"
+#include "cli/output_check.h"
 #include "cli/page/report_page.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
@@ -47,13 +48,10 @@ ExitCode run(const Arguments& arguments) {
       const std::vector<fs::path> found = reports_in(source, arguments.output);
       files.insert(files.end(), found.begin(), found.end());
     } else {
-      std::error_code absent;
-      if (fs::equivalent(source, arguments.output, absent)) {
-        throw UsageError(source + " is a part, and would be overwritten; name another output");
-      }
       files.emplace_back(source);
     }
   }
+  require_separate_outputs(files, {arguments.output, arguments.html});
   std::vector<verify::Part> parts;
   for (const fs::path& file : files) {
     parts.push_back({file.string(), verify::parse_report(io::read_file(file), file.string())});

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/output_check.h"
 #include "cli/replay.h"
 #include "io/atomic_file.h"
 
@@ -64,6 +65,7 @@ ExitCode run(const Arguments& arguments) {
     if (found.empty()) throw io::Error(io::ErrorKind::kBadInput, named.string() + ": holds no case (*.case)");
     files.insert(files.end(), found.begin(), found.end());
   }
+  require_separate_outputs(files, {arguments.json});
   std::vector<Explanation> explanations;
   std::string json = "{\n\"schema\": \"selvage.replay/1\",\n\"cases\": [";
   for (const std::filesystem::path& file : files) {

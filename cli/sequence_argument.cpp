@@ -1,10 +1,14 @@
 #include "cli/sequence_argument.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "cli/exit_code.h"
 #include "cli/frame_numbers.h"
+#include "cli/output_check.h"
 #include "io/point_cache.h"
+#include "sim/recorder.h"
 
 namespace selvage::cli {
 
@@ -28,15 +32,12 @@ std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argume
   return sequence;
 }
 
-void require_not_read(const SequenceArgument& argument, const std::filesystem::path& output) {
-  std::vector<std::filesystem::path> inputs = argument.sources;
-  inputs.push_back(argument.base);
-  for (const std::filesystem::path& input : inputs) {
-    std::error_code absent;
-    if (std::filesystem::equivalent(input, output, absent)) {
-      throw UsageError(output.string() + " is read, and would be overwritten; name another file");
-    }
+void require_separate_outputs(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs) {
+  std::vector<std::filesystem::path> inputs = io::sequence_files(argument.sources, argument.base);
+  for (const std::string_view beside : {sim::kCheckpointFile, sim::kRunFile}) {
+    inputs.push_back(argument.sources.front() / beside);
   }
+  require_separate_outputs(inputs, outputs);
 }
 
 }  // namespace selvage::cli

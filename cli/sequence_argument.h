@@ -23,7 +23,8 @@ void add_sequence_argument(CLI::App& command, SequenceArgument& argument);
 /// files is said on stderr.
 [[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argument);
 
-/// Throws UsageError where the output is one of the files that are read.
-void require_not_read(const SequenceArgument& argument, const std::filesystem::path& output);
+/// Throws UsageError where an output is one of the files that are read or that a run in the folder goes on from, or
+/// where two outputs are one file.
+void require_separate_outputs(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace selvage::cli

@@ -56,8 +56,7 @@ ExitCode run(const VerifyArguments& arguments) {
   if (arguments.threads > 0) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
   }
-  require_not_read(arguments.sequence, arguments.json);
-  require_not_read(arguments.sequence, arguments.html);
+  require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
   const auto sequence = open_sequence(arguments.sequence);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
   const verify::ReportContext context = report_context(arguments, *sequence, options);

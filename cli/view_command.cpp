@@ -24,7 +24,7 @@ struct ViewArguments {
 };
 
 ExitCode view_sequence(const ViewArguments& arguments) {
-  require_not_read(arguments.sequence, arguments.page);
+  require_separate_outputs(arguments.sequence, {arguments.page});
   const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
   const std::string title = source_names({arguments.sequence.sources.begin(), arguments.sequence.sources.end()});
   ProgressBar bar("packing");

@@ -74,6 +74,16 @@ class FolderSequence final : public SequenceReader {
 
 }  // namespace
 
+std::vector<std::filesystem::path> folder_sequence_files(const std::filesystem::path& folder) {
+  const std::filesystem::path header = folder / kHeaderFile, list = folder / kFramesFile;
+  if (!std::filesystem::exists(header)) return {};
+  std::vector<std::filesystem::path> files = {header, list};
+  files.push_back(folder / parse_sequence_json(read_file(header), header.string()).faces_file);
+  for (const FrameRecord& frame : parse_frame_list(read_file(list), list.string()))
+    files.push_back(folder / frame.file);
+  return files;
+}
+
 std::unique_ptr<SequenceReader> open_folder_sequence(const std::filesystem::path& folder) {
   return std::make_unique<FolderSequence>(folder);
 }

@@ -30,6 +30,19 @@ std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem:
   return open_point_cache(std::move(cache), point_cache_format(first), std::move(mesh), first.string());
 }
 
+std::vector<std::filesystem::path> sequence_files(const std::vector<std::filesystem::path>& sources,
+                                                  const std::filesystem::path& base) {
+  std::vector<std::filesystem::path> files = sources;
+  if (!base.empty()) files.push_back(base);
+  if (sources.empty()) return files;
+  std::error_code status;
+  const std::filesystem::path& first = sources.front();
+  if (std::filesystem::is_directory(first, status)) return folder_sequence_files(first);
+  const bool has_base_beside = base.empty() && is_point_cache(first) && std::filesystem::exists(first, status);
+  if (has_base_beside) files.push_back(find_base_mesh(first));
+  return files;
+}
+
 void check_indices(const Triangles& triangles, std::size_t vertex_count, const std::string& name) {
   for (std::size_t face = 0; face < triangles.size(); ++face) {
     for (const std::int32_t vertex : triangles[face]) {

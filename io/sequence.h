@@ -42,6 +42,10 @@ class SequenceReader {
 [[nodiscard]] std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources,
                                                             const std::filesystem::path& base = {});
 
+/// The files that open_sequence() reads. Throws Error where a header cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> sequence_files(const std::vector<std::filesystem::path>& sources,
+                                                                const std::filesystem::path& base = {});
+
 struct SequenceHeader {
   Triangles triangles;
   std::vector<Group> groups;

@@ -14,6 +14,8 @@ namespace selvage::io {
 
 /// A folder with sequence.json: docs/formats.md.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_folder_sequence(const std::filesystem::path& folder);
+/// Its header, faces and frames; none where there is no header, for that is no sequence.
+[[nodiscard]] std::vector<std::filesystem::path> folder_sequence_files(const std::filesystem::path& folder);
 /// An .npz with V, F and maybe group; `name` appears in errors.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_npz_sequence(std::shared_ptr<const ByteSource> source,
                                                                 std::string name);

@@ -53,7 +53,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
       writer_(folder_, header_of(simulation, kind, producer_), resume),
       fingerprint_(scene_fingerprint(simulation.scene(), simulation.world())) {
   if (resume) remove_temporaries(folder_);
-  const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / "checkpoint.bin") : std::nullopt;
+  const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / kCheckpointFile) : std::nullopt;
   if (!checkpoint) {
     if (writer_.frame_count() > 1) {
       throw io::Error(io::ErrorKind::kBadInput, folder_.string() +
@@ -68,7 +68,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
   if (checkpoint->scene_fingerprint != fingerprint_) {
     throw io::Error(io::ErrorKind::kBadInput,
                     fmt::format("{}: the checkpoint belongs to another scene; resume with the scene that wrote it",
-                                (folder_ / "checkpoint.bin").string()));
+                                (folder_ / kCheckpointFile).string()));
   }
   writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
   simulation_.restore(checkpoint->state);
@@ -93,13 +93,13 @@ void Recorder::finish(RunEnd end) {
   for_each_total(totals_,
                  [&](const char* name, const auto& field) { json += fmt::format("  \"{}\": {},\n", name, field); });
   json += fmt::format("  \"scene_fingerprint\": \"{:016x}\"\n}}\n", fingerprint_);
-  io::write_atomically(folder_ / "run.json", json);
+  io::write_atomically(folder_ / kRunFile, json);
 }
 
 void Recorder::append() { writer_.append(simulation_.clock().time_s(), points_of(simulation_.x())); }
 
 void Recorder::save_checkpoint() {
-  write_checkpoint(folder_ / "checkpoint.bin",
+  write_checkpoint(folder_ / kCheckpointFile,
                    {fingerprint_, static_cast<std::int64_t>(writer_.frame_count()), simulation_.state(), totals_});
 }
 

@@ -3,11 +3,16 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "io/sequence.h"
 #include "sim/checkpoint.h"
 
 namespace selvage::sim {
+
+/// Beside the sequence: what a run goes on from, and how it went.
+inline constexpr std::string_view kCheckpointFile = "checkpoint.bin";
+inline constexpr std::string_view kRunFile = "run.json";
 
 /// How a run ended, in run.json.
 enum class RunEnd { kComplete, kInterrupted, kStopped };

@@ -1,3 +1,5 @@
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "tests/cli/run_program.h"
@@ -65,13 +67,25 @@ TEST(SequenceArgument, WhatIsReadIsNotOverwritten) {
   spit(cloth, cache(1));
   ASSERT_EQ(run_program(folder, {"verify", mesh, "--json", report}).exit_code, 0);
   const std::string whole = testing::slurp(report);
+  const auto plugin = folder.path() / "conformance.txt";
+  spit(plugin, "a library");
   const std::vector<std::vector<std::string>> cases = {
       {"verify", mesh, "--json", mesh},
       {"verify", mesh, "--json", folder.path() / "." / "a.obj"},
       {"verify", cloth, "--base", mesh, "--json", mesh},
       {"verify", mesh, "--html", mesh},
       {"view", mesh, "-o", mesh},
+      {"view", cloth, "-o", mesh},
+      {"verify", cloth, "--json", mesh},  // not named, but read
       {"merge", report, "-o", report},
+      {"merge", report, "-o", folder.path() / "ok.json", "--html", report},
+      {"bench", "ccd", mesh, mesh, "--json", mesh},
+      {"bench", "ccd", mesh, mesh, "--truth", report, report, "--json", report},
+      {"bench", "broad", mesh, mesh, "--json", mesh},
+      {"bench", "methods", mesh, mesh, "--json", mesh},
+      {"bench", "queries", mesh, "--kind", "vf", "--json", mesh},
+      {"replay", mesh, "--json", mesh},
+      {"fuzz", "--plugin", plugin, "--artifacts", folder.path()},
   };
   for (const auto& arguments : cases) {
     const auto result = run_program(folder, arguments);
@@ -81,6 +95,67 @@ TEST(SequenceArgument, WhatIsReadIsNotOverwritten) {
   EXPECT_EQ(testing::slurp(mesh), kTwoFaces);
   EXPECT_EQ(testing::slurp(cloth), cache(1));
   EXPECT_EQ(testing::slurp(report), whole);
+}
+
+TEST(SequenceArgument, NoFileOfASequenceFolderIsOverwritten) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", run = folder.path() / "run";
+  spit(mesh, kTwoFaces);
+  ASSERT_EQ(run_program(folder, {"convert", mesh, "-o", run}).exit_code, 0);
+  spit(run / "checkpoint.bin", "of a run");
+  std::filesystem::create_symlink("run/frames.jsonl", folder.path() / "soft.png");
+  std::filesystem::create_hard_link(run / "faces.npy", folder.path() / "hard");
+  const auto contents = [&run] {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(run)) {
+      files[entry.path().filename()] = testing::slurp(entry.path());
+    }
+    return files;
+  };
+  const auto before = contents();
+  for (const std::filesystem::path& file :
+       {run / "sequence.json", run / "frames.jsonl", run / "faces.npy", run / "frame_000000.npy",
+        run / "checkpoint.bin", folder.path() / "soft.png", folder.path() / "hard"}) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", run, "--json", file},
+                                                      {"verify", run, "--html", file},
+                                                      {"view", run, "-o", file}}) {
+      const auto result = run_program(folder, arguments);
+      EXPECT_EQ(result.exit_code, 2) << arguments[0] << file << result.out << result.err;
+      EXPECT_NE(result.err.find(file.string() + " is read, and would be overwritten"), std::string::npos) << result.err;
+    }
+  }
+  EXPECT_EQ(run_program(folder, {"render", run, "-o", folder.path() / "soft.png"}).exit_code, 2);
+  EXPECT_EQ(contents(), before);
+  // What is not read may be replaced, beside the frames too.
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run_program(folder, {"verify", run, "--json", run / "r.json"}).exit_code, 0);
+}
+
+TEST(SequenceArgument, NoPartOfACampaignIsOverwritten) {
+  const TemporaryFolder folder;
+  const auto part = folder.path() / "part", ledger = part / "campaign.json";
+  ASSERT_EQ(run_program(folder, {"fuzz", "ccd", "--cases", "1", "--jobs", "1", "--artifacts", part}).exit_code, 0);
+  const std::string before = testing::slurp(ledger);
+  const auto result = run_program(folder, {"merge", part, "-o", part});
+  EXPECT_EQ(result.exit_code, 2) << result.out << result.err;
+  EXPECT_NE(result.err.find(ledger.string() + " is read, and would be overwritten"), std::string::npos) << result.err;
+  EXPECT_EQ(testing::slurp(ledger), before);
+}
+
+TEST(SequenceArgument, TwoOutputsAreTwoFiles) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", same = folder.path() / "same", part = folder.path() / "part.json";
+  spit(mesh, kTwoFaces);
+  ASSERT_EQ(run_program(folder, {"verify", mesh, "--json", part}).exit_code, 0);
+  const auto other_name = folder.path() / "." / "same";
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"verify", mesh, "--json", same, "--html", other_name},
+        {"merge", part, "-o", same, "--html", other_name}}) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0] << result.out << result.err;
+    EXPECT_NE(result.err.find(other_name.string() + " is named for two outputs"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(same));
+  }
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", "/dev/null", "--html", "/dev/null"}).exit_code, 0);
 }
 
 TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {

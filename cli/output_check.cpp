@@ -1,0 +1,42 @@
+#include "cli/output_check.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "cli/exit_code.h"
+
+namespace selvage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Also of two names under which there is nothing yet.
+bool is_one_file(const fs::path& a, const fs::path& b) {
+  std::error_code absent;
+  if (fs::exists(a, absent) || fs::exists(b, absent)) {
+    return fs::equivalent(a, b, absent) && fs::is_regular_file(a, absent);
+  }
+  // Absolute first: a relative name of nothing stays relative.
+  return fs::weakly_canonical(fs::absolute(a, absent), absent) == fs::weakly_canonical(fs::absolute(b, absent), absent);
+}
+
+}  // namespace
+
+void require_separate_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const fs::path& output = outputs[i];
+    if (output.empty()) continue;
+    const auto is_output = [&](const fs::path& other) { return is_one_file(other, output); };
+    std::error_code absent;
+    // What is not there is not read, however many frames there are to compare with.
+    if (fs::exists(output, absent) && std::ranges::any_of(inputs, is_output)) {
+      throw UsageError(output.string() + " is read, and would be overwritten; name another file");
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (outputs[k].empty() || !is_output(outputs[k])) continue;
+      throw UsageError(output.string() + " is named for two outputs, and would be overwritten; name another file");
+    }
+  }
+}
+
+}  // namespace selvage::cli
