@@ -8,6 +8,7 @@
 
 #include "bench/broad_bench.h"
 #include "cli/command.h"
+#include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
@@ -104,7 +105,7 @@ void add_broad_command(CLI::App& bench, Job& job) {
       .add_option("--pleats", arguments->pleat_advances,
                   "How far an edge takes a sheet along, in edges: 0.1 is 10 layers")
       ->delimiter(',')
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(number_between(0.01, 1))
       ->capture_default_str();
   broad.add_option("--threads", arguments->options.thread_counts, "Numbers of threads")
       ->check(CLI::Range(1, 1024))

@@ -15,6 +15,7 @@
 #include "cli/bench_stability_command.h"
 #include "cli/bench_verify_command.h"
 #include "cli/command.h"
+#include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
@@ -160,7 +161,7 @@ void add_ccd_command(CLI::App& bench, Job& job) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   ccd.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from(0))
       ->capture_default_str();
   ccd.callback([arguments, &job] { job = [arguments] { return bench_ccd(*arguments); }; });
 }
@@ -185,7 +186,7 @@ void add_bench_command(CLI::App& program, Job& job) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   queries.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from(0))
       ->capture_default_str();
   queries.callback([arguments, &job] { job = [arguments] { return bench_queries(*arguments); }; });
   add_ccd_command(bench, job);

@@ -1,6 +1,7 @@
 #include "cli/fuzz_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/fuzz_table.h"
 #include "cli/interrupt.h"
+#include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "cli/page/conformance_page.h"
 #include "cli/shard.h"
@@ -49,7 +51,7 @@ double parse_seconds(const std::string& text) {
                        : unit == "h"               ? 3600
                        : unit == "d"               ? 86400
                                                    : 0;
-  if (!(amount > 0) || scale == 0)
+  if (!(amount > 0) || !std::isfinite(amount * scale) || scale == 0)
     throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
   return amount * scale;
 }
@@ -204,7 +206,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
       ->capture_default_str();
   fuzz.add_option("--case-time", arguments->case_time_s,
                   "Seconds of processor time after which a case is a hang, or 20 times as many asleep")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above(0))
       ->capture_default_str();
   fuzz.add_option("--only", arguments->only, "Run one case again, STREAM:NUMBER as the table prints it");
   fuzz.add_option("--plugin", arguments->plugin,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/number_check.h"
 #include "cli/render/contact_sheet.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
@@ -66,10 +67,10 @@ void add_render_command(CLI::App& program, Job& job) {
       ->check(CLI::Range(200, 20000))
       ->capture_default_str();
   command.add_option("--azimuth", arguments->view.azimuth_deg, "Where the camera stands about the up axis, degrees")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(number_between(-360, 360))
       ->capture_default_str();
   command.add_option("--elevation", arguments->view.elevation_deg, "The camera's height above the horizon, degrees")
-      ->check(CLI::Range(-89.0, 89.0))
+      ->check(number_between(-89, 89))
       ->capture_default_str();
   command.add_option("--up", arguments->view.up, "The axis that points up")
       ->transform(CLI::CheckedTransformer(std::map<std::string, UpAxis>{{"y", UpAxis::kY}, {"z", UpAxis::kZ}}));

@@ -1,11 +1,11 @@
 #include "cli/verify_arguments.h"
 
 #include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/exit_code.h"
+#include "cli/number_check.h"
 #include "cli/shard.h"
 
 namespace selvage::cli {
@@ -82,7 +82,8 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
   command
       .add_option("--min-distance", arguments.min_distance,
                   "Frames: features without a common vertex must be at least this far apart")
-      ->type_name("LENGTH");
+      ->type_name("LENGTH")
+      ->check(number_from(0));
   CLI::Option* second =
       command.add_flag("--second-opinion", arguments.second_opinion,
                        "Decide every pair that needed exact arithmetic, and every one that touches, again with CGAL; a "
@@ -120,9 +121,6 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
 }
 
 verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const io::SequenceReader& sequence) {
-  if (arguments.min_distance && !(*arguments.min_distance >= 0 && std::isfinite(*arguments.min_distance))) {
-    throw UsageError("--min-distance must be finite and not negative");
-  }
   if (arguments.motion && sequence.frame_count() == 1) {
     throw UsageError("--motion needs at least two frames, and there is one: no motion would be checked");
   }

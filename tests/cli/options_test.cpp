@@ -1,0 +1,44 @@
+// Values of options that make no sense are refused before any work, and named.
+#include <gtest/gtest.h>
+
+#include "tests/cli/run_program.h"
+
+namespace selvage {
+namespace {
+
+using testing::run_program;
+
+struct Mistake {
+  std::vector<std::string> arguments;
+  std::string option, words;  ///< in the message
+};
+
+void expect_usage_errors(const std::vector<Mistake>& mistakes) {
+  for (const Mistake& mistake : mistakes) {
+    const auto result = run_program(mistake.arguments);
+    EXPECT_EQ(result.exit_code, 2) << mistake.arguments[0] << mistake.option << result.out << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(mistake.option), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(mistake.words), std::string::npos) << result.err;
+  }
+}
+
+}  // namespace
+
+TEST(Options, ANumberIsFinite) {
+  for (const std::string value : {"nan", "-nan", "inf"}) {
+    const std::string words = "'" + value + "' is not a number ";
+    expect_usage_errors({
+        {{"bench", "ccd", "--tolerance", value}, "--tolerance", words + "from 0 up"},
+        {{"bench", "queries", "none.csv", "--tolerance", value}, "--tolerance", words + "from 0 up"},
+        {{"bench", "broad", "--pleats", value}, "--pleats", words + "from 0.01 to 1"},
+        {{"render", "none", "-o", "a.png", "--azimuth", value}, "--azimuth", words + "from -360 to 360"},
+        {{"render", "none", "-o", "a.png", "--elevation", value}, "--elevation", words + "from -89 to 89"},
+        {{"fuzz", "ccd", "--cases", "1", "--case-time", value}, "--case-time", words + "above 0"},
+        {{"fuzz", "ccd", "--time", value}, "--time", "60s"},
+        {{"verify", "none.obj", "--min-distance", value}, "--min-distance", words + "from 0 up"},
+    });
+  }
+}
+
+}  // namespace selvage
