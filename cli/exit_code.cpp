@@ -2,10 +2,12 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
 #include "io/error.h"
+#include "io/fail.h"
 
 namespace selvage::cli {
 namespace {
@@ -15,11 +17,20 @@ ExitCode failed(ExitCode code, const char* what) {
   return code;
 }
 
+/// What the standard library says of a path, in the words of all other files.
+ExitCode run(const Job& job) {
+  try {
+    return job();
+  } catch (const std::filesystem::filesystem_error& error) {
+    io::file_error(error.path1().string(), "use", error.code().value());
+  }
+}
+
 }  // namespace
 
 ExitCode run_guarded(const Job& job) {
   try {
-    const ExitCode code = job();
+    const ExitCode code = run(job);
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       return failed(ExitCode::kFile, "cannot write the result to standard output");

@@ -1,11 +1,13 @@
 #include "cli/fuzz_command.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -69,6 +71,13 @@ fuzz::Properties chosen_properties(const std::vector<std::string>& names) {
   return chosen;
 }
 
+std::optional<std::int64_t> parse_case_number(std::string_view text) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole = error == std::errc() && end == text.data() + text.size();
+  return is_whole && number >= 0 ? std::optional(number) : std::nullopt;
+}
+
 /// "STREAM:NUMBER" of the only property.
 ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
   const std::size_t colon = arguments.only.rfind(':');
@@ -77,13 +86,14 @@ ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
   if (properties.size() != 1 || colon == std::string::npos) {
     throw UsageError("--only wants one property, and STREAM:NUMBER as the table prints it");
   }
+  const std::optional<std::int64_t> number = parse_case_number(std::string_view(arguments.only).substr(colon + 1));
+  if (!number) throw UsageError("--only wants STREAM:NUMBER, a number from 0 up; not '" + arguments.only + "'");
   fuzz::Property& property = *properties.front();
   const auto stream = std::ranges::find(property.streams(), name, &fuzz::Stream::name);
   if (stream == property.streams().end())
     throw UsageError("--only: " + property.name() + " has no stream '" + name + "'");
   property.start();
-  const std::string failure =
-      fuzz::run_case(property, *stream, arguments.seed, std::stoll(arguments.only.substr(colon + 1)));
+  const std::string failure = fuzz::run_case(property, *stream, arguments.seed, *number);
   fmt::print("{}\n", failure.empty() ? "holds" : failure);
   return failure.empty() ? ExitCode::kClean : ExitCode::kViolation;
 }
@@ -196,7 +206,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
                     ->check(CLI::PositiveNumber);
   fuzz.add_option("--time", arguments->time, "Or run this long in all, as in 60s (the default), 10m, 2h, 7d")
       ->excludes(cases);
-  fuzz.add_option("--seed", arguments->seed, "Cases depend on it alone")->capture_default_str();
+  fuzz.add_option("--seed", arguments->seed, "Cases depend on it alone")->check(whole_number())->capture_default_str();
   fuzz.add_option("--jobs", arguments->jobs, "Worker processes; as many as there are processors if not given")
       ->check(CLI::PositiveNumber);
   fuzz.add_option("--artifacts", arguments->artifacts, "Folder for campaign.json, stats.jsonl and kept cases")

@@ -41,4 +41,24 @@ TEST(Options, ANumberIsFinite) {
   }
 }
 
+TEST(Options, ANumberOfACaseIsWhole) {
+  for (const std::string number : {"99999999999999999999", "-1", "", "1x", "soup"}) {
+    expect_usage_errors({{{"fuzz", "step", "--only", "soup:" + number}, "--only", "'soup:" + number + "'"}});
+  }
+  expect_usage_errors({{{"fuzz", "step", "--cases", "1", "--seed", "-1"}, "--seed", "'-1' is not a whole number"}});
+}
+
+TEST(Options, AFolderThatCannotBeMadeIsFour) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "file";
+  testing::spit(file, "whole");
+  for (const std::filesystem::path& artifacts : {file, std::filesystem::path("/proc/x")}) {
+    const auto result = run_program(folder, {"fuzz", "ccd", "--cases", "10", "--artifacts", artifacts});
+    EXPECT_EQ(result.exit_code, 4) << result.out << result.err;
+    EXPECT_NE(result.err.find(artifacts.string() + ": cannot use: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("; check the path"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(testing::slurp(file), "whole");
+}
+
 }  // namespace selvage
