@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/choice.h"
 #include "cli/number_check.h"
 #include "cli/render/contact_sheet.h"
 #include "cli/sequence_argument.h"
@@ -72,8 +73,7 @@ void add_render_command(CLI::App& program, Job& job) {
   command.add_option("--elevation", arguments->view.elevation_deg, "The camera's height above the horizon, degrees")
       ->check(number_between(-89, 89))
       ->capture_default_str();
-  command.add_option("--up", arguments->view.up, "The axis that points up")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, UpAxis>{{"y", UpAxis::kY}, {"z", UpAxis::kZ}}));
+  add_choice(command, "--up", arguments->view.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}}, "The axis that points up");
   command.callback([arguments, &job] { job = [arguments] { return render_sequence(*arguments); }; });
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "cli/choice.h"
 #include "cli/interrupt.h"
 #include "cli/start_check.h"
 #include "cli/terminal.h"
@@ -140,12 +140,11 @@ void add_sim_command(CLI::App& program, Job& job) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{999'999}));
   command.add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
-  command.add_option("--record", arguments->record, "frames, or steps: all that was certified")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, io::SequenceKind>{
-          {"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}}));
-  command.add_option("--quality", arguments->quality, "draft or full, where the scene distinguishes")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, sim::Quality>{{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}}));
+  add_choice(command, "--record", arguments->record,
+             {{"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}},
+             "frames, or steps: all that was certified");
+  add_choice(command, "--quality", arguments->quality, {{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}},
+             "draft or full, where the scene distinguishes");
   command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");
   command.add_flag(
       "--repair", arguments->repair,

@@ -1,12 +1,12 @@
 #include "cli/view_command.h"
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "cli/choice.h"
 #include "cli/page/player_page.h"
 #include "cli/page/report_words.h"
 #include "cli/sequence_argument.h"
@@ -51,9 +51,8 @@ void add_view_command(CLI::App& program, Job& job) {
                   "At most this much of meshes: else every second, third, ... frame only")
       ->check(CLI::Range(1, 2000))
       ->capture_default_str();
-  command.add_option("--up", arguments->up, "The axis that points up (the page can change it)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, page::UpAxis>{{"y", page::UpAxis::kY}, {"z", page::UpAxis::kZ}}));
+  add_choice(command, "--up", arguments->up, {{"y", page::UpAxis::kY}, {"z", page::UpAxis::kZ}},
+             "The axis that points up (the page can change it)");
   command.callback([arguments, &job] { job = [arguments] { return view_sequence(*arguments); }; });
 }
 

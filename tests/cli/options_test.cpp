@@ -41,6 +41,30 @@ TEST(Options, ANumberIsFinite) {
   }
 }
 
+TEST(Options, HelpIsPlainText) {
+  for (const char* command :
+       {"bench", "convert", "doctor", "fuzz", "merge", "render", "replay", "sim", "subdivide", "verify", "view"}) {
+    const auto help = run_program({command, "--help"});
+    EXPECT_EQ(help.exit_code, 0) << command;
+    for (const unsigned char c : help.out) ASSERT_TRUE(c == '\n' || c >= 0x20) << command << help.out;
+    EXPECT_EQ(help.out.find("ENUM"), std::string::npos) << help.out;
+  }
+  const std::string sim = run_program({"sim", "--help"}).out;
+  EXPECT_NE(sim.find("--quality draft|full"), std::string::npos) << sim;
+}
+
+TEST(Options, AChoiceIsOneOfItsWords) {
+  for (const std::string value : {"1", "0", "", "Y"}) {
+    const std::string words = "'" + value + "' is not ";
+    expect_usage_errors({
+        {{"sim", "none.toml", "-o", "none", "--record", value}, "--record", words + "frames|steps"},
+        {{"sim", "none.toml", "-o", "none", "--quality", value}, "--quality", words + "draft|full"},
+        {{"view", "none", "-o", "none", "--up", value}, "--up", words + "y|z"},
+        {{"render", "none", "-o", "none.png", "--up", value}, "--up", words + "y|z"},
+    });
+  }
+}
+
 TEST(Options, ANumberOfACaseIsWhole) {
   for (const std::string number : {"99999999999999999999", "-1", "", "1x", "soup"}) {
     expect_usage_errors({{{"fuzz", "step", "--only", "soup:" + number}, "--only", "'soup:" + number + "'"}});
