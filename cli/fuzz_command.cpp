@@ -203,12 +203,12 @@ void add_fuzz_command(CLI::App& program, Job& job) {
   fuzz.add_option("PROPERTY", arguments->properties,
                   "Which promises to attack, as --list names them; all if none is named");
   auto* cases = fuzz.add_option("--cases", arguments->cases, "Cases of each property, rounded up to whole work units")
-                    ->check(CLI::PositiveNumber);
+                    ->check(number_from(1));
   fuzz.add_option("--time", arguments->time, "Or run this long in all, as in 60s (the default), 10m, 2h, 7d")
       ->excludes(cases);
   fuzz.add_option("--seed", arguments->seed, "Cases depend on it alone")->check(whole_number())->capture_default_str();
   fuzz.add_option("--jobs", arguments->jobs, "Worker processes; as many as there are processors if not given")
-      ->check(CLI::PositiveNumber);
+      ->check(number_from(1));
   fuzz.add_option("--artifacts", arguments->artifacts, "Folder for campaign.json, stats.jsonl and kept cases")
       ->capture_default_str();
   fuzz.add_flag("--resume", arguments->resume, "Continue the campaign in that folder, where there is one");

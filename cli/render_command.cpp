@@ -58,7 +58,9 @@ void add_render_command(CLI::App& program, Job& job) {
             return std::string(name.ends_with(".png") ? "" : name + ": only PNG is drawn; let the name end in .png");
           },
           "", ""));
-  CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")->delimiter(',');
+  CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")
+                            ->delimiter(',')
+                            ->check(whole_number());
   command.add_option("--tiles", arguments->tiles, "How many frames, spread evenly in time")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()

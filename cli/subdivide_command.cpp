@@ -12,6 +12,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "cli/interrupt.h"
+#include "cli/number_check.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
 #include "sim/points.h"
@@ -72,8 +73,8 @@ ExitCode run(const SubdivideArguments& arguments) {
   const auto input = open_sequence(arguments.sequence);
   if (input->frame_count() == 0) throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame");
   if (arguments.frame && *arguments.frame >= input->frame_count()) {
-    throw UsageError(
-        fmt::format("there is no frame {}; the last one is {}", *arguments.frame, input->frame_count() - 1));
+    throw UsageError(fmt::format("--frame {}: there is no such frame; the last one is {}", *arguments.frame,
+                                 input->frame_count() - 1));
   }
   const std::size_t begin = arguments.frame.value_or(0);
   const std::size_t end = arguments.frame ? begin + 1 : input->frame_count();
@@ -127,7 +128,7 @@ void add_subdivide_command(CLI::App& program, Job& job) {
   command.add_option("--levels", arguments->levels, "How often every face is split into four")
       ->check(CLI::Range(1, kMaxLevels))
       ->capture_default_str();
-  command.add_option("--frame", arguments->frame, "This frame alone; from 0");
+  command.add_option("--frame", arguments->frame, "This frame alone; from 0")->check(whole_number());
   command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }
 

@@ -113,7 +113,7 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
       .add_option("--max-violations", arguments.max_violations,
                   fmt::format("List at most this many; all are counted (default: {} in the JSON, {} on the terminal)",
                               kViolationsInJson, kViolationsInText))
-      ->check(CLI::NonNegativeNumber);  // as a signed number: an unsigned one would wrap "-3" around
+      ->check(number_from(0));  // as a signed number: an unsigned one would wrap "-3" around
   add_long_runs(command, arguments);
   command.add_option("--threads", arguments.threads, "Number of threads; 0: one a core")
       ->check(CLI::Range(0, 1024))

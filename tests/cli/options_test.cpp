@@ -41,6 +41,26 @@ TEST(Options, ANumberIsFinite) {
   }
 }
 
+TEST(Options, TheRangeIsSaidInShort) {
+  expect_usage_errors({
+      {{"verify", "none.obj", "--max-violations", "-1"}, "--max-violations", "'-1' is not a number from 0 up"},
+      {{"fuzz", "ccd", "--cases", "0"}, "--cases", "'0' is not a number from 1 up"},
+      {{"fuzz", "ccd", "--jobs", "0"}, "--jobs", "'0' is not a number from 1 up"},
+      {{"fuzz", "ccd", "--case-time", "0"}, "--case-time", "'0' is not a number above 0"},
+      {{"bench", "queries", "none.csv", "--tolerance", "-1"}, "--tolerance", "'-1' is not a number from 0 up"},
+  });
+}
+
+TEST(Options, AFrameIsAWholeNumber) {
+  for (const std::string frame : {"-1", "1.5", "", "99999999999999999999"}) {
+    const std::string words = "'" + frame + "' is not a whole number";
+    expect_usage_errors({
+        {{"render", "none", "-o", "a.png", "--frames", frame}, "--frames", words},
+        {{"subdivide", "none", "-o", "none", "--frame", frame}, "--frame", words},
+    });
+  }
+}
+
 TEST(Options, HelpIsPlainText) {
   for (const char* command :
        {"bench", "convert", "doctor", "fuzz", "merge", "render", "replay", "sim", "subdivide", "verify", "view"}) {
