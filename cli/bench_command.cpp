@@ -170,7 +170,6 @@ void add_ccd_command(CLI::App& bench, Job& job) {
 
 void add_bench_command(CLI::App& program, Job& job) {
   CLI::App& bench = add_command(program, "bench", "Speed against error", "selvage bench queries data_vf.csv");
-  bench.require_subcommand(1);
   CLI::App& queries =
       add_command(bench, "queries",
                   "The kernel, the textbook method and the exact checker on files of queries (CSV of the "
@@ -195,6 +194,7 @@ void add_bench_command(CLI::App& program, Job& job) {
   add_bench_methods_command(bench, job);
   add_bench_stability_command(bench, job);
   add_bench_sim_command(bench, job);
+  require_one_subcommand(bench, job);
 }
 
 }  // namespace selvage::cli

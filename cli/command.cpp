@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace selvage::cli {
 namespace {
@@ -28,6 +29,21 @@ CLI::App& add_command(CLI::App& program, const std::string& name, const std::str
   CLI::App& command = *program.add_subcommand(name, description);
   show_example_first(command, example);
   return command;
+}
+
+void require_one_subcommand(CLI::App& command, Job& job) {
+  command.require_subcommand(0, 1);
+  command.allow_extras();  // to name them ourselves: CLI11 says of an unknown one only that one is required
+  command.callback([&command, &job] {
+    const std::vector<std::string> unknown = command.remaining();
+    if (!command.get_subcommands().empty() && unknown.empty()) return;
+    std::string names;
+    for (const CLI::App* known : command.get_subcommands({})) names += (names.empty() ? "" : ", ") + known->get_name();
+    const std::string what = unknown.empty() ? "a subcommand is required" : "no subcommand '" + unknown.front() + "'";
+    job = [message = command.get_name() + ": " + what + "; there are " + names]() -> ExitCode {
+      throw UsageError(message);
+    };
+  });
 }
 
 }  // namespace selvage::cli

@@ -17,4 +17,8 @@ void show_example_first(CLI::App& app, const std::string& example);
 CLI::App& add_command(CLI::App& program, const std::string& name, const std::string& description,
                       const std::string& example);
 
+/// After all its subcommands were added: without one of them, or with an unknown one, the job is an error that names it
+/// and lists them.
+void require_one_subcommand(CLI::App& command, Job& job);
+
 }  // namespace selvage::cli

@@ -107,6 +107,9 @@ Ledger parse_ledger(const std::string& text, const std::string& name) {
     ledger.shards = count(json.at("shard").at(1));
     for (const Json& property : json.at("properties")) ledger.properties.push_back(property_of(property));
     return ledger;
+  } catch (const Json::parse_error& error) {
+    throw io::Error(io::ErrorKind::kBadInput, name + ": no ledger of a campaign: not valid JSON at byte " +
+                                                  std::to_string(error.byte) + "; is it whole?");
   } catch (const std::exception& error) {  // of nlohmann, or ours
     throw io::Error(io::ErrorKind::kBadInput, name + ": no ledger of a campaign: " + error.what());
   }

@@ -21,10 +21,11 @@ namespace {
 constexpr std::string_view kTemporaryMark = ".tmp-";
 
 /// Random and O_EXCL: process ids repeat between machines that share a file system.
-PosixFile create_temporary(fs::path target) {
+PosixFile create_temporary(const fs::path& target) {
   std::random_device random;
-  target += std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
-  return {std::move(target), O_WRONLY | O_CREAT | O_EXCL};
+  fs::path temporary = target;
+  temporary += std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
+  return {std::move(temporary), target, O_WRONLY | O_CREAT | O_EXCL};
 }
 
 void write_in_place(const fs::path& file, std::string_view bytes) {

@@ -11,18 +11,20 @@
 
 namespace selvage::io {
 
-PosixFile::PosixFile(std::filesystem::path path, int flags, unsigned mode) : path_(std::move(path)) {
+PosixFile::PosixFile(std::filesystem::path path, std::filesystem::path name, int flags, unsigned mode)
+    : path_(std::move(path)), name_(std::move(name)) {
   do {
     descriptor_ = ::open(path_.c_str(), flags | O_CLOEXEC, mode);
   } while (descriptor_ < 0 && errno == EINTR);
-  if (descriptor_ < 0) file_error(path_.string(), "open", errno);
+  if (descriptor_ < 0) file_error(name_.string(), "open", errno);
 }
 
 PosixFile::PosixFile(PosixFile&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : path_(std::move(other.path_)), name_(std::move(other.name_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 PosixFile& PosixFile::operator=(PosixFile&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(name_, other.name_);
   std::swap(descriptor_, other.descriptor_);
   return *this;
 }
@@ -33,7 +35,7 @@ PosixFile::~PosixFile() {
 
 std::uint64_t PosixFile::size() const {
   struct stat status = {};
-  if (::fstat(descriptor_, &status) != 0) file_error(path_.string(), "inspect", errno);
+  if (::fstat(descriptor_, &status) != 0) file_error(name_.string(), "inspect", errno);
   return static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -42,7 +44,7 @@ std::size_t PosixFile::read_some(char* bytes, std::size_t count) const {
   while (done < count) {
     const ssize_t got = ::read(descriptor_, bytes + done, count - done);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) file_error(path_.string(), "read", errno);
+    if (got < 0) file_error(name_.string(), "read", errno);
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
@@ -53,8 +55,8 @@ void PosixFile::read_at(std::uint64_t offset, char* bytes, std::size_t count) co
   while (count > 0) {
     const ssize_t got = ::pread(descriptor_, bytes, count, static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) file_error(path_.string(), "read", errno);
-    if (got == 0) bad_input(path_.string(), "truncated while it was read; copy it again");
+    if (got < 0) file_error(name_.string(), "read", errno);
+    if (got == 0) bad_input(name_.string(), "truncated while it was read; copy it again");
     offset += static_cast<std::uint64_t>(got);
     bytes += got;
     count -= static_cast<std::size_t>(got);
@@ -65,7 +67,7 @@ void PosixFile::write(std::string_view bytes) const {
   while (!bytes.empty()) {
     const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
     if (put < 0 && errno == EINTR) continue;
-    if (put < 0) file_error(path_.string(), "write", errno);
+    if (put < 0) file_error(name_.string(), "write", errno);
     bytes.remove_prefix(static_cast<std::size_t>(put));
   }
 }
@@ -74,18 +76,18 @@ void PosixFile::write_at(std::uint64_t offset, std::string_view bytes) const {
   while (!bytes.empty()) {
     const ssize_t put = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (put < 0 && errno == EINTR) continue;
-    if (put < 0) file_error(path_.string(), "write", errno);
+    if (put < 0) file_error(name_.string(), "write", errno);
     offset += static_cast<std::uint64_t>(put);
     bytes.remove_prefix(static_cast<std::size_t>(put));
   }
 }
 
 void PosixFile::sync() const {
-  if (::fsync(descriptor_) != 0) file_error(path_.string(), "sync", errno);
+  if (::fsync(descriptor_) != 0) file_error(name_.string(), "sync", errno);
 }
 
 void PosixFile::close() {
-  if (::close(std::exchange(descriptor_, -1)) != 0) file_error(path_.string(), "close", errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) file_error(name_.string(), "close", errno);
 }
 
 void sync_folder(const std::filesystem::path& folder) {

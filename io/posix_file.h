@@ -10,11 +10,13 @@
 
 namespace selvage::io {
 
-/// Owns a descriptor. Every function throws Error(kFile) with the path when the system call fails.
+/// Owns a descriptor. Every function throws Error(kFile) with its name when the system call fails.
 class PosixFile {
  public:
   /// `flags` and `mode` as for open(2); O_CLOEXEC is added.
-  PosixFile(std::filesystem::path path, int flags, unsigned mode = 0666);
+  PosixFile(const std::filesystem::path& path, int flags, unsigned mode = 0666) : PosixFile(path, path, flags, mode) {}
+  /// Errors speak of `name`: what the user knows of, where `path` is only on the way there.
+  PosixFile(std::filesystem::path path, std::filesystem::path name, int flags, unsigned mode = 0666);
   PosixFile(PosixFile&& other) noexcept;
   PosixFile& operator=(PosixFile&& other) noexcept;
   ~PosixFile();
@@ -36,7 +38,7 @@ class PosixFile {
   void close();
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path path_, name_;
   int descriptor_ = -1;
 };
 

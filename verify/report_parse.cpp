@@ -225,6 +225,8 @@ ParsedReport parse_report(const std::string& text, const std::string& name) {
     return parse(Json::parse(text));
   } catch (const Fault& fault) {
     return fail(fault.what);
+  } catch (const Json::parse_error& error) {
+    return fail("not valid JSON at byte " + std::to_string(error.byte) + "; is it whole?");
   } catch (const Json::exception& error) {
     return fail(error.what());
   }

@@ -36,4 +36,45 @@ TEST(Program, UnknownSubcommandIsUsage) {
   EXPECT_NE(with_options.err.find("no subcommand 'knit'"), std::string::npos) << with_options.err;
 }
 
+TEST(Program, AnUnknownBenchIsNamedAndTheOthersListed) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"bench", "foo"}, {"bench", "foo", "a.obj", "--json", "x"}, {"bench", "foo", "ccd"}}) {
+    const auto result = run_program(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("no subcommand 'foo'; there are queries, ccd, "), std::string::npos) << result.err;
+  }
+  const auto none = run_program({"bench"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("a subcommand is required; there are queries, "), std::string::npos) << none.err;
+  EXPECT_EQ(run_program({"bench", "ccd", "--jsn", "x"}).exit_code, 2);
+}
+
+TEST(Program, AnErrorNamesTheFileThatWasAskedFor) {
+  const testing::TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", absent = folder.path() / "no" / "x.html";
+  testing::spit(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", mesh, "--json", absent},
+                                                    {"verify", mesh, "--html", absent},
+                                                    {"view", mesh, "-o", absent}}) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find(absent.string() + ": cannot open: "), std::string::npos) << result.err;
+  }
+}
+
+TEST(Program, AReportThatWasCutIsNamedInOneLine) {
+  const testing::TemporaryFolder folder;
+  const auto cut = folder.path() / "cut.json", ledger = folder.path() / "part" / "campaign.json";
+  std::filesystem::create_directory(folder.path() / "part");
+  for (const auto& file : {cut, ledger}) {
+    testing::spit(file, "{\"schema\": ");
+    const std::filesystem::path part = file == cut ? cut : ledger.parent_path();
+    const auto result = run_program(folder, {"merge", part, "-o", folder.path() / "out"});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_NE(result.err.find(file.string() + ": "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("not valid JSON at byte 12; is it whole?\n"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
+  }
+}
+
 }  // namespace selvage
