@@ -1,10 +1,12 @@
 #include "cli/subdivide_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +17,8 @@
 #include "cli/number_check.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
+#include "io/sequence_outputs.h"
+#include "kernel/types.h"
 #include "sim/points.h"
 #include "sim/subdivision.h"
 #include "verify/check.h"
@@ -49,6 +53,40 @@ std::int64_t intersections(const io::Triangles& triangles, const std::vector<io:
   return verify::check_frame(verify::Surface{triangles, is_body}, V, options).violations_total.total();
 }
 
+/// Throws io::Error where the kernel could not answer for the frame.
+void require_in_domain(const io::Points& points, const std::string& name) {
+  for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
+    for (const double x : points[vertex]) {
+      if (std::abs(x) <= kMaxCoordinate) continue;
+      throw io::Error(
+          io::ErrorKind::kBadInput,
+          fmt::format("{}: vertex {} has the coordinate {:g}, beyond {:g}, which is the largest that can be "
+                      "subdivided; choose a larger unit of length",
+                      name, vertex, x, kMaxCoordinate));
+    }
+  }
+}
+
+/// Throws io::Error unless frame `frame` can be subdivided by the rules of the first one.
+io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, const io::MeshData& first) {
+  io::MeshData mesh = input.frame(frame);
+  const std::string name = input.frame_name(frame);
+  if (mesh.points.size() != first.points.size()) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    fmt::format("{}: {} vertices, the first frame has {}; subdivide such frames one by one with "
+                                "--frame, each into a folder of its own",
+                                name, mesh.points.size(), first.points.size()));
+  }
+  if (mesh.triangles != first.triangles) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    fmt::format("{}: its faces are not those of the first frame; subdivide such frames one by one with "
+                                "--frame, each into a folder of its own",
+                                name));
+  }
+  require_in_domain(mesh.points, name);
+  return mesh;
+}
+
 struct FineFrame {
   io::Points points;
   sim::SubdivisionCounts counts;
@@ -79,38 +117,44 @@ ExitCode run(const SubdivideArguments& arguments) {
   const std::size_t begin = arguments.frame.value_or(0);
   const std::size_t end = arguments.frame ? begin + 1 : input->frame_count();
   const io::MeshData first = input->frame(begin);
-  const std::vector<io::Group> groups = input->groups();
+  if (first.triangles.empty()) {
+    throw io::Error(io::ErrorKind::kBadInput, input->frame_name(begin) + ": no faces: there is nothing to subdivide");
+  }
+  const std::vector<io::Group>& groups = first.groups;
   const sim::Subdivision subdivision(first.triangles, static_cast<std::int32_t>(first.points.size()), groups,
                                      arguments.levels);
-  io::SequenceWriter writer(arguments.output, {subdivision.triangles(), subdivision.groups(), io::SequenceKind::kFrames,
-                                               io::Precision::kFloat64, "selvage " SELVAGE_VERSION});
+  io::MeshData written{{}, subdivision.triangles(), subdivision.groups(), io::Precision::kFloat64};
+  const auto output = io::create_folder_output(
+      arguments.output,
+      {{written.triangles, written.groups, io::SequenceKind::kFrames, written.precision, "selvage " SELVAGE_VERSION},
+       static_cast<std::size_t>(subdivision.vertex_count()),
+       end - begin});
   sim::SubdivisionCounts counts;
   ProgressBar bar("subdividing");
   const auto batch = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   for (std::size_t frame = begin; frame < end; frame += batch) {
     bar.update(frame - begin, end - begin);
-    if (interrupted()) return ExitCode::kInterrupted;
+    if (interrupted()) {
+      fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+      return ExitCode::kInterrupted;
+    }
     std::vector<FineFrame> fine(std::min(batch, end - frame));
     tbb::parallel_for(std::size_t{0}, fine.size(), [&](std::size_t k) {
-      const io::MeshData mesh = input->frame(frame + k);
-      if (mesh.triangles != first.triangles) {
-        throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: its faces are not those of the first frame; "
-                                                              "subdivide such frames one by one with --frame",
-                                                              input->frame_name(frame + k)));
-      }
-      fine[k] = subdivide(subdivision, mesh, groups);
+      fine[k] = subdivide(subdivision, read_frame(*input, frame + k, first), groups);
     });
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before + fine[k].after > 0) {
-        fmt::print("{}: {} pairs intersect {}; it and what follows is not written\n", input->frame_name(frame + k),
+        fmt::print("{}: {} pairs intersect {}; nothing is written\n", input->frame_name(frame + k),
                    fine[k].before + fine[k].after, fine[k].before > 0 ? "already" : "after subdivision");
         return ExitCode::kViolation;
       }
-      writer.append(input->time(frame + k), fine[k].points);
+      written.points = std::move(fine[k].points);
+      output->append(input->time(frame + k), written);
       counts.rounds += fine[k].counts.rounds;
       counts.stopped += fine[k].counts.stopped;
     }
   }
+  output->finish();
   fmt::print("{} frames, {} faces to {}\n", end - begin, first.triangles.size(), subdivision.triangles().size());
   fmt::print("vertices stopped before a touch {}, in {} further rounds\n", counts.stopped, counts.rounds);
   fmt::print("every frame checked exactly, before and after: 0 intersections\n");
@@ -124,7 +168,9 @@ void add_subdivide_command(CLI::App& program, Job& job) {
                                   "selvage subdivide demo/curtain -o demo/smooth --levels 2");
   const auto arguments = std::make_shared<SubdivideArguments>();
   add_sequence_argument(command, arguments->sequence);
-  command.add_option("-o,--output", arguments->output, "The sequence folder to write")->required();
+  command
+      .add_option("-o,--output", arguments->output, "The sequence folder to write; must not be there yet, or be empty")
+      ->required();
   command.add_option("--levels", arguments->levels, "How often every face is split into four")
       ->check(CLI::Range(1, kMaxLevels))
       ->capture_default_str();

@@ -80,6 +80,8 @@ Subdivision::~Subdivision() = default;
 
 const io::Triangles& Subdivision::triangles() const { return levels_.back()->rules.triangles(); }
 
+std::int32_t Subdivision::vertex_count() const { return levels_.back()->mesh.vertex_count; }
+
 Positions Subdivision::operator()(const PositionsRef& V, SubdivisionCounts& counts) const {
   const FpEnvGuard guard;
   Positions x = V;

@@ -23,6 +23,7 @@ class Subdivision {
   ~Subdivision();
 
   [[nodiscard]] const io::Triangles& triangles() const;
+  [[nodiscard]] std::int32_t vertex_count() const;
   [[nodiscard]] const std::vector<io::Group>& groups() const { return groups_; }
 
   /// The finest positions. PRE: V is free of intersections. At every level the vertices start on the surface, at the

@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include <gtest/gtest.h>
 
 #include "io/sequence.h"
@@ -6,8 +8,16 @@
 namespace selvage {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::run_program;
+using testing::spit;
 using testing::TemporaryFolder;
+
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+void expect_text(const std::string& text, const std::string& fragment) {
+  EXPECT_NE(text.find(fragment), std::string::npos) << "expected: " << fragment << "\nin: " << text;
+}
 
 /// Two tents of four faces, the second one `gap` above the first; below 0 they intersect.
 void record(const std::filesystem::path& folder, double gap) {
@@ -54,6 +64,78 @@ TEST(SubdivideCommand, RefusesFramesThatIntersect) {
   const auto result = run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.out.find("intersect already"), std::string::npos) << result.out;
+  EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
+TEST(SubdivideCommand, WhatCannotBeSubdividedIsNamedAndLeavesNothing) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "first.obj", kTriangle);
+  const struct {
+    const char *name, *mesh, *message;
+  } cases[] = {
+      {"more.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n", "4 vertices, the first frame has 3"},
+      {"turned.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n", "its faces are not those of the first frame"},
+      {"nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", "nan"},
+      {"huge.obj", "v 0 0 0\nv 1 0 0\nv 0 -1e308 0\nf 1 2 3\n",
+       "vertex 2 has the coordinate -1e+308, beyond 1.07151e+301"},
+      {"none.ply",
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+       "1 vertices, the first frame has 3"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.name);
+    spit(folder.path() / c.name, c.mesh);
+    const auto result = run_program(
+        folder, {"subdivide", folder.path() / "first.obj", folder.path() / c.name, "-o", folder.path() / "fine"});
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    expect_text(result.err, c.name);
+    expect_text(result.err, c.message);
+    EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+  }
+  const auto none = run_program(folder, {"subdivide", folder.path() / "none.ply", "-o", folder.path() / "fine"});
+  EXPECT_EQ(none.exit_code, 3);
+  expect_text(none.err, "none.ply: no faces: there is nothing to subdivide");
+  EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
+TEST(SubdivideCommand, AFrameAloneHasItsOwnFacesAndGroups) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng both\nf 1 2 3\nf 2 4 3\n");
+  spit(folder.path() / "one.obj", std::string("g single\n") + kTriangle);
+  const auto result = run_program(folder, {"subdivide", folder.path() / "two.obj", folder.path() / "one.obj", "--frame",
+                                           "1", "-o", folder.path() / "fine"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(io::open_sequence({folder.path() / "fine"})->groups().at(0).name, "single");
+}
+
+TEST(SubdivideCommand, ADamagedFrameLeavesNothingOfThoseBeforeIt) {
+  const TemporaryFolder folder;
+  io::SequenceWriter writer(folder.path() / "run",
+                            {{{0, 1, 2}}, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"});
+  for (int i = 0; i < 100; ++i) writer.append(i, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  spit(folder.path() / "run" / "frame_000099.npy", "damaged");
+  const auto result = run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine"});
+  EXPECT_EQ(result.exit_code, 3) << result.out;
+  expect_text(result.err, "frame_000099.npy");
+  EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
+TEST(SubdivideCommand, AnInterruptedRunLeavesNothing) {
+  const TemporaryFolder folder;
+  io::SequenceWriter writer(folder.path() / "run",
+                            {{{0, 1, 2}}, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"});
+  for (int i = 0; i < 300; ++i) writer.append(i, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const pid_t child = testing::start_program(
+        folder.path(), {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--levels", "5"});
+    for (int i = 0; i < 6000 && !fs::exists(folder.path() / "fine" / "frame_000000.npy"); ++i) usleep(1000);
+    kill(child, signal);
+    const auto result = testing::wait_for_program(folder.path(), child);
+    EXPECT_EQ(result.exit_code, 75) << result.out;
+    expect_text(result.err, "interrupted; nothing was written");
+    EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+  }
 }
 
 }  // namespace selvage
