@@ -43,10 +43,19 @@ bool has_bodies(const std::vector<io::Group>& groups) {
                      [](const io::Group& group) { return group.role == io::Group::Role::kBody; });
 }
 
+/// Throws io::Error where a frame holds no surface: what would be written of it is refused by its readers.
+io::MeshData read_surface(const io::SequenceReader& input, std::size_t frame) {
+  io::MeshData mesh = input.frame(frame);
+  if (mesh.triangles.empty()) {
+    throw io::Error(io::ErrorKind::kBadInput, input.frame_name(frame) + ": no faces: there is nothing to convert");
+  }
+  return mesh;
+}
+
 /// Writes frames of `input`; nothing is returned where a signal has stopped it, and nothing is left then.
 std::optional<Conversion> write(const io::SequenceReader& input, FrameRange range, const ConvertArguments& arguments) {
   const io::OutputTraits& format = io::traits(io::output_format(arguments.output));
-  io::MeshData mesh = input.frame(range.begin);
+  io::MeshData mesh = read_surface(input, range.begin);
   const auto output = io::create_output(
       arguments.output, {{mesh.triangles, mesh.groups, input.kind(), input.precision(), "selvage " SELVAGE_VERSION},
                          mesh.points.size(),
@@ -56,7 +65,7 @@ std::optional<Conversion> write(const io::SequenceReader& input, FrameRange rang
   for (std::size_t i = range.begin; i < range.end; ++i) {
     bar.update(i - range.begin, range.end - range.begin);
     if (interrupted()) return std::nullopt;
-    if (i > range.begin) mesh = input.frame(i);
+    if (i > range.begin) mesh = read_surface(input, i);
     if (format.is_float32) io::round_to_float32(mesh.points, result.rounding, input.frame_name(i));
     output->append(input.time(i), mesh);
     result.checksums.push_back(checksum(mesh.points));

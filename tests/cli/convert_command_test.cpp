@@ -178,6 +178,25 @@ TEST(ConvertCommand, MistakesHaveTheirExitCodes) {
   EXPECT_EQ(io::open_sequence({folder.path() / "foreign"})->frame_count(), 3u);
 }
 
+TEST(ConvertCommand, AFrameWithoutFacesIsRefused) {
+  const TemporaryFolder folder;
+  const std::string none = folder.path() / "none.ply";
+  spit(none,
+       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
+  spit(folder.path() / "one.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  for (const char* output : {"a.obj", "a.npz", "a.pc2", "a.pvd", "a"}) {
+    SCOPED_TRACE(output);
+    const auto result = run_program(folder, {"convert", none, "-o", folder.path() / output});
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    expect_text(result.err, "none.ply: no faces: there is nothing to convert");
+    EXPECT_FALSE(fs::exists(folder.path() / output));
+  }
+  const auto later = run_program(folder, {"convert", folder.path() / "one.obj", none, "-o", folder.path() / "a.obj"});
+  EXPECT_EQ(later.exit_code, 3) << later.out;
+  EXPECT_FALSE(fs::exists(folder.path() / "a_000000.obj"));
+}
+
 TEST(ConvertCommand, HelpStartsWithAnExample) {
   const auto result = run_program({"convert", "--help"});
   EXPECT_EQ(result.exit_code, 0);
