@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/error.h"
+#include "io/mesh_reader.h"
 #include "kernel/box_hierarchy.h"
 
 namespace selvage::bench {
@@ -51,6 +52,24 @@ MeshMotion mesh_motion(const io::MeshData& t0, const io::MeshData& t1) {
   }
   if (error != InputError::kNone) throw io::Error(io::ErrorKind::kBadInput, describe(error));
   return motion;
+}
+
+MeshMotion read_mesh_motion(const std::filesystem::path& file_t0, const std::filesystem::path& file_t1) {
+  const io::MeshData t0 = io::read_mesh(file_t0), t1 = io::read_mesh(file_t1);
+  const std::string both = file_t0.string() + ", " + file_t1.string() + ": ";
+  if (t0.points.size() != t1.points.size()) {
+    throw io::Error(io::ErrorKind::kBadInput, both + std::to_string(t0.points.size()) + " and " +
+                                                  std::to_string(t1.points.size()) +
+                                                  " vertices; name two frames of one mesh");
+  }
+  if (t0.triangles != t1.triangles) {
+    throw io::Error(io::ErrorKind::kBadInput, both + "their faces differ; name two frames of one mesh");
+  }
+  try {
+    return mesh_motion(t0, t1);
+  } catch (const io::Error& error) {
+    throw io::Error(error.kind(), both + error.what());
+  }
 }
 
 MeshMotion crumpled_sheet(int side, double pleat_advance) {

@@ -1,6 +1,8 @@
 // The motion of a mesh between two frames: from files, or made up.
 #pragma once
 
+#include <filesystem>
+
 #include "io/mesh_data.h"
 #include "kernel/candidates.h"
 
@@ -10,6 +12,10 @@ struct MeshMotion {
   Mesh mesh;
   Positions V_t0, V_t1;
 };
+
+/// Two files (.obj, .ply) of one mesh. Throws io::Error(kBadInput) that names both where the meshes differ in faces or
+/// in number of vertices, or leave the kernel's domain.
+[[nodiscard]] MeshMotion read_mesh_motion(const std::filesystem::path& file_t0, const std::filesystem::path& file_t1);
 
 /// The connectivity of `t0`. Throws io::Error(kBadInput) where the frames do not fit together or leave the kernel's
 /// domain.

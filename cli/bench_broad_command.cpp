@@ -11,7 +11,6 @@
 #include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "io/atomic_file.h"
-#include "io/mesh_reader.h"
 
 namespace selvage::cli {
 namespace {
@@ -72,7 +71,7 @@ ExitCode bench_broad(const BroadArguments& arguments) {
   if (!arguments.frame_t0.empty()) {
     if (arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
     run(arguments.frame_t0 + " -> " + arguments.frame_t1,
-        bench::mesh_motion(io::read_mesh(arguments.frame_t0), io::read_mesh(arguments.frame_t1)));
+        bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1));
   } else {
     for (const double advance : arguments.pleat_advances) {
       for (const int side : sheet_sides(arguments.largest)) {

@@ -18,7 +18,6 @@
 #include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "io/atomic_file.h"
-#include "io/mesh_reader.h"
 
 namespace selvage::cli {
 namespace {
@@ -121,9 +120,8 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   std::vector<std::filesystem::path> inputs = {arguments.frame_t0, arguments.frame_t1};
   for (const std::vector<std::string>& files : arguments.truth) inputs.insert(inputs.end(), files.begin(), files.end());
   require_separate_outputs(inputs, {arguments.json});
-  const bench::MeshMotion motion =
-      from_files ? bench::mesh_motion(io::read_mesh(arguments.frame_t0), io::read_mesh(arguments.frame_t1))
-                 : bench::crumpled_sheet(arguments.sheet);
+  const bench::MeshMotion motion = from_files ? bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1)
+                                              : bench::crumpled_sheet(arguments.sheet);
   std::vector<bench::LabelledPair> labels;
   for (const std::vector<std::string>& files : arguments.truth) {
     const auto read = bench::read_pair_labels(files.at(0), files.at(1), motion.mesh);

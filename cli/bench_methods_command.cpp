@@ -10,7 +10,6 @@
 #include "cli/hard_queries.h"
 #include "cli/output_check.h"
 #include "io/atomic_file.h"
-#include "io/mesh_reader.h"
 
 namespace selvage::cli {
 namespace {
@@ -45,8 +44,7 @@ ExitCode bench_methods(const MethodsArguments& arguments) {
   const auto most = static_cast<std::size_t>(arguments.most);
   if (!arguments.frame_t0.empty()) {
     if (arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
-    const bench::MeshMotion motion =
-        bench::mesh_motion(io::read_mesh(arguments.frame_t0), io::read_mesh(arguments.frame_t1));
+    const bench::MeshMotion motion = bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1);
     run(bench::candidate_set("public frame pair", motion, most));
   }
   if (arguments.sheet > 0) {
