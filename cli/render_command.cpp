@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/choice.h"
+#include "cli/interrupt.h"
 #include "cli/number_check.h"
 #include "cli/render/contact_sheet.h"
 #include "cli/sequence_argument.h"
@@ -38,8 +40,15 @@ ExitCode render_sequence(const RenderArguments& arguments) {
   }
   if (options.frames.empty()) throw io::Error(io::ErrorKind::kBadInput, "the sequence has no frames; nothing to draw");
   ProgressBar bar("drawing");
-  io::write_png(arguments.picture, render_sheet(*sequence, options,
-                                                [&](std::size_t done, std::size_t total) { bar.update(done, total); }));
+  const std::optional<io::Picture> sheet = render_sheet(*sequence, options, [&](std::size_t done, std::size_t total) {
+    bar.update(done, total);
+    return !interrupted();
+  });
+  if (!sheet) {
+    fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+    return ExitCode::kInterrupted;
+  }
+  io::write_png(arguments.picture, *sheet);
   return ExitCode::kClean;
 }
 
@@ -67,7 +76,7 @@ void add_render_command(CLI::App& program, Job& job) {
       ->excludes(frames);
   command.add_option("--columns", arguments->columns, "Tiles a row")->check(CLI::Range(1, 100))->capture_default_str();
   command.add_option("--width", arguments->width, "Pixels of the whole sheet")
-      ->check(CLI::Range(200, 20000))
+      ->check(CLI::Range(200, 10000))
       ->capture_default_str();
   command.add_option("--azimuth", arguments->view.azimuth_deg, "Where the camera stands about the up axis, degrees")
       ->check(number_between(-360, 360))

@@ -16,6 +16,7 @@ constexpr int kGap = 6;                                          // pixels betwe
 constexpr std::array<std::uint8_t, 3> kPaper = {250, 250, 248};  // behind the tiles
 constexpr std::array<std::uint8_t, 3> kInk = {45, 50, 60};
 constexpr int kTextScale = 2;
+constexpr std::size_t kMostPixels = 100'000'000;  // the sheet, a tile as large, and the PNG in the making: 1.2 GB
 
 void paste(const io::Picture& tile, int x, int y, io::Picture& sheet) {
   for (int row = 0; row < tile.height; ++row) {
@@ -44,12 +45,8 @@ std::vector<std::size_t> spread_frames(const io::SequenceReader& sequence, std::
   return frames;
 }
 
-io::Picture render_sheet(const io::SequenceReader& sequence, const SheetOptions& options,
-                         const std::function<void(std::size_t, std::size_t)>& progress) {
-  Stage stage;
-  for (const std::size_t frame : options.frames) stage.add_cloth(make_render_surface(sequence.frame(frame)));
-  if (stage.points.empty()) throw io::Error(io::ErrorKind::kBadInput, sequence.frame_name(0) + ": no faces to draw");
-
+std::optional<io::Picture> render_sheet(const io::SequenceReader& sequence, const SheetOptions& options,
+                                        const std::function<bool(std::size_t, std::size_t)>& progress) {
   const int columns = std::min(options.columns, static_cast<int>(options.frames.size()));
   constexpr int kSmallestTile = 60;  // pixels; below it the label hides the picture
   if (options.width < columns * (kSmallestTile + kGap) + kGap) {
@@ -58,16 +55,26 @@ io::Picture render_sheet(const io::SequenceReader& sequence, const SheetOptions&
   const int rows = (static_cast<int>(options.frames.size()) + columns - 1) / columns;
   const int tile_width = (options.width - kGap * (columns + 1)) / columns, tile_height = tile_width * 3 / 4;
   io::Picture sheet{options.width, rows * (tile_height + kGap) + kGap, {}};
-  for (int pixel = 0; pixel < sheet.width * sheet.height; ++pixel) {
-    sheet.rgb.insert(sheet.rgb.end(), kPaper.begin(), kPaper.end());
+  const std::size_t pixels = static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height);
+  if (pixels > kMostPixels) {
+    throw UsageError(fmt::format("a sheet of {} by {} pixels is too large; choose a smaller --width or more --columns",
+                                 sheet.width, sheet.height));
   }
+  Stage stage;
+  for (const std::size_t frame : options.frames) stage.add_cloth(make_render_surface(sequence.frame(frame)));
+  if (stage.points.empty()) throw io::Error(io::ErrorKind::kBadInput, sequence.frame_name(0) + ": no faces to draw");
+
+  sheet.rgb.resize(3 * pixels);
+  for (std::size_t i = 0; i < sheet.rgb.size(); ++i) sheet.rgb[i] = kPaper[i % 3];
   for (std::size_t n = 0; n < options.frames.size(); ++n) {
     const std::size_t frame = options.frames[n];
-    io::Picture tile = render(make_render_surface(sequence.frame(frame)), options.view, stage, tile_width, tile_height);
-    draw_text(tile, 10, 8, kTextScale, fmt::format("frame {}   {:.2f} s", frame, sequence.time(frame)), kInk);
+    std::optional<io::Picture> tile =
+        render(make_render_surface(sequence.frame(frame)), options.view, stage, tile_width, tile_height,
+               [&] { return progress(n, options.frames.size()); });
+    if (!tile) return std::nullopt;
+    draw_text(*tile, 10, 8, kTextScale, fmt::format("frame {}   {:.2f} s", frame, sequence.time(frame)), kInk);
     const int column = static_cast<int>(n) % columns, row = static_cast<int>(n) / columns;
-    paste(tile, kGap + column * (tile_width + kGap), kGap + row * (tile_height + kGap), sheet);
-    progress(n + 1, options.frames.size());
+    paste(*tile, kGap + column * (tile_width + kGap), kGap + row * (tile_height + kGap), sheet);
   }
   return sheet;
 }

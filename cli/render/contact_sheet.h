@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cli/render/camera.h"
@@ -21,8 +22,10 @@ struct SheetOptions {
 [[nodiscard]] std::vector<std::size_t> spread_frames(const io::SequenceReader& sequence, std::size_t count);
 
 /// All tiles show the same view, framed on the cloth of the chosen frames together, so that motion can be followed from
-/// tile to tile. Calls progress(done, total) after every tile. Throws io::Error.
-[[nodiscard]] io::Picture render_sheet(const io::SequenceReader& sequence, const SheetOptions& options,
-                                       const std::function<void(std::size_t, std::size_t)>& progress);
+/// tile to tile. Calls progress(tiles done, total) every second or so; nothing is returned where it says false. Throws
+/// io::Error, and UsageError where the sheet would be too small for its columns or have more than 10^8 pixels: up to
+/// there 2 GB of memory are enough.
+[[nodiscard]] std::optional<io::Picture> render_sheet(const io::SequenceReader& sequence, const SheetOptions& options,
+                                                      const std::function<bool(std::size_t, std::size_t)>& progress);
 
 }  // namespace selvage::cli

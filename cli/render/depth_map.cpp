@@ -25,7 +25,8 @@ DepthMap::DepthMap(const RenderSurface& surface, const Vec3& direction, const Bo
     const Vec3 &a = seen[static_cast<std::size_t>(t[0])], &b = seen[static_cast<std::size_t>(t[1])],
                &c = seen[static_cast<std::size_t>(t[2])];
     for_each_covered(
-        {a.head<2>(), b.head<2>(), c.head<2>()}, size_, size_, [&](int x, int y, const Eigen::Vector3d& weight) {
+        {a.head<2>(), b.head<2>(), c.head<2>()}, size_, Rows{0, size_},
+        [&](int x, int y, const Eigen::Vector3d& weight) {
           float& depth =
               depth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(x)];
           depth = std::max(depth, static_cast<float>(weight.dot(Vec3(a.z(), b.z(), c.z()))));

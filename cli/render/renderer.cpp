@@ -1,5 +1,6 @@
 #include "cli/render/renderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,6 +19,7 @@ constexpr int kSamples = 2;                                      // a side: 2 by
 constexpr int kSunMapSize = 1536, kSunBlur = 1;                  // texels
 constexpr int kSkyLights = 64, kSkyMapSize = 256, kSkyBlur = 0;  // so many that their sharp shadows blend
 constexpr std::int32_t kNoFace = -1;
+constexpr int kBandSamples = 1 << 21;  // 80 MiB, about a second's work; small pictures are one band
 
 // Linear light. Warm and cool differ in hue and in brightness, so that they survive greyscale and colour blindness.
 const Vec3 kClothFront(0.68, 0.14, 0.045), kClothBack(0.035, 0.17, 0.36), kBody(0.40, 0.40, 0.42);
@@ -64,20 +66,22 @@ struct Corner {
   Eigen::Vector3d weight;
 };
 
-// Nearest face at every sample. Faces that reach behind the near plane are cut there.
+// Nearest face at every sample of a band of rows. Faces that reach behind the near plane are cut there.
 class DepthBuffer {
  public:
-  DepthBuffer(const RenderSurface& surface, const Camera& camera, int width, int height)
-      : camera_(camera),
-        width_(width),
-        height_(height),
-        samples_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-    std::vector<Vec3> seen;
-    for (const Vec3& point : surface.points) seen.push_back(camera.to_camera(point));
-    for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+  DepthBuffer(const RenderSurface& surface, const Camera& camera, int width)
+      : surface_(surface), camera_(camera), width_(width) {
+    for (const Vec3& point : surface.points) seen_.push_back(camera.to_camera(point));
+  }
+
+  /// Goes on to these rows; those before are forgotten.
+  void fill(Rows rows) {
+    rows_ = rows;
+    samples_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(rows.end - rows.begin), Sample{});
+    for (std::size_t f = 0; f < surface_.triangles.size(); ++f) {
       std::vector<Corner> polygon;
       for (std::size_t k = 0; k < 3; ++k) {
-        polygon.push_back({seen[static_cast<std::size_t>(surface.triangles[f][k])],
+        polygon.push_back({seen_[static_cast<std::size_t>(surface_.triangles[f][k])],
                            Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k))});
       }
       polygon = clip(polygon);
@@ -86,11 +90,13 @@ class DepthBuffer {
       }
     }
   }
-  [[nodiscard]] const Sample& at(int x, int y) const {
-    return samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-  }
+  [[nodiscard]] const Sample& at(int x, int y) const { return samples_[index(x, y)]; }
 
  private:
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - rows_.begin) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
   [[nodiscard]] std::vector<Corner> clip(const std::vector<Corner>& polygon) const {
     std::vector<Corner> kept;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -108,20 +114,22 @@ class DepthBuffer {
   void draw(std::int32_t face, const std::array<Corner, 3>& corner) {
     std::array<Eigen::Vector2d, 3> screen;
     for (std::size_t k = 0; k < 3; ++k) screen[k] = camera_.to_screen(corner[k].camera);
-    for_each_covered(screen, width_, height_, [&](int x, int y, const Eigen::Vector3d& flat) {
+    for_each_covered(screen, width_, rows_, [&](int x, int y, const Eigen::Vector3d& flat) {
       // Weights in space are those on the screen divided by the depths.
       Eigen::Vector3d w(flat[0] / corner[0].camera.z(), flat[1] / corner[1].camera.z(), flat[2] / corner[2].camera.z());
       const double depth = 1 / w.sum();
       w *= depth;
-      Sample& sample =
-          samples_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+      Sample& sample = samples_[index(x, y)];
       if (!(depth < sample.depth)) return;
       sample = {face, depth, w[0] * corner[0].weight + w[1] * corner[1].weight + w[2] * corner[2].weight};
     });
   }
 
+  const RenderSurface& surface_;
   const Camera& camera_;
-  int width_, height_;
+  int width_;
+  Rows rows_{0, 0};
+  std::vector<Vec3> seen_;  ///< the points, as the camera has them
   std::vector<Sample> samples_;
 };
 
@@ -187,13 +195,16 @@ std::uint8_t to_byte(double linear) {
 
 }  // namespace
 
-io::Picture render(const RenderSurface& surface, const View& view, const Stage& stage, int width, int height) {
+std::optional<io::Picture> render(const RenderSurface& surface, const View& view, const Stage& stage, int width,
+                                  int height, const std::function<bool()>& go_on) {
   const int samples_wide = kSamples * width, samples_high = kSamples * height;
   const Camera camera(view, stage, samples_wide, samples_high);
-  const DepthBuffer buffer(surface, camera, samples_wide, samples_high);
+  DepthBuffer buffer(surface, camera, samples_wide);
   const Shader shader(surface, camera, view, stage.bounds);
-  io::Picture picture{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height * 3))};
-  tbb::parallel_for(0, height, [&](int y) {
+  io::Picture picture{
+      width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3)};
+  const auto draw_row = [&](int y) {
+    std::uint8_t* out = &picture.rgb[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 3];
     for (int x = 0; x < width; ++x) {
       Vec3 sum = Vec3::Zero();
       for (int j = 0; j < kSamples; ++j) {
@@ -202,11 +213,16 @@ io::Picture render(const RenderSurface& surface, const View& view, const Stage& 
           sum += shader.colour(buffer.at(kSamples * x + i, row), 1 - double(row) / samples_high);
         }
       }
-      for (int k = 0; k < 3; ++k) {
-        picture.rgb[static_cast<std::size_t>((y * width + x) * 3 + k)] = to_byte(sum[k] / (kSamples * kSamples));
-      }
+      for (int k = 0; k < 3; ++k) *out++ = to_byte(sum[k] / (kSamples * kSamples));
     }
-  });
+  };
+  const int band = std::max(1, kBandSamples / (samples_wide * kSamples));
+  for (int begin = 0; begin < height; begin += band) {
+    if (!go_on()) return std::nullopt;
+    const int end = std::min(height, begin + band);
+    buffer.fill({kSamples * begin, kSamples * end});
+    tbb::parallel_for(begin, end, draw_row);
+  }
   return picture;
 }
 

@@ -1,4 +1,5 @@
 #include <array>
+#include <csignal>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ io::Picture draw(const io::MeshData& mesh, const View& view = kFromAbove) {
   const RenderSurface surface = make_render_surface(mesh);
   Stage stage;
   stage.add_cloth(surface);
-  return render(surface, view, stage, kWidth, kHeight);
+  return render(surface, view, stage, kWidth, kHeight, [] { return true; }).value();
 }
 
 struct Rgb {
@@ -133,6 +134,47 @@ TEST(RenderCommand, WritesASheetOfTheFramesAskedFor) {
   ASSERT_GT(png.size(), 24u);
   EXPECT_EQ(png.substr(1, 3), "PNG");
   EXPECT_EQ(static_cast<unsigned char>(png[19]), 200) << "width";
+}
+
+TEST(Render, ALargePictureIsDrawnInBandsWithoutASeam) {
+  io::MeshData mesh;
+  add_square(mesh, 1, 0, true);
+  const RenderSurface surface = make_render_surface(mesh);
+  Stage stage;
+  stage.add_cloth(surface);
+  int asked = 0;
+  const auto count = [&] { return ++asked > 0; };
+  const io::Picture picture = render(surface, kFromAbove, stage, 1200, 900, count).value();
+  EXPECT_GT(asked, 2);
+  for (int y = 100; y < 800; ++y) ASSERT_TRUE(warm(pixel(picture, 600, y))) << y;
+  EXPECT_FALSE(render(surface, kFromAbove, stage, 1200, 900, [&] { return --asked > 1; }));
+}
+
+TEST(RenderCommand, ASheetThatNeedsMoreThanTwoGigabytesIsRefused) {
+  const testing::TemporaryFolder folder;
+  testing::spit(folder.path() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string mesh = (folder.path() / "a.obj").string(), sheet = (folder.path() / "s.png").string();
+  const auto wide = testing::run_program(folder, {"render", mesh, "-o", sheet, "--width", "10001"});
+  EXPECT_EQ(wide.exit_code, 2) << wide.err;
+  const auto high = testing::run_program(
+      folder, {"render", mesh, mesh, "-o", sheet, "--columns", "1", "--frames", "0,1", "--width", "10000"});
+  EXPECT_EQ(high.exit_code, 2) << high.err;
+  EXPECT_NE(high.err.find("10000 by 15000"), std::string::npos) << high.err;
+  EXPECT_FALSE(std::filesystem::exists(sheet));
+}
+
+TEST(RenderCommand, ASignalEndsIt) {
+  const testing::TemporaryFolder folder;
+  testing::spit(folder.path() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string mesh = (folder.path() / "a.obj").string(), sheet = (folder.path() / "s.png").string();
+  const pid_t child = testing::start_program(
+      folder.path(), {"render", mesh, "-o", sheet, "--tiles", "1", "--columns", "1", "--width", "9000"});
+  testing::wait_until_signal_is_caught(child, SIGTERM);
+  kill(child, SIGTERM);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.err;
+  EXPECT_NE(result.err.find("interrupted; nothing was written"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(sheet));
 }
 
 TEST(RenderCommand, OnlyPngIsDrawn) {
