@@ -122,6 +122,4 @@ JsonValues read_json(std::string_view text, const JsonReading& reading) {
   return handler.take();
 }
 
-bool is_json(std::string_view text) { return Json::accept(text); }
-
 }  // namespace selvage::io

@@ -41,7 +41,4 @@ struct JsonReading {
 /// The last key on a path, for messages.
 [[nodiscard]] std::string_view last_key(std::string_view path);
 
-/// Whether it is JSON at all.
-[[nodiscard]] bool is_json(std::string_view text);
-
 }  // namespace selvage::io

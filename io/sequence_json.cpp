@@ -226,13 +226,12 @@ SequenceDescription parse_sequence_json(std::string_view bytes, const std::strin
 
 std::vector<FrameRecord> parse_frame_list(std::string_view bytes, const std::string& name) {
   const FpGuard guard;
+  bytes = bytes.substr(0, bytes.rfind('\n') + 1);  // npos + 1 is 0: what has no end may be torn anywhere
   std::vector<FrameRecord> frames;
   const auto ends = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n'));
   frames.reserve(std::min(ends + 1, bytes.size() / kShortestRecord));  // growing by doubling takes three times as much
   LineReader lines(bytes, name);
   while (const std::optional<std::string_view> line = lines.next()) {
-    const bool may_be_torn = lines.rest().empty() && !bytes.ends_with('\n');
-    if (may_be_torn && !is_json(*line)) break;
     frames.push_back(parse_frame(*line, {name, lines.line()}, frames.size()));
     if (!std::isfinite(frames.back().time_s)) lines.fail("the time is not finite; correct it");
     if (frames.size() > 1 && !(frames[frames.size() - 2].time_s < frames.back().time_s)) {

@@ -40,8 +40,8 @@ struct FrameRecord {
 
 /// Throws Error: bad JSON, wrong schema, unknown or missing keys, file names that leave the folder.
 [[nodiscard]] SequenceDescription parse_sequence_json(std::string_view bytes, const std::string& name);
-/// Throws Error likewise, and where times do not increase. A last line that is no JSON and has no end is what a killed
-/// run may leave: it is not part of the list.
+/// Throws Error likewise, and where times do not increase. A last line without its end is what a killed run may leave:
+/// it is not part of the list, whatever it holds.
 [[nodiscard]] std::vector<FrameRecord> parse_frame_list(std::string_view bytes, const std::string& name);
 
 }  // namespace selvage::io

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/sequence.h"
 #include "tests/cli/run_program.h"
 
 namespace selvage {
@@ -178,6 +179,21 @@ TEST(VerifyCommand, BadInputIsNeverAVerdict) {
     EXPECT_EQ(result.out, "") << c.why;
     EXPECT_NE(result.err.find(c.message), std::string::npos) << c.why << ": " << result.err;
   }
+}
+
+TEST(VerifyCommand, ALastLineWithoutItsEndIsNotCounted) {
+  const TemporaryFolder folder;
+  {
+    io::SequenceWriter writer(folder.path() / "run",
+                              {{{0, 1, 2}}, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"});
+    for (int i = 0; i < 3; ++i) writer.append(i, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  }
+  const auto list = folder.path() / "run" / "frames.jsonl";
+  const std::string lines = testing::slurp(list);
+  spit(list, lines.substr(0, lines.size() - 1));
+  const auto result = run_program(folder, {"verify", folder.path() / "run"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("frames:     2 of 2 checked"), std::string::npos) << result.out;
 }
 
 TEST(VerifyCommand, MissingAndUnwritableFilesAreFour) {

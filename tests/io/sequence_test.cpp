@@ -185,8 +185,7 @@ TEST(SequenceFolder, TornLastLineIsNotPartOfTheList) {
   const std::size_t second = list.find('\n') + 1;
   for (std::size_t length = 0; length <= list.size(); ++length) {
     write_plainly(folder / "frames.jsonl", std::string_view(list).substr(0, length));
-    // A line counts from its closing brace on.
-    const std::size_t listed = (length + 1 >= second) + (length + 1 >= list.size());
+    const std::size_t listed = (length >= second) + (length >= list.size());
     EXPECT_EQ(open_sequence({folder.path()})->frame_count(), listed) << length;
   }
   write_plainly(folder / "frames.jsonl", list.substr(0, list.size() - 5));
