@@ -25,4 +25,6 @@ void catch_interrupts() {
 
 bool interrupted() noexcept { return stop_requested.load(std::memory_order_relaxed); }
 
+void make_size_limits_errors() { std::signal(SIGXFSZ, SIG_IGN); }
+
 }  // namespace selvage::cli

@@ -1,4 +1,5 @@
-// SIGINT and SIGTERM ask for a clean stop: the work in hand is finished and written. A second signal kills.
+// SIGINT and SIGTERM ask for a clean stop: the work in hand is finished and written. A second signal kills. A file that
+// would grow beyond `ulimit -f` is an error of the write, which cleans up behind itself, and no signal.
 #pragma once
 
 namespace selvage::cli {
@@ -7,5 +8,7 @@ namespace selvage::cli {
 void catch_interrupts();
 /// Whether a signal has arrived. Cheap; may be called from any thread.
 [[nodiscard]] bool interrupted() noexcept;
+/// To be called once, before anything is written.
+void make_size_limits_errors();
 
 }  // namespace selvage::cli

@@ -67,5 +67,6 @@ int main(int argc, char** argv) {
     };
   }
   catch_interrupts();
+  make_size_limits_errors();
   return static_cast<int>(run_guarded(job));
 }

@@ -27,6 +27,8 @@ std::string_view remedy(int errno_value) {
     case ENOSPC:
     case EDQUOT:
       return "free some space";
+    case EFBIG:
+      return "raise the limit on the size of files (ulimit -f)";
     case EISDIR:
       return "name a file";
     default:

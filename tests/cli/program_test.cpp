@@ -4,7 +4,10 @@
 
 namespace selvage {
 
+namespace fs = std::filesystem;
 using testing::run_program;
+using testing::spit;
+using testing::TemporaryFolder;
 
 TEST(Program, HelpStartsWithAnExample) {
   const auto result = run_program({"--help"});
@@ -74,6 +77,26 @@ TEST(Program, AReportThatWasCutIsNamedInOneLine) {
     EXPECT_NE(result.err.find(file.string() + ": "), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("not valid JSON at byte 12; is it whole?\n"), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
+  }
+}
+
+TEST(Program, AFileBeyondTheSizeLimitIsAFileErrorAndLeavesNothing) {
+  const TemporaryFolder folder;
+  std::string mesh;
+  for (int i = 0; i < 3000; ++i) mesh += "v " + std::to_string(i) + " 0 0\nv 0 1 0\nv 0 0 1\n";
+  spit(folder.path() / "a.obj", mesh + "f 1 2 3\n");
+  const std::string output = folder.path() / "out";
+  fs::create_directory(output);
+  for (const std::string command :
+       {"convert a.obj -o out/a.npz", "convert a.obj -o out/a/", "view a.obj -o out/a.html",
+        "render a.obj -o out/a.png", "verify a.obj --html out/a.html", "subdivide a.obj -o out/fine"}) {
+    SCOPED_TRACE(command);
+    const std::string limited =
+        "cd " + folder.path().string() + " && ulimit -f 2 && exec " SELVAGE_PROGRAM " " + command;  // 1 KiB
+    const auto result = run_program(folder, {"-c", limited}, "/bin/sh");
+    EXPECT_EQ(result.exit_code, 4) << result.err;
+    EXPECT_NE(result.err.find("ulimit"), std::string::npos) << result.err;
+    EXPECT_TRUE(fs::is_empty(output));
   }
 }
 
