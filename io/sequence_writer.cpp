@@ -112,11 +112,25 @@ struct SequenceWriter::Impl {
       bad_input(folder.string(), "was recorded with other faces, groups or settings; resume what was started here");
     }
     frames = parse_frame_list(read_file(list_file), list_file.string());
-    if (!frames.empty()) {
-      const fs::path first = folder / frames.front().file;
-      vertex_count = parse_npy_points(read_file(first), first.string()).points.size();
-    }
+    for (const FrameRecord& frame : frames) check_recorded(frame);
     rewrite_list();
+  }
+
+  /// A run must not be called complete whose earlier frames are gone: every frame on the list is read once.
+  void check_recorded(const FrameRecord& frame) {
+    constexpr const char* kRemedy = "; restore the file, or start again in another folder";
+    const std::string name = (folder / frame.file).string();
+    std::error_code status;
+    if (!fs::exists(name, status)) bad_input(name, std::string("is on the list and not there") + kRemedy);
+    const std::string bytes = read_file(name);
+    if (frame.crc32 && crc32(bytes) != *frame.crc32) {
+      bad_input(name, std::string("the checksum differs from the one recorded") + kRemedy);
+    }
+    const std::size_t found = parse_npy_points(bytes, name).points.size();
+    if (vertex_count.value_or(found) != found) {
+      bad_input(name, std::string("has another number of vertices than the first frame") + kRemedy);
+    }
+    vertex_count = found;
   }
 
   /// Atomically; drops the torn line that a kill or a failed append has left, and the frames that were truncated.
