@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "io/fail.h"
+
 namespace selvage::sim {
 namespace {
 
@@ -23,6 +25,16 @@ bool inside(double value, const Range& range) {
          value <= range.upper;
 }
 
+// Of ASCII, and of the second page of Unicode (U+0080 to U+009F, in UTF-8), which terminals obey as well.
+bool has_control_character(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (c < 0x20 || c == 0x7f || (c == 0xc2 && next >= 0x80 && next < 0xa0)) return true;
+  }
+  return false;
+}
+
 // Integers are numbers too: "duration_s = 4".
 std::optional<double> as_number(const toml::node& node) {
   return node.is_number() ? node.value<double>() : std::nullopt;
@@ -31,7 +43,7 @@ std::optional<double> as_number(const toml::node& node) {
 }  // namespace
 
 void TomlTable::fail_at(const toml::node& node, const std::string& message) const {
-  throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}:{}: {}", source_.file, node.source().begin.line, message));
+  io::bad_input_at_line(source_.file, node.source().begin.line, message);
 }
 
 void TomlTable::fail(std::string_view key, const std::string& message) const {
@@ -112,7 +124,10 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
   if (node == nullptr) return *fallback;
   return value_of(key, *node, [&](const toml::node& one) {
     if (!one.is_string()) fail(key, fmt::format("{} must be a string in quotes", key));
-    return *one.value<std::string>();
+    const std::string value = *one.value<std::string>();
+    // Names are shown on terminals, which would obey them.
+    if (has_control_character(value)) fail(key, fmt::format("{} holds a control character; remove it", key));
+    return value;
   });
 }
 

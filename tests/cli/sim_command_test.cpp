@@ -224,6 +224,37 @@ TEST_F(SimCommand, ARunKilledAtRandomMomentsResumesWithTheSameBits) {
   }
 }
 
+TEST_F(SimCommand, ADamagedRunIsNotResumed) {
+  const auto resume = [&](const std::string& frames) {
+    return sim(scene(5, 0.2, 0.2), {"--record", "steps", "--resume", "--frames", frames});
+  };
+  ASSERT_EQ(resume("3").exit_code, 0);
+  const std::string frame = path("out") + "/frame_000001.npy", bytes = slurp(frame);
+  const auto expect_refused = [&](const std::string& what) {
+    const auto result = resume("5");
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    EXPECT_NE(result.err.find(frame + ": " + what), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("restore the file, or start again"), std::string::npos) << result.err;
+  };
+  spit(frame, "\n");
+  expect_refused("the checksum differs");
+  std::filesystem::remove(frame);
+  expect_refused("is on the list and not there");
+  spit(frame, bytes);
+  EXPECT_EQ(resume("5").exit_code, 0);
+}
+
+TEST_F(SimCommand, NamesThatATerminalWouldObeyAreRefused) {
+  for (const std::string name : {R"(x\u001b]0;title\u0007)", R"(x\u009b2J)", R"(two\nlines)"}) {
+    std::string text = scene(1, 0.2, 0.2);
+    text.replace(text.find("\"sheet\"") + 1, 5, name);
+    const auto result = sim(text);
+    EXPECT_EQ(result.exit_code, 3) << name;
+    EXPECT_NE(result.err.find("scene.toml:7: cloth: name holds a control character"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+  }
+}
+
 TEST_F(SimCommand, ASecondRunDoesNotOverwriteTheFirst) {
   EXPECT_EQ(sim(scene(1, 0.2, 0.2)).exit_code, 0);
   const std::string before = slurp(path("out") + "/frame_000001.npy");
