@@ -29,6 +29,9 @@ std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argume
   }
   auto sequence = io::open_sequence(argument.sources, argument.base);
   if (const auto jump = jump_in_numbers(argument.sources)) fmt::print(stderr, "selvage: note: {}\n", *jump);
+  if (const std::string remark = sequence->remark(); !remark.empty()) {
+    fmt::print(stderr, "selvage: note: {}\n", remark);
+  }
   return sequence;
 }
 

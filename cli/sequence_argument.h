@@ -20,7 +20,7 @@ struct SequenceArgument {
 void add_sequence_argument(CLI::App& command, SequenceArgument& argument);
 
 /// Throws io::Error, and UsageError where --base is given for what has faces of its own. A jump in the numbers of mesh
-/// files is said on stderr.
+/// files, and what is left out, is said on stderr.
 [[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argument);
 
 /// Throws UsageError where an output is one of the files that are read or that a run in the folder goes on from, or

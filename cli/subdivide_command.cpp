@@ -139,9 +139,11 @@ ExitCode run(const SubdivideArguments& arguments) {
       return ExitCode::kInterrupted;
     }
     std::vector<FineFrame> fine(std::min(batch, end - frame));
-    tbb::parallel_for(std::size_t{0}, fine.size(), [&](std::size_t k) {
-      fine[k] = subdivide(subdivision, read_frame(*input, frame + k, first), groups);
-    });
+    // Read before, one by one: an error there would cancel the loops within the checks of the other frames.
+    std::vector<io::MeshData> coarse;
+    for (std::size_t k = 0; k < fine.size(); ++k) coarse.push_back(read_frame(*input, frame + k, first));
+    tbb::parallel_for(std::size_t{0}, fine.size(),
+                      [&](std::size_t k) { fine[k] = subdivide(subdivision, coarse[k], groups); });
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before + fine[k].after > 0) {
         fmt::print("{}: {} pairs intersect {}; nothing is written\n", input->frame_name(frame + k),

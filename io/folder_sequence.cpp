@@ -32,7 +32,13 @@ class FolderSequence final : public SequenceReader {
     triangles_ = parse_npy_triangles(read_checked(faces_file, description_.faces_crc32), faces_file.string());
     check_groups(description_.groups, triangles_.size(), header_file.string());
     const std::filesystem::path frames_file = folder_ / kFramesFile;
-    frames_ = parse_frame_list(read_file(frames_file), frames_file.string());
+    const std::string list = read_file(frames_file);
+    frames_ = parse_frame_list(list, frames_file.string());
+    if (!list.empty() && !list.ends_with('\n')) {
+      remark_ = frames_file.string() +
+                ": the last line has no end and is left out: a frame that was being added, or one " +
+                "whose list was written without its last line break; add it if the frame counts";
+    }
     if (frames_.empty()) return;
     vertex_count_ = read_points(0).size();
     check_indices(triangles_, vertex_count_, faces_file.string());
@@ -45,6 +51,7 @@ class FolderSequence final : public SequenceReader {
   std::string frame_name(std::size_t frame) const override { return (folder_ / frames_.at(frame).file).string(); }
   double time(std::size_t frame) const override { return frames_.at(frame).time_s; }
   bool same_faces_as_previous(std::size_t) const override { return true; }
+  std::string remark() const override { return remark_; }
 
   MeshData frame(std::size_t frame) const override {
     Points points = read_points(frame);
@@ -70,6 +77,7 @@ class FolderSequence final : public SequenceReader {
   Triangles triangles_;
   std::vector<FrameRecord> frames_;
   std::size_t vertex_count_ = 0;
+  std::string remark_;
 };
 
 }  // namespace

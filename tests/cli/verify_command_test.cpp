@@ -194,6 +194,9 @@ TEST(VerifyCommand, ALastLineWithoutItsEndIsNotCounted) {
   const auto result = run_program(folder, {"verify", folder.path() / "run"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("frames:     2 of 2 checked"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("the last line has no end and is left out"), std::string::npos) << result.err;
+  spit(list, lines);
+  EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).err, "");
 }
 
 TEST(VerifyCommand, MissingAndUnwritableFilesAreFour) {
