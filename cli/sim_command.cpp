@@ -68,12 +68,8 @@ void print_totals(const sim::RunTotals& totals) {
   fmt::print("repulsions {}, frictions {}\n", totals.repulsions, totals.frictions);
   fmt::print("steps with collisions {}, impulse rounds {}, zone rounds {} (largest zone {} vertices)\n",
              totals.steps_with_collisions, totals.impulse_rounds, totals.zone_rounds, totals.largest_zone_vertices);
-  fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}\n", totals.fail_safe_vertices,
-             totals.pairs_below_tolerance, totals.waiting_bodies);
-  if (totals.cut_candidates > 0) {
-    fmt::print("vertices cut back {} times: they went farther in a step than 1024 times the size of the scene\n",
-               totals.cut_candidates);
-  }
+  fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}, vertices cut back {}\n",
+             totals.fail_safe_vertices, totals.pairs_below_tolerance, totals.waiting_bodies, totals.cut_candidates);
   if (totals.dynamics_solves > 0) {
     fmt::print("implicit solves {}, Newton rounds {}, iterations {}, largest residual {:.2g} m, not converged {}\n",
                totals.dynamics_solves, totals.newton_rounds, totals.cg_iterations, totals.largest_residual_m,

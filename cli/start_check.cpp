@@ -96,8 +96,8 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   const sim::FindIntersections judge = exact_judge(simulation.world());
   const std::vector<sim::FacePair> pairs = judge(simulation.x());
   if (pairs.empty()) return {};
-  const bool is_rounded = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
   if (!repair) {
+    const bool is_rounded = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
     refuse(simulation, pairs,
            is_rounded ? "move them apart, or let --repair do it; coordinates are rounded to float32, so far from the "
                         "origin precision = \"float64\" may be all it needs"

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include "kernel/lane_motion.h"
 #include "sim/parallel.h"
 #include "sim/quick_proximity.h"

@@ -40,7 +40,7 @@ struct Nearest {
     return hn::IfThenElse(hn::Lt(share, zero), zero, hn::IfThenElse(hn::Lt(one, share), one, share));
   }
 
-  /// power_of_two_above() of `length`, whose biased exponent is one below that of its bound's.
+  /// power_of_two_above() of `length`: the power whose biased exponent is one more.
   static HWY_INLINE Value PowerOfTwoAbove(Value length) {
     const hn::RebindToSigned<D> bits;
     const auto least = hn::BitCast(bits, hn::Set(D(), power_of_two_above(0)));

@@ -28,8 +28,8 @@ struct QuickProximities {
   [[nodiscard]] QuickProximity operator[](std::size_t i) const;
 };
 
-/// The same bits as one by one, with whatever vectors the machine has (SIMD, chosen at run time): 12 ns a pair in place
-/// of 100. `V` has their vertices.
+/// The same bits as one by one, with whatever vectors the machine has (SIMD, chosen at run time); what that saves is in
+/// docs/simulator-speed.md. `V` has their vertices.
 void quick_proximities(const detail::LanePairs& pairs, const Positions& V, QuickProximities& result);
 
 }  // namespace selvage::sim

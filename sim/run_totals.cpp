@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/travel_limit.h"
+
 namespace selvage::sim {
 
 void RunTotals::add(const StepResult& step) {
@@ -40,14 +42,15 @@ PhaseTime RunTotals::all() const {
 
 std::string RunTotals::shortfalls() const {
   std::string text;
-  const auto add_clause = [&](std::int64_t count, const char* what) {
+  const auto add_clause = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
   };
   add_clause(fail_safe_vertices, "vertices were held back by the fail-safe");
   add_clause(pairs_below_tolerance, "pairs ended a step nearer than the tolerance");
   add_clause(waiting_bodies, "times a body waited");
-  add_clause(cut_candidates,
-             "times a vertex went farther in a step than 1024 times the size of the scene, and was cut back");
+  add_clause(
+      cut_candidates,
+      fmt::format("times a vertex was cut back: it went farther in a step than {} diagonals of the scene", kMaxTravel));
   add_clause(unconverged_solves, "implicit solves did not converge");
   return text;
 }

@@ -136,7 +136,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
       tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held_to_the_end);
     }
     result.phases.within += tried.safe.report.phases;
-    // Cut back by the collision step, which a shorter one need not do.
+    // Cut back by the collision step (travel_limit.h), which a shorter one need not do.
     tried.failed = clock_.can_halve() && tried.safe.report.cut_candidates > 0;
     if (tried.failed) return tried;
     tried.failed =

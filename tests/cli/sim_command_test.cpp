@@ -89,6 +89,17 @@ TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
+  const std::string far =
+      "[time]\nframes = 1\n[collision]\nthickness_m = 5e-3\n%[[cloth]]\nsheet = {nx = 30, ny = 30, width_m = 1, "
+      "height_m = 1}\nposition_m = [1e7, 1e7, 1e7]\nrotation_deg = [0, 0, 10]\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n";
+  const std::size_t at = far.find('%');
+  const auto rounded = sim(far.substr(0, at) + "precision = \"float32\"\n" + far.substr(at + 1));
+  EXPECT_EQ(rounded.exit_code, 3);
+  EXPECT_NE(rounded.err.find("rounded to float32"), std::string::npos) << rounded.err;
+  EXPECT_EQ(sim(far.substr(0, at) + far.substr(at + 1)).exit_code, 0);
+}
+
 TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
   const auto run = sim(scene(4, 0.27, 0.27), {"--repair", "--record", "steps"});
   EXPECT_EQ(run.exit_code, 0) << run.err;

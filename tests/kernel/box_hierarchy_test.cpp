@@ -5,12 +5,12 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include "tests/kernel/public_frames.h"
 #include "tests/kernel/random_motion.h"
 #include "tests/kernel/with_threads.h"
 #include "tests/property.h"
+#include "tests/vector_units.h"
 
 namespace selvage {
 
@@ -95,15 +95,11 @@ TEST(BoxHierarchy, EveryVectorUnitFindsTheSamePairs) {
   const auto [mesh, V] = sheet(13, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i % 5, j % 4, i % 2); });
   std::vector<std::uint8_t> active(static_cast<std::size_t>(mesh.vertex_count), 0);
   active[7] = active[90] = 1;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  testing::on_every_vector_unit([&](const char* unit) {
+    SCOPED_TRACE(unit);
     expect_brute_force(mesh, V, -V, {});
     expect_brute_force(mesh, V, V, {0.5, active});
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  });
 }
 
 TEST(BoxHierarchy, MovesWithItsBoxes) {

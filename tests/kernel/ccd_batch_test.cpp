@@ -7,7 +7,6 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include "kernel/box_hierarchy.h"
 #include "kernel/lane_cull.h"
@@ -17,6 +16,7 @@
 #include "tests/kernel/public_frames.h"
 #include "tests/kernel/random_points.h"
 #include "tests/property.h"
+#include "tests/vector_units.h"
 #include "verify/exact_distance.h"
 
 namespace selvage {
@@ -26,16 +26,6 @@ using testing::PairList;
 using testing::Random;
 
 namespace {
-
-/// Calls body() once for every SIMD target, and restores the choice.
-template <typename Body>
-void for_each_target(const Body& body) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    body(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(0);
-  }
-}
 
 bool same_bits(const CcdResult& a, const CcdResult& b) {
   const auto equal = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
@@ -149,7 +139,7 @@ TEST(CcdBatch, PropAnswersAreThoseOfSingleQueries) {
     const double size = list.size() > 0 ? list.V_t0().cwiseAbs().maxCoeff() : 1;
     const double tolerance = random.chance(2) ? 0 : random.chance(2) ? 0x1p-20 * size : 0.25 * size;
     const CcdOptions options{tolerance, random.chance(2) ? random.integer(1, 8) : 4096};
-    for_each_target([&](const char*) { check(list, ask(list, options), options); });
+    testing::on_every_vector_unit([&](const char*) { check(list, ask(list, options), options); });
   });
 }
 
@@ -166,7 +156,7 @@ TEST(CcdBatch, PropConstructedContactsAreNeverLeftOut) {
       const auto contact = list.kind() == PairKind::kVf ? contacts.vf(8) : contacts.ee(8);
       list.add(testing::placed(contact.x_t0, scale, offset), testing::placed(contact.x_t1, scale, offset));
     }
-    for_each_target([&](const char*) { RC_ASSERT(ask(list, {0, 4096}).answers.size() == list.size()); });
+    testing::on_every_vector_unit([&](const char*) { RC_ASSERT(ask(list, {0, 4096}).answers.size() == list.size()); });
   });
 }
 
@@ -187,7 +177,9 @@ TEST(CcdBatch, ContactsWithinTheRoundingOfTheFirstLookAreNeverLeftOut) {
       const double side = random.chance(2) ? 1 : -1;
       list.add(at(side * std::fabs(random.uniform())), at(-side * std::fabs(random.uniform())));
     }
-    for_each_target([&](const char* target) { EXPECT_EQ(ask(list, {0, 4096}).answers.size(), list.size()) << target; });
+    testing::on_every_vector_unit([&](const char* target) {
+      EXPECT_EQ(ask(list, {0, 4096}).answers.size(), list.size()) << target;
+    });
   }
 }
 
@@ -201,7 +193,7 @@ TEST(CcdBatch, ToleranceCountsAtTheEndAlone) {
       x_t1[0][2] = end;
       list.add(near, x_t1);
     }
-    for_each_target([&](const char* target) {
+    testing::on_every_vector_unit([&](const char* target) {
       const BatchReport report = ask(list, {0x1p-10, 4096});
       EXPECT_EQ(report.answers.size(), end < 0x1p-10 ? 11U : 0U) << target;
       EXPECT_EQ(report.searched, end < 0x1p-10 ? 11 : 0) << target;
@@ -216,7 +208,7 @@ TEST(CcdBatch, PartsOfTheStepHaveDirectionsOfTheirOwn) {
            {Vec3(3, 0.5, 1), Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
   list.add({Vec3(-1.5, 0.25, 0.5), Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
            {Vec3(0.5, -1.5, -0.5), Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
-  for_each_target([&](const char* target) { EXPECT_EQ(ask(list, {}).searched, 0) << target; });
+  testing::on_every_vector_unit([&](const char* target) { EXPECT_EQ(ask(list, {}).searched, 0) << target; });
 }
 
 TEST(CcdBatch, OutsideTheDomainNothingIsCulled) {
@@ -276,7 +268,7 @@ TEST(CcdBatch, EveryTargetLeavesTheSamePairs) {
     return value;
   };
   int targets = 0;
-  for_each_target([&](const char* target) {
+  testing::on_every_vector_unit([&](const char* target) {
     EXPECT_EQ(hash(), kGoldenHash) << target;
     ++targets;
   });

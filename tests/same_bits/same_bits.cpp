@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <string>
 
-#include <hwy/targets.h>
-
 #include "tests/kernel/with_threads.h"
 #include "tests/same_bits/hash.h"
+#include "tests/vector_units.h"
 
 namespace {
 
@@ -46,16 +45,13 @@ int main() {
   const std::uint64_t queries = hash_of(add_query_answers);  // scalar code, run by the thread that asks
   Comparison meshes;
   std::string targets;
-  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    const char* name = hwy::TargetName(target);
+  selvage::testing::on_every_vector_unit([&](const char* name) {
     targets += std::string(" ") + name;
     // Every number of threads with the first target, one and many with the others: they share the code for threads.
     for (const int thread_count : meshes.run_count() < 8 ? std::vector{1, 2, 3, 4, 5, 6, 7, 8} : std::vector{1, 8}) {
       with_threads(thread_count, [&] { meshes.add(name, thread_count, hash_of(add_mesh_answers)); });
     }
-  }
+  });
   std::printf("hash %016" PRIx64 " %016" PRIx64 "\n%d runs, 1 to 8 threads, targets%s\n", queries, meshes.first(),
               meshes.run_count(), targets.c_str());
   return meshes.all_equal() && meshes.run_count() > 0 ? 0 : 1;

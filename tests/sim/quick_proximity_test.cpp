@@ -1,12 +1,11 @@
 // Nearest points in plain doubles: as near as the kernel's, and the same bits for one pair and for many.
 #include "sim/quick_proximity.h"
 
-#include <hwy/targets.h>
-
 #include "kernel/collisions.h"
 #include "kernel/proximity.h"
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
+#include "tests/vector_units.h"
 
 namespace selvage::sim::testing {
 namespace {
@@ -35,23 +34,11 @@ std::vector<QuickProximity> one_by_one(const Mesh& mesh, PairKind kind, const st
   return result;
 }
 
-/// Calls body(name) once for every vector unit of this machine.
-template <typename Body>
-void on_every_vector_unit(const Body& body) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    body(hwy::TargetName(target));
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 template <typename Candidate>
 void expect_same_bits(const Mesh& mesh, PairKind kind, const std::vector<Candidate>& pairs, const Positions& V) {
   const std::vector<QuickProximity> expected = one_by_one(mesh, kind, pairs, V);
   std::vector<std::string> wrong;
-  on_every_vector_unit([&](const char* unit) {
+  selvage::testing::on_every_vector_unit([&](const char* unit) {
     const auto ones = one_by_one(mesh, kind, pairs, V);
     QuickProximities many;
     quick_proximities(detail::LanePairs(mesh, pairs), V, many);

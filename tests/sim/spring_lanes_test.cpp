@@ -8,13 +8,13 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 #include <oneapi/tbb/global_control.h>
 
 #include "sim/length_check.h"
 #include "sim/rigid_path.h"
 #include "tests/sim/plain_forces.h"
 #include "tests/sim/random_cloth.h"
+#include "tests/vector_units.h"
 
 namespace selvage {
 
@@ -212,13 +212,7 @@ TEST(SpringLanes, SameBitsForAnyThreadCountAndVectorUnit) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     compare("threads");
   }
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    compare(hwy::TargetName(target));
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  testing::on_every_vector_unit(compare);
 }
 
 }  // namespace selvage
