@@ -6,15 +6,6 @@
 namespace selvage::bench {
 namespace {
 
-std::array<VertexId, 4> vertices_of(const Mesh& mesh, const VfCandidate& pair) {
-  const auto& corners = mesh.faces[static_cast<std::size_t>(pair.face)];
-  return {pair.vertex, corners[0], corners[1], corners[2]};
-}
-std::array<VertexId, 4> vertices_of(const Mesh& mesh, const EeCandidate& pair) {
-  const auto &a = mesh.edges[static_cast<std::size_t>(pair.a)], &b = mesh.edges[static_cast<std::size_t>(pair.b)];
-  return {a[0], a[1], b[0], b[1]};
-}
-
 struct KernelQuery {
   std::array<Vec3, 4> x_t0, x_t1;
 };
@@ -33,7 +24,7 @@ CcdAnswers one_by_one(const MeshMotion& motion, const Pairs& pairs, const Ask& a
   CcdAnswers answers;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     Alarm alarm{i, 0, 0, false};
-    if (ask(vertices_of(motion.mesh, pairs[i]), alarm)) answers.alarms.push_back(alarm);
+    if (ask(pair_vertices(motion.mesh, pairs[i]), alarm)) answers.alarms.push_back(alarm);
   }
   return answers;
 }
@@ -122,8 +113,8 @@ constexpr std::array<CcdMethod, 4> kMethods{{{"kernel", kernel, true, true},
 std::span<const CcdMethod> ccd_methods() { return kMethods; }
 
 ExactQuery exact_query(PairKind kind, const MeshMotion& motion, const Candidates& candidates, std::size_t pair) {
-  return exact_query(motion, kind == PairKind::kVf ? vertices_of(motion.mesh, candidates.vf[pair])
-                                                   : vertices_of(motion.mesh, candidates.ee[pair]));
+  return exact_query(motion, kind == PairKind::kVf ? pair_vertices(motion.mesh, candidates.vf[pair])
+                                                   : pair_vertices(motion.mesh, candidates.ee[pair]));
 }
 
 }  // namespace selvage::bench

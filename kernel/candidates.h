@@ -2,6 +2,7 @@
 // with ==.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -42,6 +43,17 @@ struct CandidateOptions {
   /// each other, and pairs that a response did not touch, cost nothing.
   std::span<const std::uint8_t> active;
 };
+
+/// The vertices of a pair in query order: {p, a, b, c}.
+[[nodiscard]] inline std::array<VertexId, 4> pair_vertices(const Mesh& mesh, const VfCandidate& pair) {
+  const auto& corners = mesh.faces[static_cast<std::size_t>(pair.face)];
+  return {pair.vertex, corners[0], corners[1], corners[2]};
+}
+/// {a, b, c, d}, the ends of both edges.
+[[nodiscard]] inline std::array<VertexId, 4> pair_vertices(const Mesh& mesh, const EeCandidate& pair) {
+  const auto &a = mesh.edges[static_cast<std::size_t>(pair.a)], &b = mesh.edges[static_cast<std::size_t>(pair.b)];
+  return {a[0], a[1], b[0], b[1]};
+}
 
 /// O(#V #F + #E^2): the reference for every other broad phase (K6).
 [[nodiscard]] Candidates find_candidates_brute_force(const Mesh& mesh, const PositionsRef& V_t0,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_faces.h"
 
 namespace selvage {
 namespace {
@@ -15,11 +16,7 @@ using testing::run_program;
 using testing::slurp;
 using testing::spit;
 using testing::TemporaryFolder;
-
-/// A face at z = 0 and, above it by `height`, another; as OBJ.
-std::string two_faces(double height) {
-  return fmt::format("v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 {0}\nv 2 1 {0}\nv 1 2 {0}\nf 4 5 6\n", height);
-}
+using testing::two_faces;
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_faces.h"
 
 namespace selvage {
 namespace {
@@ -13,12 +14,7 @@ using testing::run_program;
 using testing::slurp;
 using testing::spit;
 using testing::TemporaryFolder;
-
-/// A face at z = 0, and one above it by `height`.
-std::string two_faces(double height) {
-  const std::string z = std::to_string(height);
-  return "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 " + z + "\nv 2 1 " + z + "\nv 1 2 " + z + "\nf 4 5 6\n";
-}
+using testing::two_faces;
 
 nlohmann::json parse(const std::filesystem::path& file) { return nlohmann::json::parse(slurp(file)); }
 

@@ -90,15 +90,6 @@ bool overlap(double a_lower, double a_upper, double b_lower, double b_upper) {
   return a_lower <= b_upper && b_lower <= a_upper;
 }
 
-MotionCase reordered(const MotionCase& motion, const std::array<std::size_t, 4>& order) {
-  MotionCase result;
-  for (std::size_t i = 0; i < 4; ++i) {
-    result.x_t0[i] = motion.x_t0[order[i]];
-    result.x_t1[i] = motion.x_t1[order[i]];
-  }
-  return result;
-}
-
 /// The labels under which the features stay the same.
 MotionCase relabelled(Draw& draw, Question question, const MotionCase& motion) {
   static constexpr std::array<std::size_t, 4> kVf[] = {
@@ -107,17 +98,6 @@ MotionCase relabelled(Draw& draw, Question question, const MotionCase& motion) {
       {1, 0, 2, 3}, {0, 1, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}, {1, 0, 3, 2}};
   if (question == Question::kSelf) return reordered(motion, {0, 2, 1, 3});
   return reordered(motion, (question == Question::kVf ? kVf : kEe)[draw.integer(0, 4)]);
-}
-
-/// The first or the second half of the motion. REQUIRES even coordinates that doubles hold with a bit to spare.
-MotionCase half(const MotionCase& motion, bool second) {
-  MotionCase result = motion;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      (second ? result.x_t0 : result.x_t1)[i][k] = (motion.x_t0[i][k] + motion.x_t1[i][k]) / 2;
-    }
-  }
-  return result;
 }
 
 /// One class with one draw: asks, compares, counts; stops at the first disagreement.

@@ -257,6 +257,25 @@ Point Draw::point(int range) {
   return point;
 }
 
+MotionCase reordered(const MotionCase& motion, const std::array<std::size_t, 4>& order) {
+  MotionCase result;
+  for (std::size_t i = 0; i < 4; ++i) {
+    result.x_t0[i] = motion.x_t0[order[i]];
+    result.x_t1[i] = motion.x_t1[order[i]];
+  }
+  return result;
+}
+
+MotionCase half(const MotionCase& motion, bool second) {
+  MotionCase result = motion;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      (second ? result.x_t0 : result.x_t1)[i][k] = (motion.x_t0[i][k] + motion.x_t1[i][k]) / 2;
+    }
+  }
+  return result;
+}
+
 std::span<const Family> lattice_families() { return kLattice; }
 std::span<const Family> double_families() { return kDouble; }
 std::span<const Family> whole_range_families() { return kWholeRange; }

@@ -18,6 +18,13 @@ struct MotionCase {
 /// As hex floats, a point a line: bits, to be pasted into a test.
 std::ostream& operator<<(std::ostream& out, const MotionCase& motion);
 
+/// Point i is that of order[i].
+[[nodiscard]] MotionCase reordered(const MotionCase& motion, const std::array<std::size_t, 4>& order);
+
+/// The first half of the motion, or the second; its times are twice the whole one's, or twice minus one. REQUIRES even
+/// coordinates that doubles hold with a bit to spare.
+[[nodiscard]] MotionCase half(const MotionCase& motion, bool second);
+
 /// The same numbers from every standard library (its distributions differ).
 class Draw {
  public:

@@ -35,26 +35,6 @@ MotionCase mapped(MotionCase motion, const Change& change) {
   return motion;
 }
 
-MotionCase reordered(const MotionCase& motion, const std::array<std::size_t, 4>& order) {
-  MotionCase result;
-  for (std::size_t i = 0; i < 4; ++i) {
-    result.x_t0[i] = motion.x_t0[order[i]];
-    result.x_t1[i] = motion.x_t1[order[i]];
-  }
-  return result;
-}
-
-/// The first half of the motion, or the second; its times are twice the whole one's, or twice minus one.
-MotionCase half(const MotionCase& motion, bool second) {
-  MotionCase result = motion;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      (second ? result.x_t0 : result.x_t1)[i][k] = (motion.x_t0[i][k] + motion.x_t1[i][k]) / 2;
-    }
-  }
-  return result;
-}
-
 /// The same motion as long as 2/3: an instant with a power of two below the line has none there. REQUIRES multiples
 /// of 3.
 MotionCase until_two_thirds(const MotionCase& motion) {
