@@ -12,8 +12,12 @@
     }                                                                                                              \
   } while (false)
 
-#ifdef SELVAGE_ENABLE_VALIDATE
-#define SELVAGE_VALIDATE(condition) SELVAGE_ASSERT(condition)
-#else
-#define SELVAGE_VALIDATE(condition) static_cast<void>(0)
-#endif
+/// What a function REQUIRES of its caller, where it is cheap beside what the function does.
+#define SELVAGE_REQUIRE(condition)                                                                               \
+  do {                                                                                                           \
+    if (!(condition)) {                                                                                          \
+      std::fprintf(stderr, "selvage: %s is called without what it requires: %s; its header says what that is\n", \
+                   __func__, #condition);                                                                        \
+      std::abort();                                                                                              \
+    }                                                                                                            \
+  } while (false)

@@ -79,14 +79,14 @@ BoxHierarchy& BoxHierarchy::operator=(BoxHierarchy&&) noexcept = default;
 
 void BoxHierarchy::refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options) {
   const FpEnvGuard guard;
-  SELVAGE_ASSERT(V_t0.rows() == impl_->mesh.vertex_count && V_t1.rows() == impl_->mesh.vertex_count);
+  SELVAGE_REQUIRE(V_t0.rows() == impl_->mesh.vertex_count && V_t1.rows() == impl_->mesh.vertex_count);
   impl_->choose(V_t0, V_t1);
   impl_->boxes->refit(impl_->mesh, *impl_->chosen, V_t0, V_t1, options);
 }
 
 Candidates BoxHierarchy::candidates() const {
   const FpEnvGuard guard;
-  SELVAGE_ASSERT(impl_->boxes);
+  SELVAGE_REQUIRE(impl_->boxes);
   return find_pairs(impl_->mesh, *impl_->chosen, *impl_->boxes);
 }
 

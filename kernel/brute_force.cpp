@@ -37,9 +37,9 @@ Candidates find_candidates_brute_force(const Mesh& mesh, const PositionsRef& V_t
                                        const CandidateOptions& options) {
   const FpEnvGuard guard;
   const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count);
-  SELVAGE_ASSERT(V_t0.rows() == mesh.vertex_count && V_t1.rows() == mesh.vertex_count);
-  SELVAGE_ASSERT(options.active.empty() || options.active.size() == vertex_count);
-  SELVAGE_ASSERT(options.reach >= 0);
+  SELVAGE_REQUIRE(V_t0.rows() == mesh.vertex_count && V_t1.rows() == mesh.vertex_count);
+  SELVAGE_REQUIRE(options.active.empty() || options.active.size() == vertex_count);
+  SELVAGE_REQUIRE(options.reach >= 0);
 
   std::vector<Feature> of_vertex(vertex_count), of_edge, of_face;
   for (std::size_t v = 0; v < vertex_count; ++v) {

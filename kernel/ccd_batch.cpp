@@ -13,24 +13,16 @@
 
 namespace selvage {
 
+InputError validate(const CcdOptions& options) {
+  const bool is_length = options.tolerance >= 0 && options.tolerance < std::numeric_limits<double>::infinity();
+  if (!is_length) return InputError::kBadTolerance;
+  return options.max_intervals >= 1 ? InputError::kNone : InputError::kBadOption;
+}
+
 namespace {
 
 /// Preparing the lanes costs some 35 ns a vertex; a query that they spare costs 130 ns.
 constexpr std::size_t kVerticesPerQuery = 2;
-
-bool are_valid(const CcdOptions& options) {
-  return options.tolerance >= 0 && options.tolerance < std::numeric_limits<double>::infinity() &&
-         options.max_intervals >= 1;
-}
-
-std::array<VertexId, 4> vertices_of(const Mesh& mesh, const VfCandidate& pair) {
-  const auto& corners = mesh.faces[static_cast<std::size_t>(pair.face)];
-  return {pair.vertex, corners[0], corners[1], corners[2]};
-}
-std::array<VertexId, 4> vertices_of(const Mesh& mesh, const EeCandidate& pair) {
-  const auto &a = mesh.edges[static_cast<std::size_t>(pair.a)], &b = mesh.edges[static_cast<std::size_t>(pair.b)];
-  return {a[0], a[1], b[0], b[1]};
-}
 
 using Points = std::array<Vec3, 4>;
 using Query = CcdResult (*)(const Points&, const Points&, const CcdOptions&);
@@ -48,7 +40,7 @@ struct CcdBatch::Impl {
 
   template <typename Pair>
   void load(const Pair& pair, Points& x_t0, Points& x_t1) const {
-    const auto vertices = vertices_of(mesh, pair);
+    const auto vertices = pair_vertices(mesh, pair);
     for (std::size_t k = 0; k < 4; ++k) {
       x_t0[k] = V_t0.row(vertices[k]);
       x_t1[k] = V_t1.row(vertices[k]);
@@ -115,8 +107,8 @@ CcdBatch::CcdBatch(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRe
                    std::size_t query_count) {
   const FpEnvGuard guard;
   auto impl = std::make_unique<Impl>(Impl{mesh, V_t0, V_t1, options, std::nullopt});
-  if (are_valid(options) && query_count * kVerticesPerQuery >= static_cast<std::size_t>(V_t0.rows()) &&
-      query_count > 0) {
+  if (validate(options) == InputError::kNone &&
+      query_count * kVerticesPerQuery >= static_cast<std::size_t>(V_t0.rows()) && query_count > 0) {
     impl->lanes.emplace(V_t0, V_t1);
     if (!impl->lanes->is_valid()) impl->lanes.reset();
   }

@@ -123,12 +123,9 @@ class CollisionFinder {
 }  // namespace
 
 std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first, std::int32_t second) {
-  const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
-  if (kind == PairKind::kEe) {
-    return {mesh.edges[i][0], mesh.edges[i][1], mesh.edges[j][0], mesh.edges[j][1]};
-  }
-  const auto& corners = mesh.faces[j];
-  if (kind == PairKind::kVf) return {first, corners[0], corners[1], corners[2]};
+  if (kind == PairKind::kEe) return pair_vertices(mesh, EeCandidate{first, second});
+  if (kind == PairKind::kVf) return pair_vertices(mesh, VfCandidate{first, second});
+  const auto& corners = mesh.faces[static_cast<std::size_t>(second)];
   const auto own = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), first) - corners.begin());
   SELVAGE_ASSERT(own < 3);
   return {first, corners[(own + 1) % 3], corners[(own + 2) % 3], first};
@@ -137,8 +134,8 @@ std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int3
 CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                 const PositionsRef& V_t1, const CcdOptions& options,
                                 std::span<const std::uint8_t> active) {
-  SELVAGE_VALIDATE(validate(mesh, V_t0, V_t1) == InputError::kNone);
-  SELVAGE_ASSERT(options.tolerance >= 0 && std::isfinite(options.tolerance));
+  SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
+  SELVAGE_REQUIRE(validate(options) == InputError::kNone);
   hierarchy.refit(V_t0, V_t1, {options.tolerance, active});
   return CollisionFinder(mesh, V_t0, V_t1, options, active).find(hierarchy.candidates());
 }

@@ -35,9 +35,8 @@ struct CollisionReport {
 /// tolerance, overlap (candidates.h); the boxes of all other pairs are proof enough. vf and ee pairs are answered as by
 /// CcdBatch. toi_lower covers every vf, ee and kSelf pair with an active vertex, candidate or not. A step without
 /// motion (V_t0 = V_t1) is a step: pairs within tolerance are found, touching ones with toi_lower 0. `hierarchy`
-/// belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES validate() == kNone and a finite
-/// tolerance
-/// >= 0. In parallel; results are ordered, and equal bits for any thread count (K7).
+/// belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES validate() == kNone of the positions
+/// and of the options, which it asks. In parallel; results are ordered, and equal bits for any thread count (K7).
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                               const PositionsRef& V_t1, const CcdOptions& options,
                                               std::span<const std::uint8_t> active = {});

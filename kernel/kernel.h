@@ -6,7 +6,8 @@
 //   Trajectory   x(t) = (1 - t) x_t0 + t x_t1, t in [0, 1]: straight lines, nothing else.
 //   tolerance    a length the CALLER chooses; error_bound: a length the KERNEL proves. Never mixed in one name.
 //   Answers      kSeparated is a proof about the real trajectories of the stored doubles, rounding included.
-//   Failure      bad input: InputError. Limit reached: kUnresolved. Broken invariant: SELVAGE_ASSERT.
+//   Failure      bad input: InputError from validate(), which whole steps REQUIRE to be kNone: without it they stop the
+//                program (SELVAGE_REQUIRE). Limit reached: kUnresolved. Broken invariant: SELVAGE_ASSERT.
 //                Nothing throws, prints or reads a clock; equal bits in give equal bits out.
 #pragma once
 

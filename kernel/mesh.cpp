@@ -57,7 +57,7 @@ const char* describe(InputError error) {
     case InputError::kNotFinite:
       return "a coordinate is NaN or infinite; check the simulation that produced it";
     case InputError::kTooLarge:
-      return "a coordinate exceeds kMaxCoordinate; choose a smaller length unit";
+      return "a coordinate exceeds kMaxCoordinate, or a scripted one the largest float32; choose a larger length unit";
     case InputError::kIndexOutOfRange:
       return "a face index is negative or not below the vertex count";
     case InputError::kRepeatedVertex:
@@ -74,6 +74,9 @@ const char* describe(InputError error) {
       return "the time step is not a positive finite number of seconds; choose the step from the frame rate";
     case InputError::kOffLattice:
       return "a starting position is no float32 number; round the first state before the first float32 step";
+    case InputError::kBadSurfaces:
+      return "the contact surfaces do not fit the mesh; give every vertex the number of one of `properties`, the same "
+             "to all three of a face";
   }
   return "unknown error";
 }
@@ -90,8 +93,8 @@ InputError validate_faces(std::int32_t vertex_count, const FacesRef& F) {
 }
 
 Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F) {
-  SELVAGE_ASSERT(vertex_count >= 0);
-  SELVAGE_ASSERT(validate_faces(vertex_count, F) == InputError::kNone);
+  SELVAGE_REQUIRE(vertex_count >= 0);
+  SELVAGE_REQUIRE(validate_faces(vertex_count, F) == InputError::kNone);
   Mesh mesh;
   mesh.vertex_count = vertex_count;
   const auto face_count = static_cast<std::size_t>(F.rows());

@@ -36,7 +36,8 @@ enum class InputError : std::uint8_t {
   kBadOption,
   kBadMass,
   kBadTimeStep,
-  kOffLattice
+  kOffLattice,
+  kBadSurfaces
 };
 
 /// One sentence for a person, with the remedy.

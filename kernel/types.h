@@ -9,6 +9,14 @@
 #error "selvage: fast-math breaks every proven bound; compile without -ffast-math, -Ofast and -ffinite-math-only"
 #endif
 
+// Eigen's matrices are allocated and aligned as the compiler's flags say (-march, -fsanitize): freed by code with other
+// flags they crash. Installed, Selvage knows how it was built.
+#ifdef SELVAGE_EIGEN_LAYOUT
+static_assert(2 * EIGEN_DEFAULT_ALIGN_BYTES + EIGEN_MALLOC_ALREADY_ALIGNED == SELVAGE_EIGEN_LAYOUT,
+              "selvage: this is compiled with other -march, -mavx or -fsanitize flags than the library, and Eigen's "
+              "matrices differ; compile both with the same (cmake -DCMAKE_CXX_FLAGS=... builds the library so)");
+#endif
+
 namespace selvage {
 
 using VertexId = std::int32_t;                                                  ///< row of the positions
