@@ -11,6 +11,8 @@ function(selvage_room name)
   target_include_directories(${target} INTERFACE
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>          # <selvage/kernel/ccd.h>, as users write it
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/selvage>)  # "kernel/ccd.h", as the headers include each other
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  target_compile_definitions(${target} INTERFACE $<INSTALL_INTERFACE:SELVAGE_EIGEN_LAYOUT=${SELVAGE_EIGEN_LAYOUT}>)
   target_link_libraries(${target}
     PUBLIC ${ROOM_PUBLIC}
     PRIVATE ${ROOM_PRIVATE} $<BUILD_INTERFACE:selvage_warnings> $<BUILD_INTERFACE:selvage_fp_model>)
