@@ -9,16 +9,16 @@ namespace {
 InputError validate(const Mesh& mesh, const ContactSurfaces& surfaces) {
   if (!std::ranges::all_of(surfaces.properties, is_valid)) return InputError::kBadOption;
   if (surfaces.surface_of_vertex.size() != static_cast<std::size_t>(mesh.vertex_count)) {
-    return InputError::kSizeMismatch;
+    return InputError::kBadSurfaces;
   }
   const auto count = static_cast<std::int32_t>(surfaces.properties.size());
   const auto is_surface = [count](std::int32_t surface) { return surface >= 0 && surface < count; };
-  if (!std::ranges::all_of(surfaces.surface_of_vertex, is_surface)) return InputError::kIndexOutOfRange;
+  if (!std::ranges::all_of(surfaces.surface_of_vertex, is_surface)) return InputError::kBadSurfaces;
   const auto surface = [&](VertexId v) { return surfaces.surface_of_vertex[static_cast<std::size_t>(v)]; };
   const auto is_of_one = [&](const auto& face) {
     return surface(face[0]) == surface(face[1]) && surface(face[1]) == surface(face[2]);
   };
-  return std::ranges::all_of(mesh.faces, is_of_one) ? InputError::kNone : InputError::kBadOption;
+  return std::ranges::all_of(mesh.faces, is_of_one) ? InputError::kNone : InputError::kBadSurfaces;
 }
 
 }  // namespace

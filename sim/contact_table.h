@@ -13,8 +13,8 @@ class ContactTable {
   /// The properties of `options` for all pairs where `surfaces` has none.
   ContactTable(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces);
 
-  /// kNone, or what is wrong with the surfaces: kSizeMismatch, kIndexOutOfRange, kBadOption (a value out of its range,
-  /// a face of two surfaces). Nothing else may be asked then.
+  /// kNone, or what is wrong with the surfaces: kBadOption (a value out of its range) or kBadSurfaces. Nothing else may
+  /// be asked then.
   [[nodiscard]] InputError error() const { return error_; }
 
   /// Whether all pairs have the same properties.

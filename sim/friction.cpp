@@ -91,6 +91,21 @@ double normalize(PairVectors& displacement) {
   return scale;
 }
 
+/// Whether it does by more than rounding explains. In real numbers no friction does. In doubles the rotation of a
+/// closed pair can, where its masses differ by more than their bits: with masses of 2^-40 to 2^40 and a friction of
+/// 10^6 cloth went 10^6 m where 0.3 were wanted. REQUIRES a closed pair: in it a motion that all share does not count.
+bool adds_energy(const Interaction& interaction, const PairVectors& displacement, const PairVectors& change) {
+  constexpr double kRounding = 0x1p-40;
+  double added = 0, size = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (interaction.mobility[i] == 0) continue;  // the empty slot of a self pair
+    const Vec3 factor = 2 * (displacement[i] - displacement[0]) + change[i];
+    added += change[i].dot(factor) / interaction.mobility[i];
+    size += change[i].cwiseAbs().dot(factor.cwiseAbs()) / interaction.mobility[i];
+  }
+  return !(added <= kRounding * size);
+}
+
 }  // namespace
 
 std::optional<PairVectors> friction_change(const Interaction& interaction, const PairVectors& x_t0,
@@ -110,13 +125,14 @@ std::optional<PairVectors> friction_change(const Interaction& interaction, const
   const double share = sticks ? 1.0 : share_within(so_far, impulse_to_stop, friction.on_kinetic * normal_impulse);
   if (!(share > 0)) return std::nullopt;
   const Vec3 impulse = lever_share(interaction) * share * impulse_to_stop;
-  load.rubbed += scale * impulse;
   const Vec3 rotation_back = slip.inverse_inertia * slip.r.cross(impulse);
   PairVectors change;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3 straight = interaction.mobility[i] * interaction.weights[i] * impulse;
-    change[i] = scale * (straight - rotation_back.cross(slip.y[i]));
+    change[i] = interaction.mobility[i] * interaction.weights[i] * impulse - rotation_back.cross(slip.y[i]);
   }
+  if (is_closed(interaction) && adds_energy(interaction, scaled, change)) return std::nullopt;
+  load.rubbed += scale * impulse;
+  for (Vec3& part : change) part *= scale;
   return change;
 }
 

@@ -1,22 +1,23 @@
 #include "sim/scripted_groups.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
+#include <optional>
 
 namespace selvage::sim {
 
 ScriptedGroups::ScriptedGroups(const CollisionBodies& bodies) : group_(bodies.inverse_mass.size(), kCloth) {
-  constexpr std::int32_t kPins = std::numeric_limits<std::int32_t>::max();  // after every body
-  std::map<std::int32_t, std::vector<VertexId>> members;
+  using Owner = std::optional<std::int32_t>;
+  const auto before = [](const Owner& a, const Owner& b) { return a && (!b || *a < *b); };  // the pins after every body
+  std::map<Owner, std::vector<VertexId>, decltype(before)> members(before);
   for (std::size_t v = 0; v < group_.size(); ++v) {
     if (bodies.inverse_mass[v] > 0) continue;
     const bool has_body = !bodies.body.empty() && bodies.body[v] >= 0;
-    members[has_body ? bodies.body[v] : kPins].push_back(static_cast<VertexId>(v));
+    members[has_body ? Owner(bodies.body[v]) : std::nullopt].push_back(static_cast<VertexId>(v));
   }
   for (auto& [body, vertices] : members) {
     for (const VertexId v : vertices) group_[static_cast<std::size_t>(v)] = count();
-    groups_.push_back({body == kPins ? -1 : body, std::move(vertices)});
+    groups_.push_back({body.value_or(-1), std::move(vertices)});
   }
 }
 

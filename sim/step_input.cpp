@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "sim/step_motion.h"
@@ -33,11 +34,13 @@ InputError validate_masses(std::size_t vertex_count, const CollisionBodies& bodi
 
 /// Cloth may be sent to any finite place: StepMotion cuts its candidates at the edge of the domain. A script is
 /// followed exactly, so one that leaves the domain is refused.
-InputError validate_candidate(const PositionsRef& V_candidate, std::span<const double> inverse_mass) {
+InputError validate_candidate(const PositionsRef& V_candidate, std::span<const double> inverse_mass,
+                              CollisionOptions::Precision precision) {
   if (!V_candidate.allFinite()) return InputError::kNotFinite;
+  const double limit = to_lattice(std::numeric_limits<double>::max(), precision);
   for (Eigen::Index v = 0; v < V_candidate.rows(); ++v) {
     const bool is_scripted = inverse_mass[static_cast<std::size_t>(v)] == 0;
-    if (is_scripted && V_candidate.row(v).cwiseAbs().maxCoeff() > kMaxCoordinate) return InputError::kTooLarge;
+    if (is_scripted && V_candidate.row(v).cwiseAbs().maxCoeff() > limit) return InputError::kTooLarge;
   }
   return InputError::kNone;
 }
@@ -60,7 +63,8 @@ InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options
   if (V_candidate.rows() != V_t0.rows()) return InputError::kSizeMismatch;
   const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count);
   if (const InputError error = validate_masses(vertex_count, bodies); error != InputError::kNone) return error;
-  if (const InputError error = validate_candidate(V_candidate, bodies.inverse_mass); error != InputError::kNone) {
+  if (const InputError error = validate_candidate(V_candidate, bodies.inverse_mass, options.precision);
+      error != InputError::kNone) {
     return error;
   }
   return is_on_lattice(V_t0, options.precision) ? InputError::kNone : InputError::kOffLattice;

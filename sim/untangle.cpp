@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/assert.h"
+#include "kernel/fp_env.h"
 #include "sim/body_return.h"
 #include "sim/membrane.h"
 
@@ -10,7 +11,8 @@ namespace selvage::sim {
 
 UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                         const UntangleOptions& options, const FindIntersections& find) {
-  SELVAGE_ASSERT(options.gap_m > 0);
+  const FpEnvGuard guard;
+  SELVAGE_REQUIRE(options.gap_m > 0);
   const SurfaceParts parts(mesh);
   UntangleState state{mesh, bodies, options, find, parts, parts.cloth_flags(bodies), V, V};
   UntangleReport report;

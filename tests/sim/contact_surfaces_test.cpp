@@ -117,12 +117,12 @@ TEST(ContactSurfaces, ThatDoNotFitTheMeshAreCalledInvalid) {
     return result.report.input_error;
   };
   EXPECT_EQ(error_with({good, good}, {1, 1, 1, 1}), InputError::kNone);
-  EXPECT_EQ(error_with({good}, {0, 0, 0}), InputError::kSizeMismatch);
-  EXPECT_EQ(error_with({good}, {}), InputError::kSizeMismatch);
-  EXPECT_EQ(error_with({}, {0, 0, 0, 0}), InputError::kIndexOutOfRange);
-  EXPECT_EQ(error_with({good}, {0, 0, 0, 1}), InputError::kIndexOutOfRange);
-  EXPECT_EQ(error_with({good}, {0, -1, 0, 0}), InputError::kIndexOutOfRange);
-  EXPECT_EQ(error_with({good, good}, {0, 0, 0, 1}), InputError::kBadOption) << "a face of two surfaces";
+  EXPECT_EQ(error_with({good}, {0, 0, 0}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({good}, {}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({}, {0, 0, 0, 0}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({good}, {0, 0, 0, 1}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({good}, {0, -1, 0, 0}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({good, good}, {0, 0, 0, 1}), InputError::kBadSurfaces) << "a face of two surfaces";
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const ContactProperties& bad :
        {ContactProperties{-1, 0, 0, 0}, ContactProperties{1, nan, 0, 0}, ContactProperties{1, 0, 0.1, 0.2},

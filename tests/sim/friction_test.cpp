@@ -92,6 +92,28 @@ TEST(Friction, KeepsBothMomentaAddsNoEnergyAndStaysInTheCone) {
   check_property(500, 32, prop_friction_keeps_momenta_and_the_cone);
 }
 
+TEST(Friction, AddsNoEnergyWhereMassesDifferByMoreThanDoublesHold) {
+  int rubbed = 0;
+  check_property(2000, 35, [&] {
+    RandomPair pair = random_contact(0.1);
+    std::array<double, 4> inverse_mass{};
+    for (double& w : inverse_mass) w = std::exp2(number_between(-49, 49));
+    pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, pair.interaction.weights, inverse_mass);
+    const double friction = std::pow(10, number_between(0, 12));
+    const auto change = first_friction(pair.interaction, pair.x_t0, pair.displacement, 1, {friction, friction});
+    if (!change) return;
+    ++rubbed;
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 d = pair.displacement[i] - pair.displacement[0];
+      before += d.squaredNorm() / pair.interaction.mobility[i];
+      after += (d + (*change)[i]).squaredNorm() / pair.interaction.mobility[i];
+    }
+    RC_ASSERT(after <= before * (1 + 1e-9));
+  });
+  EXPECT_GT(rubbed, 1000);
+}
+
 TEST(Friction, DoesNotBrakeARigidRotation) {
   check_property(100, 33, [] {
     RandomPair pair = random_contact(0.1);

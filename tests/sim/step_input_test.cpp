@@ -48,6 +48,12 @@ TEST(StepInput, NamesTheDefect) {
   EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = kNan; }), InputError::kNotFinite);
   EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = 0x1.8p+1000; }), InputError::kNone);  // cut by the step
   EXPECT_EQ(error_after([](Input& i) { i.V_candidate(2, 1) = 0x1.8p+1000; }), InputError::kTooLarge);  // a script
+  EXPECT_EQ(error_after([](Input& i) {
+              i.options.precision = CollisionOptions::Precision::kFloat32;
+              i.V_candidate(2, 1) = 1e200;
+            }),
+            InputError::kTooLarge)
+      << "no float32";
   for (const double mass : {-1.0, kNan, kInfinity}) {
     EXPECT_EQ(error_after([=](Input& i) { i.inverse_mass[0] = mass; }), InputError::kBadMass);
   }
