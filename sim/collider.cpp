@@ -13,9 +13,14 @@ Collider::Collider(std::string name, std::vector<VertexId> vertices, Positions l
   SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == local_.rows());
 }
 
-void Collider::place_at(double time_s, bool round_to_float32, Positions& x) const {
+Positions Collider::placed_at(double time_s, bool round_to_float32) const {
   Positions placed = transform(linkage_.at(time_s), local_);
   if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
+  return placed;
+}
+
+void Collider::place_at(double time_s, bool round_to_float32, Positions& x) const {
+  const Positions placed = placed_at(time_s, round_to_float32);
   for (std::size_t i = 0; i < vertices_.size(); ++i) x.row(vertices_[i]) = placed.row(static_cast<Eigen::Index>(i));
 }
 

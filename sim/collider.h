@@ -18,7 +18,9 @@ class Collider {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
   [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
-  /// Writes the rows of the collider's vertices at the time: the script exactly, rounded to the precision of the state.
+  /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state.
+  [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32) const;
+  /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;
 
  private:

@@ -55,7 +55,11 @@ class Simulation {
     CollisionStepResult safe;
   };
   Try try_step(StepResult& result);
+  /// Whether bodies had to wait in the try; notes them.
+  bool others_wait(Try& tried);
   Positions scripted_positions();
+  /// Writes where the collider goes in the step.
+  void follow_script(const Collider& collider, Positions& x) const;
   [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
   DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
   [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze}; }
@@ -75,6 +79,7 @@ class Simulation {
   Patience patience_;                 ///< while the step can be halved
   std::vector<double> inverse_mass_;  ///< #V, now: pins that hold have 0
   std::vector<std::int32_t> body_;    ///< #V, now: the collider that holds the vertex, or -1
+  std::vector<std::uint8_t> waits_;   ///< by collider: stands still in this step
 };
 
 }  // namespace selvage::sim

@@ -366,6 +366,66 @@ TEST(Simulation, BodiesWaitUnderYieldAndTheClothStaysFree) {
   EXPECT_NE(totals.shortfalls().find("times a body waited"), std::string::npos);
 }
 
+namespace {
+
+// A ball is pressed 2 cm too deep into cloth on the ground for a second, and drawn aside.
+constexpr const char* kPressed = R"(
+squeeze = "yield"
+gravity_m_s2 = [0, 0, -9.81]
+[time]
+frames_per_s = 30
+frames = 70
+[collision]
+thickness_m = 0.004
+friction_static = 0.3
+[[cloth]]
+sheet = {nx = 14, ny = 14, width_m = 0.5, height_m = 0.5}
+position_m = [0, 0, 0.01]
+density_kg_m2 = 0.2
+stretch_n_m = 60
+shear_n_m = 20
+bend_n_m = 0.6
+damping_ratio = 0.1
+[[body]]
+name = "ball"
+sphere = {radius_m = 0.15, subdivisions = 2}
+position_m = [0, 0, 0.25]
+interpolation = "linear"
+key = [{time_s = 0}, {time_s = 0.4, position_m = [0, 0, -0.12]}, {time_s = 1.4, position_m = [0, 0, -0.12]},
+       {time_s = 2, position_m = [0.3, 0, 0.1]}]
+[[body]]
+name = "ground"
+sheet = {nx = 2, ny = 2, width_m = 20, height_m = 20}
+)";
+
+}  // namespace
+
+TEST(Simulation, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
+  Simulation simulation(parse_scene(kPressed, "pressed.toml"));
+  const std::int32_t cloth = simulation.world().cloth_vertex_count;
+  const Collider& ball = simulation.world().colliders.front();
+  double fastest_m_s = 0, fastest_ball_m_s = 0, pressed_m_s = 0;
+  std::int64_t waits = 0, steps = 0;
+  while (simulation.clock().state().frame < 70) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    const auto speed_m_s = ((simulation.x() - before) / step.dt_s).rowwise().norm().eval();
+    fastest_m_s = std::max(fastest_m_s, speed_m_s.head(cloth).maxCoeff());
+    for (const VertexId v : ball.vertices()) fastest_ball_m_s = std::max(fastest_ball_m_s, speed_m_s[v]);
+    if (simulation.clock().state().frame == 40) pressed_m_s = speed_m_s.head(cloth).maxCoeff();
+    waits += static_cast<std::int64_t>(step.report.waiting_bodies.size());
+    ++steps;
+  }
+  EXPECT_GT(waits, 20);
+  EXPECT_LT(pressed_m_s, 0.03) << "it rests under the ball; 0.4 m/s where the dynamics saw the ball move";
+  EXPECT_LT(fastest_ball_m_s, 1.6) << "its script goes at 0.9 m/s";
+  EXPECT_LT(fastest_m_s, 5);
+  EXPECT_LT(steps, 300);
+  const Positions end = ball.placed_at(simulation.clock().time_s(), false);
+  EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), end) << "to the bit";
+}
+
 TEST(World, PartsAreInOrderAndPinsAreColliders) {
   const Scene scene = small_scene(1);
   const World world = build_world(scene);
