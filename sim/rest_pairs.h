@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/box_hierarchy.h"
+#include "kernel/mesh.h"
 
 namespace selvage::sim {
 
