@@ -76,7 +76,7 @@ const char* describe(InputError error) {
       return "a starting position is no float32 number; round the first state before the first float32 step";
     case InputError::kBadSurfaces:
       return "the contact surfaces do not fit the mesh; give every vertex the number of one of `properties`, the same "
-             "to all three of a face";
+             "to all three of a face, and name rest pairs of the mesh";
   }
   return "unknown error";
 }

@@ -31,7 +31,7 @@ std::vector<RepulsionContact> make_contacts(const std::vector<PairProximity>& pa
                                             const Positions& V_t0, std::span<const double> inverse_mass) {
   std::vector<RepulsionContact> contacts;
   for (const PairProximity& pair : pairs) {
-    const auto contact = make_contact(pair, table.of(pair.kind, pair.vertices), V_t0, inverse_mass);
+    const auto contact = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
     if (contact) contacts.push_back(*contact);
   }
   return contacts;
@@ -146,8 +146,8 @@ void Attempt::meet_collisions() {
   for (const Collision& collision : tracker_.collisions()) {
     if (collision.kind == PairKind::kSelf) continue;
     const std::array<VertexId, 4> pair = tracker_.vertices(collision);
-    const auto contact =
-        make_contact(collision, pair, contacts_.of(collision.kind, pair), motion_.V_t0(), bodies_.inverse_mass);
+    const ContactProperties properties = contacts_.of(collision.kind, collision.first, collision.second);
+    const auto contact = make_contact(collision, pair, properties, motion_.V_t0(), bodies_.inverse_mass);
     if (contact) met_.push_back(*contact);
   }
 }
@@ -162,8 +162,8 @@ void Attempt::apply_impulses() {
       const std::array<VertexId, 4> pair = tracker_.vertices(collision);
       const Interaction interaction =
           make_interaction(collision.kind, pair, collision.ccd.weights, bodies_.inverse_mass);
-      changes.push_back(
-          collision_impulse(collision, interaction, motion_, contacts_.of(collision.kind, pair).tolerance_m));
+      const double tolerance_m = contacts_.of(collision.kind, collision.first, collision.second).tolerance_m;
+      changes.push_back(collision_impulse(collision, interaction, motion_, tolerance_m));
     }
     update_.apply(changes, options_.relaxation, motion_);
     if (!motion_.anything_changed()) return;
@@ -177,7 +177,7 @@ bool Attempt::zone_can_help(const Collision& collision) const {
   const std::array<VertexId, 4> v = tracker_.vertices(collision);
   const Positions& V = motion_.V_t0();
   const std::array<Vec3, 4> x{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
-  const double tolerance = contacts_.of(collision.kind, v).tolerance_m;
+  const double tolerance = contacts_.of(collision.kind, collision.first, collision.second).tolerance_m;
   if (collision.kind == PairKind::kEe) return ee_proximity(x).distance_lower > tolerance;
   // A self pair is {p, a, b, p}: its edge is a face without area.
   const Vec3& c = collision.kind == PairKind::kSelf ? x[2] : x[3];

@@ -106,8 +106,8 @@ struct CollisionStepResult {
 class CollisionStep {
  public:
   /// The mesh must outlive it. With `surfaces` each pair has the thickness, tolerance and friction of its two surfaces
-  /// (combine()), and those of the options are not used; surfaces that do not fit the mesh, or have a value out of its
-  /// range, are called invalid by every step.
+  /// (combine()), and those of the options are not used; its rest pairs repel below their distances at rest. Surfaces
+  /// that do not fit the mesh, or have a value out of its range, are called invalid by every step.
   CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces = {});
   ~CollisionStep();
   CollisionStep(CollisionStep&&) noexcept;

@@ -42,7 +42,8 @@ void CollisionTracker::hold_to_own_tolerance(const StepMotion& motion, Collision
   for (Collision& collision : found.collisions) {
     if (collision.ccd.cause != CcdCause::kEnd) continue;  // a motion is free of touch or not, whatever the tolerance
     const std::array<VertexId, 4> v = vertices(collision);
-    const CcdOptions options{contacts_.of(collision.kind, v).tolerance_m, max_intervals_};
+    const CcdOptions options{contacts_.of(collision.kind, collision.first, collision.second).tolerance_m,
+                             max_intervals_};
     if (options.tolerance == contacts_.tolerance_upper()) continue;
     const std::array<Vec3, 4> x_t0 = corners(motion.V_t0(), v), x_t1 = corners(motion.x(), v);
     switch (collision.kind) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/rest_pairs.h"
+
 namespace selvage::sim {
 
 /// Of one surface, or of a pair of them.
@@ -25,11 +27,14 @@ struct ContactProperties {
 /// Whether every value lies in the range stated above.
 [[nodiscard]] bool is_valid(const ContactProperties& properties);
 
-/// Which surface each vertex is of. Without any, all of the mesh has the properties in its CollisionOptions, and no
-/// pair costs a look.
+/// Which surface each vertex is of. Without any, all of the mesh has the properties in its CollisionOptions. Without
+/// those and without rest pairs no pair costs a look.
 struct ContactSurfaces {
   std::vector<ContactProperties> properties;    ///< one for each surface
   std::vector<std::int32_t> surface_of_vertex;  ///< #V: index into `properties`; the same for all corners of a face
+  /// Those of every cloth that repel below another distance than its thickness (find_rest_pairs()). Fill them in where
+  /// a thickness is above 0.7 of an edge, or the cloth inflates.
+  std::vector<RestPair> rest_pairs{};
 };
 
 }  // namespace selvage::sim

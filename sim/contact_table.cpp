@@ -23,7 +23,7 @@ InputError validate(const Mesh& mesh, const ContactSurfaces& surfaces) {
 
 }  // namespace
 
-ContactTable::ContactTable(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces) {
+ContactTable::ContactTable(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces) : mesh_(mesh) {
   const bool has_surfaces = !surfaces.properties.empty() || !surfaces.surface_of_vertex.empty();
   if (has_surfaces) {
     error_ = validate(mesh, surfaces);
@@ -31,6 +31,7 @@ ContactTable::ContactTable(const Mesh& mesh, const CollisionOptions& options, Co
   } else {
     properties_ = {contact_of(options)};
   }
+  if (error_ == InputError::kNone) error_ = sim::validate(mesh, surfaces.rest_pairs);
   if (error_ != InputError::kNone) return;
   if (properties_.empty()) properties_.emplace_back();  // a mesh without vertices has no pairs
   const bool differ = std::ranges::adjacent_find(properties_, std::ranges::not_equal_to()) != properties_.end();
@@ -39,13 +40,24 @@ ContactTable::ContactTable(const Mesh& mesh, const CollisionOptions& options, Co
     thickness_upper_ = std::max(thickness_upper_, p.thickness_m);
     tolerance_upper_ = std::max(tolerance_upper_, p.tolerance_m);
   }
+  rest_ = RestDistances(mesh, std::move(surfaces.rest_pairs));
 }
 
-ContactProperties ContactTable::of(PairKind kind, const std::array<VertexId, 4>& pair) const {
+ContactProperties ContactTable::of(PairKind kind, std::int32_t first, std::int32_t second) const {
   if (is_uniform()) return properties_.front();
+  ContactProperties pair = of_surfaces(kind, first, second);
+  pair.thickness_m = std::min(pair.thickness_m, rest_.of(kind, first, second));
+  return pair;
+}
+
+ContactProperties ContactTable::of_surfaces(PairKind kind, std::int32_t first, std::int32_t second) const {
+  if (surface_.empty()) return properties_.front();
   const auto surface = [this](VertexId v) { return static_cast<std::size_t>(surface_[static_cast<std::size_t>(v)]); };
-  const std::size_t first = surface(pair[0]), second = surface(pair[kind == PairKind::kEe ? 2 : 1]);
-  return first == second ? properties_[first] : combine(properties_[first], properties_[second]);
+  const auto of_edge = [&](std::int32_t edge) { return surface(mesh_.edges[static_cast<std::size_t>(edge)][0]); };
+  const bool are_edges = kind == PairKind::kEe;
+  const std::size_t a = are_edges ? of_edge(first) : surface(first);
+  const std::size_t b = are_edges ? of_edge(second) : surface(mesh_.faces[static_cast<std::size_t>(second)][0]);
+  return a == b ? properties_[a] : combine(properties_[a], properties_[b]);
 }
 
 }  // namespace selvage::sim

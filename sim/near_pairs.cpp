@@ -54,7 +54,8 @@ void find_block(const Mesh& mesh, const ContactTable& contacts, std::span<const 
   for (std::size_t i = 0; i < block.size(); ++i) {
     std::array<VertexId, 4> vertices{};
     for (std::size_t k = 0; k < 4; ++k) vertices[k] = static_cast<VertexId>(lanes.vertices(k)[i]);
-    const double thickness_m = contacts.of(lanes.kind(), vertices).thickness_m;
+    const auto [first, second] = block[i];
+    const double thickness_m = contacts.of(lanes.kind(), first, second).thickness_m;
     if (quick.distance[i] > kRounding * kContactReach * thickness_m) continue;
     const QuickProximity proximity = quick[i];
     found.pairs.push_back({vertices, proximity.weights, proximity.direction, proximity.distance, thickness_m});

@@ -59,7 +59,8 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
   std::vector<PairProximity> near = ask_proximities(mesh_, V_t0_, asked, kContactReach * contacts_.thickness_upper());
   if (!contacts_.is_uniform()) {
     std::erase_if(near, [&](const PairProximity& pair) {
-      return !(pair.proximity.distance_lower < kContactReach * contacts_.of(pair.kind, pair.vertices).thickness_m);
+      return !(pair.proximity.distance_lower <
+               kContactReach * contacts_.of(pair.kind, pair.first, pair.second).thickness_m);
     });
   }
   for (const std::size_t pair : open) decision_[pair] = kNotLocal;

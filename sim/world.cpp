@@ -43,6 +43,16 @@ Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
   return shape;
 }
 
+Mesh mesh_of(VertexId vertex_count, const io::Triangles& triangles) {
+  Faces faces(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles[f][k];
+    }
+  }
+  return make_mesh(vertex_count, faces);
+}
+
 // Collects parts into one vertex and one face list.
 class WorldBuilder {
  public:
@@ -59,6 +69,7 @@ class WorldBuilder {
     }
     const VertexId begin = add_part(spec.name, io::Group::Role::kCloth, rest, place(spec.placement, rest.x));
     add_contact(spec.contact);
+    if (scene_.collision.repulsion) add_rest_pairs(rest, begin, spec.contact);
     v_.bottomRows(rest.x.rows()).rowwise() = spec.velocity_m_s.transpose();
     for (const double mass : mass_kg) inverse_mass_.push_back(1 / mass);
     for (Spring spring : make_springs(spec, rest, mass_kg)) {
@@ -99,19 +110,13 @@ class WorldBuilder {
                 stabilizers_.empty() ? StabilizerSystem() : StabilizerSystem(stabilizers_, cloth_vertex_count),
                 std::move(bodies_),
                 0,
-                contacts_.properties.size() > 1 ? std::move(contacts_) : ContactSurfaces{},
+                take_contacts(),
                 0,
                 {},
                 {}};
     world.body_count = static_cast<std::int32_t>(world.colliders.size());
     std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
-    Faces faces(static_cast<Eigen::Index>(world.triangles.size()), 3);
-    for (std::size_t f = 0; f < world.triangles.size(); ++f) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = world.triangles[f][k];
-      }
-    }
-    world.mesh = make_mesh(vertex_count(), faces);
+    world.mesh = mesh_of(vertex_count(), world.triangles);
     world.stable_step_s = stable_step_s(world.springs, world.inverse_mass, world.stabilizers);
     const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
     world.x_t0 = float32 ? Positions(x_.cast<float>().cast<double>()) : std::move(x_);
@@ -148,6 +153,27 @@ class WorldBuilder {
     contacts_.surface_of_vertex.resize(static_cast<std::size_t>(x_.rows()), number);
   }
 
+  ContactSurfaces take_contacts() {
+    ContactSurfaces contacts;
+    if (contacts_.properties.size() > 1) contacts = contacts_;
+    contacts.rest_pairs = std::move(rest_pairs_);
+    return contacts;
+  }
+
+  // Of the cloth that was added last, from `begin` on. Edges are numbered by their larger vertex, so that those of a
+  // part follow one another as in a mesh of its own.
+  void add_rest_pairs(const Shape& rest, VertexId begin, const std::optional<ContactProperties>& own) {
+    const Mesh mesh = mesh_of(static_cast<VertexId>(rest.x.rows()), rest.triangles);
+    const double thickness_m = own.value_or(contact_of(scene_.collision)).thickness_m;
+    const auto face_begin = static_cast<FaceId>(triangles_.size() - rest.triangles.size());
+    for (RestPair pair : find_rest_pairs(mesh, rest.x, thickness_m)) {
+      pair.first += pair.kind == PairKind::kVf ? begin : edge_begin_;
+      pair.second += pair.kind == PairKind::kVf ? face_begin : edge_begin_;
+      rest_pairs_.push_back(pair);
+    }
+    edge_begin_ += static_cast<EdgeId>(mesh.edges.size());
+  }
+
   void add_pin(const std::string& name, const PinSpec& spec, VertexId begin, VertexId count) {
     if (spec.vertices.back() >= count) {
       throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {} holds vertex {}, but the mesh has {}; correct the "
@@ -179,6 +205,8 @@ class WorldBuilder {
   std::vector<Collider> bodies_, pins_;
   std::vector<Linkage> linkages_;  ///< of the bodies
   ContactSurfaces contacts_;
+  std::vector<RestPair> rest_pairs_;
+  EdgeId edge_begin_ = 0;  ///< of the next cloth
 };
 
 void require_stable_step(const Scene& scene, double stable_step_s) {

@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "kernel/proximities.h"
 #include "sim/contact_table.h"
 #include "tests/sim/step_scene.h"
 #include "verify/distance_check.h"
@@ -213,6 +214,107 @@ TEST(ContactSurfaces, FrictionIsThatOfThePair) {
   EXPECT_NEAR(dragged_by(0.4, 0.4), 1e-3 - 0.4e-4, 1e-9);
   EXPECT_NEAR(dragged_by(0.9, 0.4), 1e-3 - 0.6e-4, 1e-9);
   EXPECT_NEAR(dragged_by(0.9, 0), 1e-3, 1e-9);
+}
+
+TEST(RestPairs, AreAllThatAreNearerAtRestThanTheThickness) {
+  StepScene scene;
+  scene.add(make_sheet(6, 5, 0.5, 0.4), Vec3::Zero());
+  const Mesh mesh = scene.mesh();
+  EXPECT_TRUE(find_rest_pairs(mesh, scene.V_t0, 0.07).empty()) << "squares of 0.1 m: 0.0707 across a face";
+  BoxHierarchy hierarchy(mesh);
+  for (const double thickness_m : {0.08, 0.15, 0.32}) {
+    const std::vector<RestPair> pairs = find_rest_pairs(mesh, scene.V_t0, thickness_m);
+    std::vector<RestPair> expected;
+    for (const PairProximity& pair : find_proximities(mesh, hierarchy, scene.V_t0, 1)) {
+      if (!(pair.proximity.distance < thickness_m)) continue;
+      expected.push_back({pair.kind, pair.first, pair.second, pair.proximity.distance});
+    }
+    EXPECT_GT(pairs.size(), 30U);
+    EXPECT_EQ(pairs, expected);
+  }
+  scene.V_t0(0, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(find_rest_pairs(mesh, scene.V_t0, 1).empty());
+}
+
+TEST(RestPairs, ThatDoNotFitTheMeshAreCalledInvalid) {
+  const auto error_with = [](const RestPair& pair) {
+    StepScene scene;
+    scene.add(make_sheet(3, 2, 0.1, 0.1), Vec3::Zero());  // 6 vertices, 4 faces, 9 edges
+    scene.surfaces.rest_pairs = {{PairKind::kVf, 0, 3, 0.05}, pair};
+    const CollisionStepResult result = scene.step();
+    EXPECT_EQ(result.report.status == StepStatus::kSafe, result.report.input_error == InputError::kNone);
+    return result.report.input_error;
+  };
+  EXPECT_EQ(error_with({PairKind::kVf, 5, 0, 0}), InputError::kNone);
+  EXPECT_EQ(error_with({PairKind::kEe, 7, 8, 0.05}), InputError::kNone);
+  EXPECT_EQ(error_with({PairKind::kVf, 0, 3, 0.06}), InputError::kNone) << "named twice";
+  EXPECT_EQ(error_with({PairKind::kVf, 6, 0, 0.05}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({PairKind::kVf, 5, 4, 0.05}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({PairKind::kVf, -1, 0, 0.05}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({PairKind::kVf, 0, -1, 0.05}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({PairKind::kEe, 0, 9, 0.05}), InputError::kBadSurfaces);
+  EXPECT_EQ(error_with({PairKind::kEe, 8, 7, 0.05}), InputError::kBadSurfaces) << "the lower number is first";
+  EXPECT_EQ(error_with({PairKind::kSelf, 0, 0, 0.05}), InputError::kBadSurfaces);
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {-1e-9, inf, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(error_with({PairKind::kVf, 0, 3, bad}), InputError::kBadOption);
+  }
+}
+
+TEST(RestPairs, AreAsThickAsTheyAreFarApartAtRestAndOthersAsTheirSurfaces) {
+  StepScene scene = random_stack(1);
+  const Mesh mesh = scene.mesh();
+  const ContactTable without(mesh, scene.options, scene.surfaces);
+  EXPECT_FALSE(without.is_uniform());
+  EXPECT_TRUE(ContactTable(mesh, scene.options, {}).is_uniform());
+  const auto count_of_faces = std::ssize(mesh.faces), count_of_edges = std::ssize(mesh.edges);
+  const auto near = [&](std::int32_t first, std::int32_t second) { return (first * 7 + second) % 5 == 0; };
+  const auto distance_m = [](std::int32_t first, std::int32_t second) { return 1e-4 * (1 + (first + second) % 40); };
+  for (VertexId v = 0; v < mesh.vertex_count; ++v) {
+    for (FaceId f = 0; f < count_of_faces; ++f) {
+      if (near(v, f)) scene.surfaces.rest_pairs.push_back({PairKind::kVf, v, f, distance_m(v, f)});
+    }
+  }
+  for (EdgeId a = 0; a < count_of_edges; ++a) {
+    for (EdgeId b = a + 1; b < count_of_edges; ++b) {
+      if (near(a, b)) scene.surfaces.rest_pairs.push_back({PairKind::kEe, a, b, distance_m(a, b)});
+    }
+  }
+  std::ranges::shuffle(scene.surfaces.rest_pairs, std::mt19937(7));
+  const ContactTable with(mesh, scene.options, scene.surfaces);
+  EXPECT_EQ(with.thickness_upper(), without.thickness_upper());
+  const auto check = [&](PairKind kind, std::int32_t first, std::int32_t second) {
+    ContactProperties expected = without.of(kind, first, second);
+    if (near(first, second)) expected.thickness_m = std::min(expected.thickness_m, distance_m(first, second));
+    ASSERT_EQ(with.of(kind, first, second), expected);
+  };
+  for (VertexId v = 0; v < mesh.vertex_count; ++v) {
+    for (FaceId f = 0; f < count_of_faces; ++f) check(PairKind::kVf, v, f);
+  }
+  for (EdgeId a = 0; a < count_of_edges; ++a) {
+    for (EdgeId b = a + 1; b < count_of_edges; ++b) check(PairKind::kEe, a, b);
+  }
+  const FaceId own_face = mesh.vertex_owner[0];
+  EXPECT_EQ(with.of(PairKind::kSelf, 0, own_face), without.of(PairKind::kSelf, 0, own_face));
+}
+
+TEST(RestPairs, KeepASheetThatIsThickerThanItsEdgesAsItIs) {
+  StepScene scene;
+  scene.add(make_sheet(5, 5, 0.04, 0.04), Vec3::Zero());
+  scene.options.thickness_m = 0.025;
+  scene.options.repulsion_stiffness_n_m = 1e3;
+  const auto moves_by = [&] { return (scene.step().x - scene.V_t0).cwiseAbs().maxCoeff(); };
+  EXPECT_GT(moves_by(), 1e-3) << "inflates by a tenth of the overlap a step";
+  scene.surfaces.rest_pairs = find_rest_pairs(scene.mesh(), scene.V_t0, scene.options.thickness_m);
+  EXPECT_EQ(moves_by(), 0);
+
+  // Pressed together, it is held at the distances at rest; another sheet is at the whole thickness.
+  scene.V_candidate.col(0) *= 0.9;
+  EXPECT_GT((scene.step().x - scene.V_candidate).cwiseAbs().maxCoeff(), 1e-3);
+  const StepScene::Part upper = scene.add(make_sheet(2, 2, 0.01, 0.01), Vec3(0.002, 0.001, 0.026));
+  scene.push(upper, Vec3(0, 0, -0.004));
+  std::fill_n(scene.inverse_mass.begin(), 25, 0.0);
+  EXPECT_NEAR(scene.step().x.bottomRows(4).col(2).mean(), 0.025, 5e-4);
 }
 
 }  // namespace selvage::sim::testing
