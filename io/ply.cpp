@@ -161,6 +161,10 @@ PlyLayout find_layout(const LineReader& lines, const PlyHeader& header) {
     }
     layout.axes[axis] = *property;
   }
+  if (layout.face->find({"vertex_indices"}) && layout.face->find({"vertex_index"})) {
+    lines.fail_at(layout.face->line,
+                  "the faces have both \"vertex_indices\" and \"vertex_index\"; remove one of the two lists");
+  }
   const std::optional<std::size_t> list = layout.face->find({"vertex_indices", "vertex_index"});
   if (!list || !layout.face->properties[*list].list_count || !is_integer(layout.face->properties[*list].type)) {
     lines.fail_at(layout.face->line, "the faces have no list of integers \"vertex_indices\"; add it");

@@ -199,6 +199,8 @@ TEST(Ply, MalformedHeadersAreNamedByLine) {
   expect_bad("a second element 'vertex'", with(kTriangleElements + "element vertex 0\nproperty int x\n"));
   expect_bad("no element \"face\"", with("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"));
   expect_bad("no numbers x, y, z", with("element vertex 1\nproperty float x\nelement face 1\nproperty float y\n"));
+  expect_bad("a.ply:8: the faces have both \"vertex_indices\" and \"vertex_index\"; remove one of the two lists",
+             with(kTriangleElements + "property list uchar int vertex_index\n"));
   expect_bad("'tristrips' is not supported",
              with(kTriangleElements + "element tristrips 1\nproperty list int int vertex_indices\n"));
   expect_bad("a.ply:2: the format is not version 1.0", "ply\nformat ascii 2.0\nend_header\n");
