@@ -32,6 +32,10 @@ std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argume
   if (const std::string remark = sequence->remark(); !remark.empty()) {
     fmt::print(stderr, "selvage: note: {}\n", remark);
   }
+  if (sequence->frame_count() == 0) {
+    throw io::Error(io::ErrorKind::kBadInput,
+                    argument.sources.front().string() + ": the sequence holds no frame; record one or name another");
+  }
   return sequence;
 }
 

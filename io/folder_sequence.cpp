@@ -30,6 +30,7 @@ class FolderSequence final : public SequenceReader {
     description_ = parse_sequence_json(read_file(header_file), header_file.string());
     const std::filesystem::path faces_file = folder_ / description_.faces_file;
     triangles_ = parse_npy_triangles(read_checked(faces_file, description_.faces_crc32), faces_file.string());
+    check_is_surface(triangles_, faces_file.string());
     check_groups(description_.groups, triangles_.size(), header_file.string());
     const std::filesystem::path frames_file = folder_ / kFramesFile;
     const std::string list = read_file(frames_file);

@@ -34,6 +34,13 @@ std::int64_t load_integer(const NpyHeader& header, const char* item) {
   }
 }
 
+/// As the file holds it.
+std::string integer_text(const NpyHeader& header, const char* item) {
+  const bool may_be_larger = header.kind == NpyKind::kUnsigned && header.item_size == 8;
+  return may_be_larger ? std::to_string(load<std::uint64_t>(item, header.order))
+                       : std::to_string(load_integer(header, item));
+}
+
 std::string shape_text(const NpyHeader& header) {
   std::string text;
   for (const std::uint64_t extent : header.shape) text += (text.empty() ? "" : " by ") + std::to_string(extent);
@@ -97,9 +104,10 @@ Triangles parse_npy_triangles(std::string_view bytes, const std::string& name) {
   for (std::size_t row = 0; row < triangles.size(); ++row) {
     auto& corners = triangles[row];
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::int64_t index = load_integer(header, item_at(header, data, row, corner));
+      const char* item = item_at(header, data, row, corner);
+      const std::int64_t index = load_integer(header, item);
       if (index < 0 || index > static_cast<std::int64_t>(kMostElements)) {
-        bad_input(name, "face " + std::to_string(row) + " names vertex " + std::to_string(index) + "; correct it");
+        bad_input(name, "face " + std::to_string(row) + " names vertex " + integer_text(header, item) + "; correct it");
       }
       corners[corner] = static_cast<std::int32_t>(index);
     }

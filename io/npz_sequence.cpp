@@ -44,6 +44,7 @@ class NpzSequence final : public SequenceReader {
     const ZipArchive archive(std::move(source), name_);
     open_positions(archive);
     triangles_ = parse_npy_triangles(whole(*archive.open("F.npy")), member_name("F"));
+    check_is_surface(triangles_, member_name("F"));
     check_indices(triangles_, vertex_count_, member_name("F"));
     if (!archive.contains("group.npy")) return;
     const std::vector<std::int64_t> numbers =

@@ -43,6 +43,10 @@ std::vector<std::filesystem::path> sequence_files(const std::vector<std::filesys
   return files;
 }
 
+void check_is_surface(const Triangles& triangles, const std::string& name) {
+  if (triangles.empty()) bad_input(name, "no face; write the array of the surface's corners, #F by 3");
+}
+
 void check_indices(const Triangles& triangles, std::size_t vertex_count, const std::string& name) {
   for (std::size_t face = 0; face < triangles.size(); ++face) {
     for (const std::int32_t vertex : triangles[face]) {

@@ -28,6 +28,8 @@ namespace selvage::io {
 /// Mesh files, one a frame. All are read once here: a damaged frame is found before work starts on the first.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_mesh_files(std::vector<std::filesystem::path> files);
 
+/// Throws Error if there is no triangle.
+void check_is_surface(const Triangles& triangles, const std::string& name);
 /// Throws Error if a triangle names a vertex that is not there.
 void check_indices(const Triangles& triangles, std::size_t vertex_count, const std::string& name);
 /// Throws Error unless the groups lie within the faces.

@@ -105,4 +105,21 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+std::string printable(std::string_view text, std::size_t most_bytes) {
+  std::string result;
+  while (!text.empty()) {
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0x80 ? 2 : 1;
+    std::string_view character = text.substr(0, length);
+    const bool is_control = lead < 0x20 || lead == 0x7f ||
+                            (lead == 0xc2 && character.size() == 2 && static_cast<unsigned char>(character[1]) < 0xa0);
+    const bool is_whole = is_utf8(character);
+    text.remove_prefix(is_whole ? character.size() : 1);
+    if (!is_whole || is_control) character = "?";
+    if (result.size() + character.size() > most_bytes) break;
+    result += character;
+  }
+  return result;
+}
+
 }  // namespace selvage::io

@@ -12,12 +12,16 @@ namespace selvage::io {
 /// Longest line any text format may hold: a polygon of some 100,000 corners.
 inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
-/// Walks through `bytes` line by line; LF and CRLF end a line, the last may have no end.
+/// Walks through `bytes` line by line; LF and CRLF end a line, the last may have no end. A byte order mark at the start
+/// of the text is no part of it.
 class LineReader {
  public:
   /// `bytes` must outlive the reader. `name` appears in errors.
   LineReader(std::string_view bytes, std::string_view name, std::size_t first_line = 1)
-      : rest_(bytes), name_(name), next_line_(first_line) {}
+      : rest_(bytes), name_(name), next_line_(first_line) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  }
 
   /// The next line without its end; nothing behind the last. Throws Error above kLongestLine.
   std::optional<std::string_view> next();
@@ -52,5 +56,8 @@ NumberFault parse_number(std::string_view token, float& value);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view token);
 
 [[nodiscard]] bool is_utf8(std::string_view text);
+/// Foreign text for a terminal or a report: control characters and bytes that are no UTF-8 become '?'; cut in front of
+/// the character that does not fit into `most_bytes`.
+[[nodiscard]] std::string printable(std::string_view text, std::size_t most_bytes = std::string_view::npos);
 
 }  // namespace selvage::io

@@ -45,6 +45,21 @@ TEST(SequenceArgument, PointCacheIsVerifiedWithTheMeshBesideIt) {
   EXPECT_EQ(run_program(folder, {"verify", "--motion", file}).exit_code, 1);
 }
 
+TEST(SequenceArgument, ASequenceWithoutFramesIsNamed) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", sequence = folder.path() / "run";
+  spit(mesh, kTwoFaces);
+  ASSERT_EQ(run_program(folder, {"convert", mesh, "-o", sequence}).exit_code, 0);
+  spit(sequence / "frames.jsonl", "");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"verify", sequence}, {"render", sequence, "-o", folder.path() / "a.png"}}) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find(sequence.string() + ": the sequence holds no frame; record one"), std::string::npos)
+        << result.err;
+  }
+}
+
 TEST(SequenceArgument, BaseMeshIsNamedOrMissed) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "cloth.pc2", mesh = folder.path() / "mesh.obj";

@@ -36,6 +36,12 @@ TEST(Obj, CornersInAllForms) {
             expected);
 }
 
+TEST(Obj, AByteOrderMarkIsNoPartOfTheText) {
+  const Triangles expected = {{0, 1, 2}};
+  EXPECT_EQ(faces_of("\xef\xbb\xbf" + kSquare + "f 1 2 3\n"), expected);
+  expect_bad("a.obj:2: '???v' is not part", "v 0 0 0\n\xef\xbb\xbf" + kSquare + "f 1 2 3\n");
+}
+
 TEST(Obj, BackslashContinuesNumbersOnly) {
   const Triangles expected = {{0, 1, 2}, {0, 2, 3}};
   EXPECT_EQ(faces_of("v 0 0\\\n 0\nv 1 0 \\\r\n0\nv 1 1 0\nv 0 1 0\nf 1 \\\n2 \\\n3 4\n"), expected);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "io/atomic_file.h"
+#include "io/npy.h"
+#include "io/sequence_json.h"
 #include "tests/io/support.h"
 
 namespace selvage::io {
@@ -213,6 +215,18 @@ TEST(MeshFiles, ChangedFacesAreReported) {
   expect_error(ErrorKind::kBadInput, "d.obj: no face", [&] {
     (void)open_sequence({folder / "a.obj", folder / "d.obj"});
   });
+}
+
+TEST(SequenceFolder, FacesThatAreNoneAreNamedWithTheirFile) {
+  const TemporaryFolder folder;
+  SequenceDescription description;
+  description.faces_file = "faces.npy";
+  write_plainly(folder / "sequence.json", to_json(description));
+  write_plainly(folder / "faces.npy", npy_bytes(Triangles{}));
+  write_plainly(folder / "frames.jsonl", "{\"file\":\"a.npy\"}\n");
+  write_plainly(folder / "a.npy", npy_bytes(Points{{0, 0, 0}}, Precision::kFloat64, "a"));
+  expect_error(ErrorKind::kBadInput, "faces.npy: no face; write the array of the surface's corners, #F by 3",
+               [&] { (void)open_sequence({folder.path()}); });
 }
 
 TEST(OpenSequence, WrongSourcesAreNamed) {
