@@ -25,12 +25,38 @@ constexpr double kSaveEvery_s = 1;
 /// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is a
 /// property that hung so often, because a hang costs many seconds.
 constexpr int kMaxCrashes = 5, kMaxHangs = 3;
+/// Failure of code that wrote to the pipe of the worker that runs it.
+constexpr const char* kBrokeChannel = "broke-the-channel";
+
+/// The case in hand; of a unit that is done, its last.
+struct Place {
+  std::size_t stream = 0;
+  std::int64_t number = 0;
+};
+Place place_of(const Job& job, const Progress& progress, const std::vector<Stream>& streams) {
+  if (job.kind == Job::Kind::kKeep) return {static_cast<std::size_t>(job.stream), job.number};
+  const auto last = static_cast<std::int32_t>(streams.size()) - 1;
+  const auto stream = static_cast<std::size_t>(std::clamp(progress.stream, 0, last));
+  const std::int64_t per_unit = streams[stream].per_unit;
+  const std::int64_t within = progress.stream > last ? per_unit - 1 : progress.number;
+  return {stream, job.number * per_unit + within};
+}
+
+/// Whether a worker with this job says so: the code under test can write to its pipe as well.
+bool is_sound(const Event& event, const Job& job, const Progress& progress, const std::vector<Stream>& streams) {
+  const bool is_unit = job.kind == Job::Kind::kUnit;
+  const auto count = static_cast<std::int32_t>(streams.size());
+  if (event.kind == Event::Kind::kDone) return event.seconds >= 0 && (!is_unit || progress.stream == count);
+  if (event.kind != Event::Kind::kFailure || !is_unit || event.stream < 0 || event.stream >= count) return false;
+  const std::int64_t per_unit = streams[static_cast<std::size_t>(event.stream)].per_unit;
+  return event.number / per_unit == job.number && event.failure[0] != '\0';
+}
 
 }  // namespace
 
 struct Driver::Team {
-  explicit Team(const WorkerSetting& setting) : worker(setting) {}
-  WorkerProcess worker;
+  explicit Team(const WorkerSetting& setting) : worker(std::in_place, setting) {}
+  std::optional<WorkerProcess> worker;  // always there
   std::vector<Event> failures;
 };
 
@@ -107,15 +133,15 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
     std::vector<pollfd> waits;
     std::vector<Team*> busy;
     for (const auto& team : teams_) {
-      if (!team->worker.job() && !assign(*team, stopping)) continue;
-      waits.push_back({team->worker.events(), POLLIN, 0});
+      if (!team->worker->job() && !assign(*team, stopping)) continue;
+      waits.push_back({team->worker->events(), POLLIN, 0});
       busy.push_back(team.get());
     }
     if (busy.empty()) break;
     if (poll(waits.data(), waits.size(), kTick_ms) < 0 && errno != EINTR) throw std::runtime_error("poll failed");
     for (std::size_t i = 0; i < busy.size(); ++i) {
-      if (waits[i].revents != 0) hear(*busy[i]);
-      busy[i]->worker.watch(options_.case_seconds);
+      if (waits[i].revents != 0) hear(*busy[i], (waits[i].revents & POLLHUP) != 0);
+      busy[i]->worker->watch(options_.case_seconds);
     }
     watch(status_);
     if (is_dirty_ && std::chrono::duration<double>(Clock::now() - last_save).count() >= kSaveEvery_s) {
@@ -132,7 +158,7 @@ bool Driver::assign(Team& team, bool stopping) {
   const std::optional<Job> job = next_job(stopping);
   if (!job) return false;
   team.failures.clear();
-  team.worker.give(*job, shares_[static_cast<std::size_t>(job->property)].is_skipped);
+  team.worker->give(*job, shares_[static_cast<std::size_t>(job->property)].is_skipped);
   return true;
 }
 
@@ -147,7 +173,8 @@ std::optional<Job> Driver::next_job(bool stopping) {
       job.stream = static_cast<std::int32_t>(std::ranges::find(streams, key.first) - streams.begin());
       job.number = finding.number;
       key.second.copy(job.failure, kFailureWord - 1);
-      const bool survives = !key.second.starts_with("crashed") && key.second != "hung" && key.second != "exited";
+      const bool survives = !key.second.starts_with("crashed") && key.second != "hung" && key.second != "exited" &&
+                            key.second != kBrokeChannel;
       job.shrunk = survives && key.second != "threw" ? 1 : 0;
       shares_[p].being_kept.insert(key);
       return job;
@@ -176,10 +203,14 @@ std::optional<Job> Driver::next_job(bool stopping) {
   return job;
 }
 
-void Driver::hear(Team& team) {
-  const std::optional<Event> event = team.worker.receive_event();
-  if (!event) {
+void Driver::hear(Team& team, bool has_hung_up) {
+  const std::optional<Event> event = team.worker->receive_event();
+  const Job job = *team.worker->job();
+  const std::vector<Stream>& streams = properties_[static_cast<std::size_t>(job.property)]->streams();
+  if (!event && has_hung_up) {
     take_death(team);
+  } else if (!event || !is_sound(*event, job, team.worker->progress(), streams)) {  // a part of one is none either
+    take_broken_channel(team);
   } else if (event->kind == Event::Kind::kFailure) {
     team.failures.push_back(*event);
   } else {
@@ -188,8 +219,8 @@ void Driver::hear(Team& team) {
 }
 
 void Driver::take_done(Team& team, const Event& done) {
-  const Job job = *team.worker.job();
-  team.worker.finish();
+  const Job job = *team.worker->job();
+  team.worker->finish();
   status_.processor_seconds += done.seconds;
   is_dirty_ = true;
   const auto p = static_cast<std::size_t>(job.property);
@@ -209,8 +240,8 @@ void Driver::take_done(Team& team, const Event& done) {
   share.in_hand.erase(job.number);
   property.units.insert(job.number);
   for (std::size_t i = 0; i < property.rows.size(); ++i) {
-    property.rows[i] += team.worker.progress().rows[i];
-    status_.cases += team.worker.progress().rows[i].cases;
+    property.rows[i] += team.worker->progress().rows[i];
+    status_.cases += team.worker->progress().rows[i].cases;
   }
   for (const Event& failure : team.failures) {
     const auto stream = static_cast<std::size_t>(failure.stream);
@@ -222,16 +253,16 @@ void Driver::take_done(Team& team, const Event& done) {
 }
 
 void Driver::take_death(Team& team) {
-  const Death death = team.worker.bury();
-  SELVAGE_ASSERT(team.worker.job().has_value());
-  const Job job = *team.worker.job();
+  const Death death = team.worker->bury();
+  SELVAGE_ASSERT(team.worker->job().has_value());
+  const Job job = *team.worker->job();
   if (death.at_start) throw std::runtime_error("a worker " + death.failure + " before it could run a case");
   const auto p = static_cast<std::size_t>(job.property);
   Share& share = shares_[p];
   if (job.kind == Job::Kind::kKeep) {
     if (death.failure == "exited") throw std::runtime_error("a worker could not keep a case");
     // Shrinking ran into a case that kills: what was written first stays.
-    team.worker.revive();
+    team.worker->revive();
     PropertyLedger& property = ledger_.properties[p];
     const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
     property.findings.at({stream.name, job.failure}).file = kept_name(*properties_[p], stream, job.failure);
@@ -239,12 +270,12 @@ void Driver::take_death(Team& team) {
     is_dirty_ = true;
     return;
   }
-  Progress& progress = team.worker.progress();
-  const auto stream = static_cast<std::size_t>(progress.stream);
+  Progress& progress = team.worker->progress();
+  const auto [stream, number] = place_of(job, progress, properties_[p]->streams());
   Event failure;
   failure.kind = Event::Kind::kFailure;
-  failure.stream = progress.stream;
-  failure.number = job.number * properties_[p]->streams()[stream].per_unit + progress.number;
+  failure.stream = static_cast<std::int32_t>(stream);
+  failure.number = number;
   death.failure.copy(failure.failure, kFailureWord - 1);
   team.failures.push_back(failure);
   progress.rows[stream] += {1, 1, {}, 0};
@@ -255,7 +286,28 @@ void Driver::take_death(Team& team) {
     share.is_skipped[stream] = true;
   }
   for (std::size_t i = 0; i < share.is_skipped.size(); ++i) progress.is_skipped[i] = share.is_skipped[i];
-  team.worker.revive();
+  team.worker->revive();
+}
+
+/// Nothing that comes out of the pipe is believed any more: the unit in hand is not done, and nothing more of the
+/// property is run.
+void Driver::take_broken_channel(Team& team) {
+  const Job job = *team.worker->job();
+  const auto p = static_cast<std::size_t>(job.property);
+  PropertyLedger& property = ledger_.properties[p];
+  Share& share = shares_[p];
+  const auto [stream, number] = place_of(job, team.worker->progress(), properties_[p]->streams());
+  if (job.kind == Job::Kind::kKeep) {  // as above: what was written first stays
+    property.findings.at({property.streams[stream], job.failure}).file =
+        kept_name(*properties_[p], properties_[p]->streams()[stream], job.failure);
+    share.being_kept.erase({property.streams[stream], job.failure});
+  }
+  auto [place, is_new] =
+      property.findings.try_emplace({property.streams[stream], kBrokeChannel}, Finding{0, number, {}});
+  ++place->second.count;
+  share.is_skipped.assign(share.is_skipped.size(), true);
+  is_dirty_ = true;
+  team.worker.emplace(setting_);
 }
 
 void Driver::save() {

@@ -50,9 +50,10 @@ class Driver {
 
   bool assign(Team& team, bool stopping);
   [[nodiscard]] std::optional<Job> next_job(bool stopping);
-  void hear(Team& team);
+  void hear(Team& team, bool has_hung_up);
   void take_done(Team& team, const Event& done);
   void take_death(Team& team);
+  void take_broken_channel(Team& team);
   void save();
   void append_stats() const;
 

@@ -1,9 +1,12 @@
 #include "fuzz/plugin.h"
 
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <tuple>
+#include <utility>
 
 #include <dlfcn.h>
 #include <sys/resource.h>
@@ -12,6 +15,7 @@
 
 #include "fuzz/wire.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "kernel/fp_env.h"
 
 namespace selvage::fuzz {
@@ -69,6 +73,35 @@ selvage_query plain(const MotionQuery& query) {
 
 bool is_same(const selvage_query& a, const selvage_query& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
+/// Whether the parts that say something have the same bits.
+bool is_same(const selvage_answer& a, const selvage_answer& b, bool has_toi) {
+  const bool has_time = has_toi && a.verdict == SELVAGE_COLLIDES;
+  return a.verdict == b.verdict &&
+         (!has_time || std::bit_cast<std::uint64_t>(a.toi) == std::bit_cast<std::uint64_t>(b.toi));
+}
+
+/// What a query is put into a batch with: queries with other answers, made of nothing but the query, so that a case
+/// replays and shrinks. Five, because that shares no factor with the lanes of any vector unit: a kernel that answers
+/// one vector with another one's answers, or a lane with its neighbour's, meets different queries there.
+using Company = std::array<selvage_query, 5>;
+
+Company company_of(const selvage_query& query) {
+  Company company;
+  company.fill(query);
+  auto& [itself, reversed, still_at_t0, still_at_t1, turned] = company;
+  std::swap(reversed.x_t0, reversed.x_t1);
+  std::memcpy(still_at_t0.x_t1, query.x_t0, sizeof query.x_t0);
+  std::memcpy(still_at_t1.x_t0, query.x_t1, sizeof query.x_t1);
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::memcpy(turned.x_t0[i], query.x_t0[(i + 1) % 4], sizeof turned.x_t0[i]);
+    std::memcpy(turned.x_t1[i], query.x_t1[(i + 1) % 4], sizeof turned.x_t1[i]);
+  }
+  return company;
+}
+
+/// Two vectors of 8 or one of 16 and a tail of 5, five of 4 and a tail of 1; the last slot holds the query itself.
+constexpr std::size_t kBatch = 21;
+
 /// What nobody answers with: to be overwritten.
 constexpr selvage_answer kUnanswered{0x5a5a5a5a, -1};
 
@@ -99,7 +132,7 @@ Plugin::Plugin(const std::filesystem::path& library) {
   if (plugin_->answer == nullptr || plugin_->name == nullptr || !are_lengths) {
     refuse(library, "declares no answer function, no name, or a tolerance that is none");
   }
-  std::strncpy(info_.name, plugin_->name, sizeof info_.name - 1);
+  io::printable(plugin_->name, sizeof info_.name - 1).copy(info_.name, sizeof info_.name - 1);
   info_.tolerance = plugin_->tolerance;
   info_.relative_tolerance = plugin_->relative_tolerance;
   info_.has_toi = plugin_->has_toi != 0;
@@ -108,11 +141,17 @@ Plugin::Plugin(const std::filesystem::path& library) {
 
 Plugin::Answer Plugin::ask(const MotionQuery& query, bool in_batch) const {
   const FpEnvGuard guard;  // asked in a clean environment, whatever it left behind the last time
-  const selvage_query original = plain(query);
   const std::int32_t kind = query.kind == PairKind::kVf ? SELVAGE_VF : SELVAGE_EE;
+  const selvage_query original = plain(query);
+  Answer result = ask_alone(kind, original);
+  if (in_batch && info_.has_batch && result.misdeed.empty()) result.misdeed = ask_batch(kind, original, result.answer);
+  return result;
+}
+
+Plugin::Answer Plugin::ask_alone(std::int32_t kind, const selvage_query& query) const {
   Fenced<selvage_query, 1> asked;
   Fenced<selvage_answer, 1> given;
-  asked[0] = original;
+  asked[0] = query;
   given[0] = kUnanswered;
   Answer result;
   const auto start = std::chrono::steady_clock::now();
@@ -121,23 +160,30 @@ Plugin::Answer Plugin::ask(const MotionQuery& query, bool in_batch) const {
   result.answer = given[0];
   result.misdeed = fp_misdeed();
   if (result.misdeed.empty() && !(asked.is_whole() && given.is_whole())) result.misdeed = "wrote-out-of-bounds";
-  if (result.misdeed.empty() && !is_same(asked[0], original)) result.misdeed = "changed-the-query";
+  if (result.misdeed.empty() && !is_same(asked[0], query)) result.misdeed = "changed-the-query";
   if (result.misdeed.empty()) result.misdeed = judge_form(result.answer, info_.has_toi);
-  if (!in_batch || !info_.has_batch || !result.misdeed.empty()) return result;
+  return result;
+}
 
-  constexpr std::size_t kBatch = 3;
+std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, const selvage_answer& answer) const {
+  const Company company = company_of(query);
+  std::array<selvage_answer, std::tuple_size_v<Company>> alone{answer};
+  for (std::size_t i = 1; i < company.size(); ++i) {
+    const Answer one = ask_alone(kind, company[i]);
+    if (!one.misdeed.empty()) return one.misdeed;
+    alone[i] = one.answer;
+  }
   Fenced<selvage_query, kBatch> queries;
   Fenced<selvage_answer, kBatch> answers;
-  for (std::size_t i = 0; i < kBatch; ++i) queries[i] = original, answers[i] = kUnanswered;
+  for (std::size_t i = 0; i < kBatch; ++i) queries[i] = company[i % company.size()], answers[i] = kUnanswered;
   plugin_->answer_batch(kind, kBatch, queries.data(), answers.data());
-  result.misdeed = fp_misdeed();
-  if (result.misdeed.empty() && !(queries.is_whole() && answers.is_whole())) result.misdeed = "wrote-out-of-bounds";
-  for (std::size_t i = 0; i < kBatch && result.misdeed.empty(); ++i) {
-    const bool same_time =
-        !info_.has_toi || result.answer.verdict == SELVAGE_SEPARATED || answers[i].toi == result.answer.toi;
-    if (answers[i].verdict != result.answer.verdict || !same_time) result.misdeed = "batch-differs";
+  if (std::string misdeed = fp_misdeed(); !misdeed.empty()) return misdeed;
+  if (!(queries.is_whole() && answers.is_whole())) return "wrote-out-of-bounds";
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    if (!is_same(queries[i], company[i % company.size()])) return "changed-the-query";
+    if (!is_same(answers[i], alone[i % company.size()], info_.has_toi)) return "batch-differs";
   }
-  return result;
+  return "";
 }
 
 PluginInfo probe_plugin(const std::filesystem::path& library) {

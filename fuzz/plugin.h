@@ -11,7 +11,7 @@ namespace selvage::fuzz {
 
 /// What a plugin says about itself.
 struct PluginInfo {
-  char name[64] = {};
+  char name[64] = {};  ///< UTF-8 that a terminal shows, cut behind a whole character
   double tolerance = 0, relative_tolerance = 0;
   bool has_toi = false, has_batch = false;
 };
@@ -33,12 +33,17 @@ class Plugin {
     selvage_answer answer{};
     std::int64_t nanoseconds = 0;
   };
-  /// REQUIRES vf or ee. Asks the batch as well where `in_batch`.
+  /// REQUIRES vf or ee. Where `in_batch`, asks it in one batch with queries made of it as well, each first alone.
   [[nodiscard]] Answer ask(const MotionQuery& query, bool in_batch) const;
   /// What loading did to the floating-point environment: a misdeed, or nothing.
   [[nodiscard]] const std::string& load_misdeed() const { return load_misdeed_; }
 
  private:
+  [[nodiscard]] Answer ask_alone(std::int32_t kind, const selvage_query& query) const;
+  /// A misdeed, or nothing. `answer` is what it gave to the query alone.
+  [[nodiscard]] std::string ask_batch(std::int32_t kind, const selvage_query& query,
+                                      const selvage_answer& answer) const;
+
   const selvage_plugin* plugin_ = nullptr;  // stays loaded until the process ends
   PluginInfo info_;
   std::string load_misdeed_;

@@ -1,6 +1,8 @@
-// A plugin that says "collides" to everything and does one thing that nobody may do, chosen by a macro.
+// A plugin that says "collides" wherever boxes meet and does one thing that nobody may do, chosen by a macro.
+#include <algorithm>
 #include <csignal>
 
+#include <unistd.h>
 #include <xmmintrin.h>
 
 #include "fuzz/selvage-plugin.h"
@@ -9,8 +11,31 @@ namespace {
 
 [[maybe_unused]] constexpr unsigned kFlushToZero = 0x8000, kRoundUp = 0x4000;  // MXCSR
 
-void answer(int32_t /*kind*/, [[maybe_unused]] const selvage_query* query, selvage_answer* answer) {
-  answer->verdict = SELVAGE_COLLIDES;
+#if defined(HAS_A_BAD_NAME)
+// A line break, the start of a command to the terminal, a byte that is no UTF-8; then a character across the 63rd byte.
+constexpr const char* kName = "a\n\x1b[31m \xff ........ ........ ........ ........ ........ .......\xc3\xa9 and so on";
+#else
+constexpr const char* kName = "bad";
+#endif
+
+/// Whether the boxes about the paths of the two features meet: the first feature are the points below `first_of_other`.
+bool boxes_meet(const selvage_query& query, int first_of_other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    double low[2], high[2];
+    for (int i = 0; i < 4; ++i) {
+      const bool is_first = i == 0 || i == first_of_other;
+      const int feature = i < first_of_other ? 0 : 1;
+      const auto [least, most] = std::minmax(query.x_t0[i][axis], query.x_t1[i][axis]);
+      low[feature] = is_first ? least : std::min(low[feature], least);
+      high[feature] = is_first ? most : std::max(high[feature], most);
+    }
+    if (low[0] > high[1] || low[1] > high[0]) return false;
+  }
+  return true;
+}
+
+void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
+  answer->verdict = boxes_meet(*query, kind == SELVAGE_VF ? 1 : 2) ? SELVAGE_COLLIDES : SELVAGE_SEPARATED;
 #if defined(HANGS)
   volatile bool goes_on = true;
   while (goes_on) {
@@ -25,12 +50,33 @@ void answer(int32_t /*kind*/, [[maybe_unused]] const selvage_query* query, selva
   _mm_setcsr(_mm_getcsr() | kRoundUp);
 #elif defined(SETS_FTZ)
   _mm_setcsr(_mm_getcsr() | kFlushToZero);
+#elif defined(WRITES_TO_FILES)
+  for (int file = 3; file < 64; ++file) [[maybe_unused]] const auto ignored = write(file, "{}\n", 3);
+#elif defined(CLOSES_FILES)
+  for (int file = 0; file < 64; ++file) close(file);
 #endif
+}
+
+void answer_batch(int32_t kind, size_t count, const selvage_query* queries, selvage_answer* answers) {
+  for (size_t i = 0; i < count; ++i) {
+#if defined(ANSWERS_ALL_LIKE_THE_FIRST)
+    answer(kind, queries, answers + i);
+#else
+    answer(kind, queries + i, answers + i);
+#endif
+#if defined(FORGETS_LATER_LANES)
+    if (i >= 3) answers[i].verdict = SELVAGE_SEPARATED;
+#elif defined(FORGETS_THE_LAST)
+    if (i + 1 == count) answers[i].verdict = SELVAGE_SEPARATED;
+#elif defined(REPEATS_A_VECTOR)
+    if (i >= 4) answers[i] = answers[i - 4];
+#endif
+  }
 }
 
 }  // namespace
 
 extern "C" const selvage_plugin* selvage_plugin_entry(void) {
-  static const selvage_plugin plugin = {SELVAGE_PLUGIN_VERSION, "bad", 0x1p+1000, 0, 0, answer, nullptr};
+  static const selvage_plugin plugin = {SELVAGE_PLUGIN_VERSION, kName, 0x1p+1000, 0, 0, answer, answer_batch};
   return &plugin;
 }

@@ -45,7 +45,13 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"writes_out_of_bounds", "wrote-out-of-bounds"},
                                                       {"gives_no_verdict", "invalid-verdict"},
                                                       {"changes_rounding", "changed-rounding-mode"},
-                                                      {"sets_ftz", "set-flush-to-zero"}};
+                                                      {"sets_ftz", "set-flush-to-zero"},
+                                                      {"answers_all_like_the_first", "batch-differs"},
+                                                      {"forgets_later_lanes", "batch-differs"},
+                                                      {"forgets_the_last", "batch-differs"},
+                                                      {"repeats_a_vector", "batch-differs"},
+                                                      {"writes_to_files", "broke-the-channel"},
+                                                      {"closes_files", "exited"}};
   for (const auto& [plugin, failure] : kBad) {
     const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
     EXPECT_EQ(failures_of(library), std::set<std::string>{failure}) << plugin;
@@ -114,6 +120,11 @@ TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
   const std::string html = slurp(artifacts / "conformance.html");
   EXPECT_EQ(between(html, "<h1 id=\"verdict\">", "<"), "selvage kernel: nothing found");
   EXPECT_EQ(html.find("<article>"), html.npos);
+}
+
+TEST(Plugin, ANameIsCutBetweenCharactersAndHasNothingButCharacters) {
+  EXPECT_STREQ(probe_plugin(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_has_a_bad_name.so").name,
+               "a??[31m ? ........ ........ ........ ........ ........ .......");
 }
 
 TEST(Plugin, WhatIsNoPluginIsRefused) {
