@@ -8,12 +8,14 @@
 
 #include "io/error.h"
 #include "io/fail.h"
+#include "io/text.h"
 
 namespace selvage::cli {
 namespace {
 
+/// What holds a file's own text, such as the name of a group, neither breaks the line nor commands the terminal.
 ExitCode failed(ExitCode code, const char* what) {
-  std::fprintf(stderr, "selvage: %s\n", what);
+  std::fprintf(stderr, "selvage: %s\n", io::printable(what).c_str());
   return code;
 }
 

@@ -65,6 +65,17 @@ TEST(Program, AnErrorNamesTheFileThatWasAskedFor) {
   }
 }
 
+TEST(Program, AnErrorNeitherBreaksTheLineNorCommandsTheTerminal) {
+  const testing::TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  testing::spit(mesh, "g a\x1b[31m\xc2\x9b b\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  const auto result = run_program(folder, {"verify", mesh, "--exempt", "nosuch,\x1b[7m\n"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("\xc2\x9b"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+}
+
 TEST(Program, AReportThatWasCutIsNamedInOneLine) {
   const testing::TemporaryFolder folder;
   const auto cut = folder.path() / "cut.json", ledger = folder.path() / "part" / "campaign.json";
