@@ -21,6 +21,7 @@ struct BenchQuery {
   std::array<Vec3, 4> x_t0, x_t1;
   std::array<verify::Point, 4> point_t0{}, point_t1{};
   std::optional<bool> truth;
+  std::size_t file = 0, line = 0;  ///< of its first row
   double tolerance = 0;
 };
 
@@ -64,8 +65,12 @@ constexpr std::array<Method, 3> kMethods{
 std::vector<BenchQuery> flatten(std::span<const QueryFile> files, double tolerance) {
   std::vector<BenchQuery> queries;
   for (const QueryFile& file : files) {
+    std::size_t line = 1;
     for (const io::CcdQuery& read : file.queries) {
       BenchQuery query;
+      query.file = static_cast<std::size_t>(&file - files.data());
+      query.line = line;
+      line += io::kRowsPerQuery;
       query.kind = file.kind;
       query.truth = read.truth;
       query.tolerance = tolerance;
@@ -168,6 +173,9 @@ QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBe
     truth.push_back(query.truth.value_or(exact.back().touches));
     report.truth_in_files += query.truth.has_value();
     report.positives += truth.back();
+    if (truth.back() != exact.back().touches) {
+      report.contradicted.push_back(report.files[query.file] + ":" + std::to_string(query.line));
+    }
   }
   report.queries = static_cast<std::int64_t>(queries.size());
   report.clock_ns = clock_cost();
@@ -207,6 +215,7 @@ std::string to_json(const QueryBenchReport& report) {
                                        {"queries", report.queries},
                                        {"positives", report.positives},
                                        {"truth_in_files", report.truth_in_files},
+                                       {"contradicted", report.contradicted},
                                        {"clock_ns", report.clock_ns},
                                        {"methods", methods}};
   return json.dump(2) + "\n";

@@ -45,9 +45,10 @@ struct MethodReport {
 struct QueryBenchReport {
   std::vector<std::string> files;
   std::int64_t queries = 0, positives = 0;
-  std::int64_t truth_in_files = 0;    ///< queries with a truth column; the exact checker speaks for the others
-  double clock_ns = 0;                ///< cost of reading the clock twice
-  std::vector<MethodReport> methods;  ///< kernel, textbook, exact
+  std::int64_t truth_in_files = 0;        ///< queries with a truth column; the exact checker speaks for the others
+  std::vector<std::string> contradicted;  ///< by the exact checker: FILE:LINE of queries with a wrong truth column
+  double clock_ns = 0;                    ///< cost of reading the clock twice
+  std::vector<MethodReport> methods;      ///< kernel, textbook, exact
 };
 
 /// One thread; every pass visits the queries in a new order that depends on the pass alone, after one untimed pass.

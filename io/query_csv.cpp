@@ -12,8 +12,6 @@
 namespace selvage::io {
 namespace {
 
-constexpr std::size_t kRowsPerQuery = 8;
-
 /// The columns of one line; at most 8, which is one too many.
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> columns;

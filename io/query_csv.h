@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "io/error.h"
 
 namespace selvage::io {
+
+inline constexpr std::size_t kRowsPerQuery = 8;  ///< a row a line, no others between them
 
 struct CcdQuery {
   /// Rows 0-3: the four points at t = 0; rows 4-7: at t = 1. vf: v, f0, f1, f2. ee: ea0, ea1, eb0, eb1.

@@ -30,4 +30,28 @@ TEST(BenchCommand, FramesOfTwoMeshesAreRefusedByTheirNames) {
   }
 }
 
+TEST(BenchCommand, TheTruthOfAFileThatTheExactCheckerContradictsIsNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "a_vf.csv";
+  // A point at rest above a triangle at rest, or on it.
+  const auto query = [](const char* height, const char* truth) {
+    std::string rows;
+    for (int end = 0; end < 2; ++end) {
+      for (const char* row : {"1,4,1,4,", "0,1,0,1,0,1,", "1,1,0,1,0,1,", "0,1,1,1,0,1,"}) {
+        rows += row + std::string(row[2] == '4' ? height : "") + truth + "\n";
+      }
+    }
+    return rows;
+  };
+  spit(file, query("1,1,", "0") + query("0,1,", "1"));
+  EXPECT_EQ(run_program(folder, {"bench", "queries", file, "--repeat", "1"}).exit_code, 0);
+  spit(file, query("1,1,", "0") + query("1,1,", "1") + query("0,1,", "0"));
+  const auto wrong = run_program(folder, {"bench", "queries", file, "--repeat", "1"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  for (const char* line : {":9: the truth is contradicted", ":17: the truth is contradicted"}) {
+    EXPECT_NE(wrong.err.find(file + line), std::string::npos) << wrong.err;
+  }
+  EXPECT_EQ(wrong.err.find(file + ":1:"), std::string::npos) << wrong.err;
+}
+
 }  // namespace selvage
