@@ -193,10 +193,8 @@ std::uint8_t to_byte(double linear) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(srgb, 0.0, 1.0)));
 }
 
-}  // namespace
-
-std::optional<io::Picture> render(const RenderSurface& surface, const View& view, const Stage& stage, int width,
-                                  int height, const std::function<bool()>& go_on) {
+std::optional<io::Picture> draw(const RenderSurface& surface, const View& view, const Stage& stage, int width,
+                                int height, const std::function<bool()>& go_on) {
   const int samples_wide = kSamples * width, samples_high = kSamples * height;
   const Camera camera(view, stage, samples_wide, samples_high);
   DepthBuffer buffer(surface, camera, samples_wide);
@@ -224,6 +222,15 @@ std::optional<io::Picture> render(const RenderSurface& surface, const View& view
     tbb::parallel_for(begin, end, draw_row);
   }
   return picture;
+}
+
+}  // namespace
+
+std::optional<io::Picture> render(const RenderSurface& surface, const View& view, const Stage& stage, int width,
+                                  int height, const std::function<bool()>& go_on) {
+  const int exponent = drawing_exponent(stage);
+  if (exponent == 0) return draw(surface, view, stage, width, height, go_on);
+  return draw(scaled(surface, exponent), view, scaled(stage, exponent), width, height, go_on);
 }
 
 }  // namespace selvage::cli

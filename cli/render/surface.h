@@ -39,4 +39,12 @@ struct Stage {
   void add_cloth(const RenderSurface& surface);
 };
 
+/// Drawing takes fourth powers of lengths, which leave the doubles long before lengths do. 0 where these can be drawn
+/// as they are; or else e, so that they can be once scaled by 2^e.
+[[nodiscard]] int drawing_exponent(const Stage& stage);
+/// By 2^exponent. What then lies farther away than can be drawn (bodies, for the stage is what fills the picture) is
+/// drawn at the end of what can be.
+[[nodiscard]] RenderSurface scaled(const RenderSurface& surface, int exponent);
+[[nodiscard]] Stage scaled(const Stage& stage, int exponent);
+
 }  // namespace selvage::cli

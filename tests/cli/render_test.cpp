@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 
@@ -92,6 +93,18 @@ TEST(Render, AFloorThatReachesBehindTheCameraIsDrawn) {
   const Rgb corner = pixel(picture, kWidth / 2, kHeight - 2), sky = pixel(picture, 2, 2);
   EXPECT_TRUE(grey(corner));
   EXPECT_NE(corner.r, sky.r) << "floor and not background";
+}
+
+TEST(Render, AnySizeThatDoublesHoldIsDrawnAlike) {
+  const auto squares = [](int exponent) {
+    io::MeshData mesh;
+    add_square(mesh, std::ldexp(2.0, exponent), 0, true);
+    add_square(mesh, std::ldexp(1.0, exponent), std::ldexp(0.25, exponent), false);
+    return draw(mesh).rgb;
+  };
+  const auto expected = squares(0);
+  for (const int exponent : {-1070, -1022, -300, 99, 512, 1022})
+    EXPECT_EQ(squares(exponent) == expected, true) << exponent;
 }
 
 TEST(Render, FacesWithoutAreaAndSinglePointsAreHarmless) {
