@@ -111,7 +111,7 @@ struct SequenceOptions {
   /// The frames to check, with the motions that lead to them, [first, second); nothing: all. Part of a sequence.
   std::optional<std::pair<std::size_t, std::size_t>> range = {};
   /// What an earlier call gave to `checkpoint`, with the same sequence and options: its frames are not checked again.
-  /// Throws io::Error where the sequence is another one.
+  /// They are read, and io::Error is thrown where one has other bits than then, or the sequence is another one.
   const SequenceReport* resume_from = nullptr;
   /// Called after every frame with the report so far.
   std::function<void(const SequenceReport&)> checkpoint = {};
@@ -133,6 +133,10 @@ struct SequenceReport {
   /// the verdict to the bits, and parts to each other.
   std::vector<std::uint32_t> frame_crc32;
   std::optional<std::uint32_t> crc32_before;
+  /// The same of their surfaces: faces, bodies, what is exempt, ignored and welded. Of the program's own making: only
+  /// equality means anything.
+  std::vector<std::uint32_t> surface_crc32;
+  std::optional<std::uint32_t> surface_crc32_before;
   PairCounts pairs;
   ViolationCounts violations_total;
   struct Violated {

@@ -19,8 +19,16 @@ std::vector<std::uint8_t> body_flags(const io::MeshData& mesh) {
 }
 
 template <class T>
-std::uint32_t crc32_of(const std::vector<T>& values) {
-  return io::crc32({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+std::uint32_t crc32_of(const std::vector<T>& values, std::uint32_t start = 0) {
+  return io::crc32({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}, start);
+}
+
+/// With its length: of lists one behind the other it is known where each ends.
+template <class T>
+std::uint32_t crc32_of_list(const std::vector<T>& values, std::uint32_t start) {
+  const auto length = static_cast<std::uint64_t>(values.size());
+  const std::uint32_t with_length = io::crc32({reinterpret_cast<const char*>(&length), sizeof length}, start);
+  return values.empty() ? with_length : crc32_of(values, with_length);  // of no bytes at no address zlib's is 0
 }
 
 std::string hex(std::uint32_t value) {
@@ -78,13 +86,28 @@ Frame FrameSource::read(std::size_t i) {
                      static_cast<std::int64_t>(mesh.points.size()) != topology_.vertex_count;
   if (surface_changed_) make_surface(mesh, std::move(is_body), std::move(resolved));
   const std::uint32_t crc32 = crc32_of(mesh.points);
-  return {name, std::move(mesh.points), crc32};
+  return {name, std::move(mesh.points), crc32, surface_crc32_};
+}
+
+std::uint32_t FrameSource::crc32_of_surface() const {
+  std::uint32_t crc32 = 0;
+  const auto append = [&crc32](const auto& values) { crc32 = crc32_of_list(values, crc32); };
+  append(triangles_);
+  append(is_body_);
+  append(representatives_);
+  append(resolved_.is_ignored);
+  for (const Exemption& exemption : resolved_.exemptions) {
+    append(exemption.a);
+    append(exemption.b);
+  }
+  return crc32;
 }
 
 void FrameSource::make_surface(const io::MeshData& mesh, std::vector<std::uint8_t> is_body, ResolvedRules resolved) {
   triangles_ = mesh.triangles;
   is_body_ = std::move(is_body);
   resolved_ = std::move(resolved);
+  surface_crc32_ = crc32_of_surface();
   collapsed_cloth_.clear();
   collapsed_bodies_.clear();
   if (representatives_.empty()) {

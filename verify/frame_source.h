@@ -17,6 +17,8 @@ struct Frame {
   std::string name;
   io::Points points;
   std::uint32_t crc32 = 0;  ///< of the positions as doubles
+  /// Of all else that its results depend on: faces, which belong to bodies, what the rules say of them, what is welded.
+  std::uint32_t surface_crc32 = 0;
 };
 
 class FrameSource {
@@ -41,6 +43,7 @@ class FrameSource {
 
  private:
   void weld_all();
+  [[nodiscard]] std::uint32_t crc32_of_surface() const;
   void make_surface(const io::MeshData& mesh, std::vector<std::uint8_t> is_body, ResolvedRules resolved);
 
   const io::SequenceReader& sequence_;
@@ -51,6 +54,7 @@ class FrameSource {
   std::vector<std::uint8_t> is_body_;
   ResolvedRules resolved_;
   Topology topology_;
+  std::uint32_t surface_crc32_ = 0;
   std::vector<std::int32_t> collapsed_cloth_, collapsed_bodies_;
   bool surface_changed_ = false;
 };

@@ -36,7 +36,8 @@ void require_neighbours(const Part& a, const Part& b) {
   }
   if (y.first_frame > x.end_frame) throw MergeError("no part holds " + frames(x.end_frame, y.first_frame));
   if (!is_complete(x) || y.frame_crc32.empty()) return;  // then the verdict is unknown anyway
-  if (!y.crc32_before || *y.crc32_before != x.frame_crc32.back()) {
+  const bool same_surface = x.surface_crc32.empty() || y.surface_crc32_before == x.surface_crc32.back();
+  if (y.crc32_before != x.frame_crc32.back() || !same_surface) {
     throw MergeError(a.name + " and " + b.name + ": frame " + std::to_string(x.end_frame - 1) +
                      " changed between the two runs");
   }
@@ -51,6 +52,7 @@ void add(SequenceReport& sum, const SequenceReport& part) {
   sum.motions_expected += part.motions_expected;
   sum.end_frame = part.end_frame;
   sum.frame_crc32.insert(sum.frame_crc32.end(), part.frame_crc32.begin(), part.frame_crc32.end());
+  sum.surface_crc32.insert(sum.surface_crc32.end(), part.surface_crc32.begin(), part.surface_crc32.end());
   sum.pairs += part.pairs;
   sum.violations_total += part.violations_total;
   sum.violated.insert(sum.violated.end(), part.violated.begin(), part.violated.end());

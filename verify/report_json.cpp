@@ -102,15 +102,23 @@ Json gap(const SequenceReport& report) {
           {"features", report.gap->features}};
 }
 
+Json hex_words(const std::vector<std::uint32_t>& words) {
+  Json json = Json::array();
+  for (const std::uint32_t word : words) json.push_back(hex_word(word));
+  return json;
+}
+
+Json hex_or_null(const std::optional<std::uint32_t>& word) { return word ? Json(hex_word(*word)) : Json(nullptr); }
+
 Json sequence(const SequenceReport& report) {
-  Json crc32 = Json::array();
-  for (const std::uint32_t word : report.frame_crc32) crc32.push_back(hex_word(word));
   return {{"identity", report.sequence},
           {"frames", report.frame_count},
           {"first_frame", report.first_frame},
           {"end_frame", report.end_frame},
-          {"crc32", crc32},
-          {"crc32_before", report.crc32_before ? Json(hex_word(*report.crc32_before)) : Json(nullptr)}};
+          {"crc32", hex_words(report.frame_crc32)},
+          {"crc32_before", hex_or_null(report.crc32_before)},
+          {"surface_crc32", hex_words(report.surface_crc32)},
+          {"surface_crc32_before", hex_or_null(report.surface_crc32_before)}};
 }
 
 }  // namespace

@@ -132,18 +132,34 @@ void require_frame(const SequenceReport& report, std::int64_t frame) {
   }
 }
 
+std::vector<std::uint32_t> words(const Json& json) {
+  std::vector<std::uint32_t> result;
+  for (const Json& entry : json) result.push_back(word(entry));
+  return result;
+}
+
+std::optional<std::uint32_t> word_or_nothing(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(word(json));
+}
+
 void parse_sequence(const Json& json, SequenceReport& report) {
   report.sequence = json.at("identity");
   report.frame_count = count(json.at("frames"));
   report.first_frame = count(json.at("first_frame"));
   report.end_frame = count(json.at("end_frame"));
-  for (const Json& entry : json.at("crc32")) report.frame_crc32.push_back(word(entry));
-  const Json& before = json.at("crc32_before");
-  if (!before.is_null()) report.crc32_before = word(before);
+  report.frame_crc32 = words(json.at("crc32"));
+  report.crc32_before = word_or_nothing(json.at("crc32_before"));
+  if (json.contains("surface_crc32")) {  // not in reports of earlier versions
+    report.surface_crc32 = words(json.at("surface_crc32"));
+    report.surface_crc32_before = word_or_nothing(json.at("surface_crc32_before"));
+  }
   const std::int64_t checked = std::ssize(report.frame_crc32);
   if (report.first_frame >= report.end_frame || report.end_frame > report.frame_count ||
       checked > report.end_frame - report.first_frame) {
     throw Fault{"the range of frames makes no sense"};
+  }
+  if (!report.surface_crc32.empty() && report.surface_crc32.size() != report.frame_crc32.size()) {
+    throw Fault{"there are not as many checksums of surfaces as of positions"};
   }
 }
 

@@ -28,14 +28,11 @@ class SequenceCheck {
       throw std::invalid_argument("check_sequence: no range of the sequence's frames");
     source_.emplace(sequence_, options_.rules, options_.weld);
     begin(first, end);
-    std::size_t next = first;
-    if (options_.resume_from != nullptr) next += resume(*options_.resume_from);
-    if (next > first) {
-      read_again(next - 1);
-    } else if (first > 0) {
-      read_before(first);
+    if (first > 0) read_before(first);
+    if (options_.resume_from == nullptr || resume(*options_.resume_from, first)) {
+      std::size_t next = first + report_.frame_crc32.size();
+      while (next < end && step(next)) ++next;
     }
-    while (next < end && step(next)) ++next;
     report_.verdict = verdict_of(report_);
     report_.seconds = seconds();
     return std::move(report_);
@@ -60,29 +57,45 @@ class SequenceCheck {
     if (options_.weld) report_.welded = {source_->welded_vertices(), 0};
   }
 
-  /// How many frames are done.
-  std::size_t resume(const SequenceReport& earlier) {
+  /// Takes over what an earlier run has found, once all of its frames are known to be the same: a result speaks of the
+  /// bits that were checked, not of whatever has the files' names now. False: stop.
+  bool resume(const SequenceReport& earlier, std::size_t first) {
     if (earlier.sequence != report_.sequence || earlier.first_frame != report_.first_frame ||
         earlier.end_frame != report_.end_frame) {
       throw io::Error(io::ErrorKind::kBadInput, "the run to be resumed was on another sequence; start anew");
     }
+    const std::size_t done = earlier.frame_crc32.size();
+    if (done > 0 && first > 0) require_same(previous_, earlier.crc32_before, earlier.surface_crc32_before);
+    for (std::size_t k = 0; k < done; ++k) {
+      if (!report_progress()) {
+        if (options_.checkpoint) options_.checkpoint(earlier);  // not compared to the end, but not lost
+        return false;
+      }
+      previous_ = read(first + k);
+      const bool has_surface = k < earlier.surface_crc32.size();
+      require_same(previous_, earlier.frame_crc32[k],
+                   has_surface ? std::optional(earlier.surface_crc32[k]) : std::nullopt);
+    }
     report_ = earlier;
     seconds_before_ = earlier.seconds;
     units_done_ = static_cast<std::size_t>(report_.frames.checked + report_.motions.checked);
-    return report_.frame_crc32.size();
+    return true;
+  }
+
+  static void require_same(const Frame& frame, std::optional<std::uint32_t> crc32,
+                           std::optional<std::uint32_t> surface_crc32) {
+    if (crc32 == frame.crc32 && surface_crc32 == frame.surface_crc32) return;
+    const std::string what = crc32 != frame.crc32 ? "positions" : "faces, groups or welded vertices";
+    throw io::Error(io::ErrorKind::kBadInput, frame.name + ": its " + what +
+                                                  " are not those that the run to be resumed has checked; start anew, "
+                                                  "without --resume");
   }
 
   /// The frame before the range: the first motion starts there.
   void read_before(std::size_t first) {
     previous_ = read(first - 1);
     report_.crc32_before = previous_.crc32;
-  }
-
-  /// The last frame that an earlier run has checked.
-  void read_again(std::size_t frame) {
-    previous_ = read(frame);
-    if (previous_.crc32 == report_.frame_crc32.back()) return;
-    throw io::Error(io::ErrorKind::kBadInput, previous_.name + ": changed since the run to be resumed; start anew");
+    report_.surface_crc32_before = previous_.surface_crc32;
   }
 
   /// Frame i, and the motion that leads to it. False: stop.
@@ -92,6 +105,7 @@ class SequenceCheck {
     if (options_.motions && i > 0 && !check_motion_to(i, frame)) return false;
     if (options_.frames) check_instant(i, frame);
     report_.frame_crc32.push_back(frame.crc32);
+    report_.surface_crc32.push_back(frame.surface_crc32);
     previous_ = std::move(frame);
     if (options_.checkpoint) {
       report_.seconds = seconds();

@@ -199,6 +199,28 @@ TEST(VerifyCommand, ALastLineWithoutItsEndIsNotCounted) {
   EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).err, "");
 }
 
+TEST(VerifyCommand, AFinishedReportIsOfTheBitsThatWereChecked) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"verify"};
+  for (const char* name : {"a.obj", "b.obj", "c.obj"}) {
+    spit(folder.path() / name, two_faces(1));
+    arguments.push_back(folder.path() / name);
+  }
+  const auto json = folder.path() / "report.json";
+  arguments.insert(arguments.end(), {"--json", json, "--resume"});
+  ASSERT_EQ(run_program(folder, arguments).exit_code, 0);
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 0) << "again, from the finished report";
+  spit(folder.path() / "b.obj", two_faces(0));
+  const auto resumed = run_program(folder, arguments);
+  EXPECT_EQ(resumed.exit_code, 3) << resumed.out;
+  EXPECT_EQ(resumed.out, "");
+  EXPECT_NE(resumed.err.find("b.obj: its positions are not those that the run to be resumed has checked"),
+            std::string::npos)
+      << resumed.err;
+  arguments.pop_back();
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 1) << "anew";
+}
+
 TEST(VerifyCommand, MissingAndUnwritableFilesAreFour) {
   const TemporaryFolder folder;
   const auto missing = run_program(folder, {"verify", folder.path() / "missing.obj"});

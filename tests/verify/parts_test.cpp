@@ -1,4 +1,6 @@
 // A long check in pieces: resumed, or split into parts that are joined. The result is that of one run, or an error.
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "tests/verify/frames.h"
@@ -112,9 +114,13 @@ TEST(Parts, ARunThatIsResumedReportsWhatOneRunWould) {
   for (const SequenceReport& note : notes) {
     const ParsedReport parsed = parse_report(json_report(note, kContext), "progress");
     std::int64_t units = 0;
+    const auto done_before = static_cast<std::size_t>(note.frames.checked + note.motions.checked);
     SequenceOptions resuming = options();
     resuming.resume_from = &parsed.report;
-    resuming.progress = [&](std::size_t, std::size_t) { return ++units > 0; };
+    resuming.progress = [&](std::size_t done, std::size_t) {
+      if (done >= done_before) ++units;  // before that frames are read and compared
+      return true;
+    };
     EXPECT_EQ(json(check_sequence(Frames(all), resuming)), whole);
     EXPECT_LE(units, 2 * static_cast<std::int64_t>(all.size() - note.frame_crc32.size()))
         << "what is done is not done again";
@@ -127,6 +133,77 @@ TEST(Parts, ARunThatIsResumedReportsWhatOneRunWould) {
   changed = all;
   changed.pop_back();
   EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "another sequence";
+}
+
+// It was only the last frame that was compared: a crossing put into another one was reported clean.
+TEST(Parts, NoFrameThatAReportSpeaksOfMayChange) {
+  const std::vector<io::MeshData> all = frames();
+  SequenceReport progress;
+  SequenceOptions wanted = options();
+  wanted.range = {1, 6};
+  wanted.checkpoint = [&](const SequenceReport& report) {
+    if (report.frame_crc32.size() <= 3) progress = report;
+  };
+  const SequenceReport finished = check_sequence(Frames(all), wanted);
+  for (const SequenceReport* earlier : {&std::as_const(progress), &finished}) {
+    SequenceOptions resuming = options();
+    resuming.range = {1, 6};
+    resuming.resume_from = earlier;
+    EXPECT_EQ(json(check_sequence(Frames(all), resuming)), json(finished));
+    for (std::size_t i = 0; i < all.size() - 1; ++i) {  // frame 0 is before the range, frame 6 behind it
+      const bool spoken_of = i <= earlier->frame_crc32.size();
+      if (!spoken_of || i == 0) continue;  // frame 0 is in the sequence's identity
+      std::vector<io::MeshData> changed = all;
+      changed[i].points[7][2] += 1;
+      EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "positions of frame " << i;
+      changed = all;
+      std::swap(changed[i].triangles[3], changed[i].triangles[30]);
+      EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "faces of frame " << i;
+      changed = all;
+      changed[i].groups[1].role = io::Group::Role::kBody;
+      EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "roles in frame " << i;
+      changed = all;
+      changed[i].groups[1].face_end -= 1;
+      EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "groups of frame " << i;
+    }
+    std::vector<io::MeshData> changed = all;
+    changed[0].groups[1].role = io::Group::Role::kBody;
+    EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "the frame before the range";
+  }
+}
+
+TEST(Parts, AStopWhileFramesAreComparedKeepsWhatWasDone) {
+  const std::vector<io::MeshData> all = frames();
+  const SequenceReport finished = check_sequence(Frames(all), options());
+  SequenceOptions stopping = options();
+  stopping.resume_from = &finished;
+  int calls = 0;
+  stopping.progress = [&](std::size_t, std::size_t) { return ++calls < 3; };
+  SequenceReport kept;
+  stopping.checkpoint = [&](const SequenceReport& report) { kept = report; };
+  const SequenceReport stopped = check_sequence(Frames(all), stopping);
+  EXPECT_EQ(stopped.verdict, Verdict::kUnknown);
+  EXPECT_EQ(stopped.frames.checked, 0) << "nothing that was not compared is reported";
+  EXPECT_EQ(json(kept), json(finished));
+}
+
+TEST(Parts, WeldingThatALaterFrameChangesIsAnotherSurface) {
+  std::vector<io::MeshData> all(4, sheet(3));
+  for (io::MeshData& mesh : all) testing::add_vertex(mesh, mesh.points[0]);
+  for (io::MeshData& mesh : all) mesh.triangles[0] = {16, mesh.triangles[0][1], mesh.triangles[0][2]};
+  SequenceOptions wanted;
+  wanted.weld = true;
+  SequenceReport progress;
+  wanted.checkpoint = [&](const SequenceReport& report) {
+    if (report.frame_crc32.size() <= 1) progress = report;
+  };
+  (void)check_sequence(Frames(all), wanted);
+  SequenceOptions resuming;
+  resuming.weld = true;
+  resuming.resume_from = &progress;
+  EXPECT_NO_THROW((void)check_sequence(Frames(all), resuming));
+  all[2].points[16][2] += 0.25;  // the seam opens: it was never to be welded
+  EXPECT_THROW((void)check_sequence(Frames(all), resuming), io::Error);
 }
 
 TEST(Parts, AllPartsMakeTheWhole) {
