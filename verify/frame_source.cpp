@@ -9,6 +9,22 @@
 namespace selvage::verify {
 namespace {
 
+/// A face of a body and of the cloth could be checked as either, and is owed less as a body's: the user has to say
+/// which.
+void require_one_role(const io::MeshData& mesh, const std::string& name) {
+  for (const io::Group& body : mesh.groups) {
+    if (body.role != io::Group::Role::kBody) continue;
+    for (const io::Group& cloth : mesh.groups) {
+      const std::int32_t face = std::max(body.face_begin, cloth.face_begin);
+      if (cloth.role == io::Group::Role::kBody || face >= std::min(body.face_end, cloth.face_end)) continue;
+      throw io::Error(io::ErrorKind::kBadInput,
+                      name + ": face " + std::to_string(face) + " is in the group \"" + cloth.name +
+                          "\", which is cloth, and in \"" + body.name +
+                          "\", which is a body; give both groups one role, or ranges that have no face in common");
+    }
+  }
+}
+
 std::vector<std::uint8_t> body_flags(const io::MeshData& mesh) {
   std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
   for (const io::Group& group : mesh.groups) {
@@ -80,6 +96,7 @@ Frame FrameSource::read(std::size_t i) {
   if (mesh.triangles.empty()) {
     throw io::Error(io::ErrorKind::kBadInput, name + ": no faces: there is nothing to check");
   }
+  require_one_role(mesh, name);
   std::vector<std::uint8_t> is_body = body_flags(mesh);
   ResolvedRules resolved = resolve(user_rules_, mesh.groups, mesh.triangles.size());
   surface_changed_ = mesh.triangles != triangles_ || is_body != is_body_ || resolved != resolved_ ||

@@ -144,6 +144,27 @@ TEST(SequenceCheck, BodiesAloneAreUnknownUnlessAskedFor) {
   EXPECT_EQ(report.body_faces, 32);
 }
 
+// A face that was named both was a body's, so what it crossed was left out and the frame was clean.
+TEST(SequenceCheck, AFaceHasOneRole) {
+  io::MeshData mesh = sheet_and_triangle(3, -3);
+  mesh.groups = {{"shirt", io::Group::Role::kCloth, 0, 51}, {"ball", io::Group::Role::kBody, 10, 51}};
+  try {
+    (void)check({mesh});
+    FAIL() << "two roles";
+  } catch (const io::Error& error) {
+    EXPECT_EQ(error.kind(), io::ErrorKind::kBadInput);
+    EXPECT_STREQ(error.what(),
+                 "memory[0]: face 10 is in the group \"shirt\", which is cloth, and in \"ball\", which is a body; give "
+                 "both groups one role, or ranges that have no face in common");
+  }
+  mesh.groups[1].role = io::Group::Role::kCloth;
+  EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "groups of one role may overlap";
+  mesh.groups = {{"shirt", io::Group::Role::kCloth, 0, 10}, {"ball", io::Group::Role::kBody, 10, 50}};
+  EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "neighbours; the last face is in no group and cloth";
+  mesh.groups[0].face_begin = mesh.groups[0].face_end = 20;
+  EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "a group without faces overlaps nothing";
+}
+
 TEST(SequenceCheck, UnreferencedVerticesAreCountedNotChecked) {
   io::MeshData mesh = sheet(4);
   testing::add_vertex(mesh, testing::point_on(mesh, 3, {1, 1, 2}));
