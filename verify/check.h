@@ -94,6 +94,9 @@ struct Gap {
   std::int64_t frame = 0;
   EventKind event = EventKind::kVf;  ///< kVf or kEe
   std::array<std::int32_t, 2> features{};
+  /// Of the features' vertices, as stored: two gaps within the same doubles are told apart by them. Empty in a report
+  /// of an earlier version.
+  std::vector<Point> x = {};
 };
 
 enum class Verdict : std::uint8_t { kClean, kViolated, kUnknown };

@@ -22,60 +22,71 @@ Vector cross(const Vector& a, const Vector& b) {
           mpz_class(a[0] * b[1] - a[1] * b[0])};
 }
 
-/// Everything times one power of two: four points and the square of the distance to compare with.
-struct Scene {
-  std::array<Vector, 4> x;
-  mpz_class distance_squared;
+/// A squared distance; the denominator is positive.
+struct Fraction {
+  mpz_class numerator, denominator;
+
+  friend bool operator<(const Fraction& a, const Fraction& b) {
+    return a.numerator * b.denominator < b.numerator * a.denominator;
+  }
 };
 
-/// All comparisons below: sign(squared distance - distance_squared). A minimum of distances compares as the minimum of
-/// the signs.
-int compare_points(const Vector& p, const Vector& q, const mpz_class& distance_squared) {
+Fraction squared(const Vector& p, const Vector& q) {
   const Vector d = p - q;
-  return cmp(dot(d, d), distance_squared);
+  return {dot(d, d), 1};
 }
 
-int compare_point_segment(const Vector& p, const Vector& a, const Vector& b, const mpz_class& distance_squared) {
+Fraction squared_point_segment(const Vector& p, const Vector& a, const Vector& b) {
   const Vector edge = b - a, offset = p - a;
   const mpz_class along = dot(edge, offset), length_squared = dot(edge, edge);
-  if (along <= 0) return compare_points(p, a, distance_squared);  // also where the edge has no length
-  if (along >= length_squared) return compare_points(p, b, distance_squared);
-  return cmp(dot(offset, offset) * length_squared - along * along, distance_squared * length_squared);
+  if (along <= 0) return squared(p, a);  // also where the edge has no length
+  if (along >= length_squared) return squared(p, b);
+  return {dot(offset, offset) * length_squared - along * along, length_squared};
 }
 
-int compare_vf(const Scene& s) {
-  const Vector &p = s.x[0], &a = s.x[1], &b = s.x[2], &c = s.x[3];
-  int sign =
-      std::min({compare_point_segment(p, a, b, s.distance_squared), compare_point_segment(p, b, c, s.distance_squared),
-                compare_point_segment(p, c, a, s.distance_squared)});
+using Vectors = std::array<Vector, 4>;
+
+Fraction squared_vf(const Vectors& x) {
+  const auto& [p, a, b, c] = x;
+  Fraction least =
+      std::min({squared_point_segment(p, a, b), squared_point_segment(p, b, c), squared_point_segment(p, c, a)});
   const Vector n = cross(b - a, c - a);
   const mpz_class n_squared = dot(n, n);
-  if (n_squared == 0) return sign;  // zero area: the triangle is its edges
-  const auto inside = [&](const Vector& from, const Vector& to) { return dot(n, cross(to - from, p - from)) >= 0; };
-  if (inside(a, b) && inside(b, c) && inside(c, a)) {
-    const mpz_class height = dot(n, p - a);
-    sign = std::min(sign, cmp(height * height, s.distance_squared * n_squared));
-  }
-  return sign;
+  if (n_squared == 0) return least;  // zero area: the triangle is its edges
+  const auto inside = [&, &p = p](const Vector& from, const Vector& to) {
+    return dot(n, cross(to - from, p - from)) >= 0;
+  };
+  if (!(inside(a, b) && inside(b, c) && inside(c, a))) return least;
+  const mpz_class height = dot(n, p - a);
+  return std::min(least, Fraction{height * height, n_squared});
 }
 
-int compare_ee(const Scene& s) {
-  const auto& [a, b, c, d] = s.x;
-  int sign = std::min(
-      {compare_point_segment(a, c, d, s.distance_squared), compare_point_segment(b, c, d, s.distance_squared),
-       compare_point_segment(c, a, b, s.distance_squared), compare_point_segment(d, a, b, s.distance_squared)});
+Fraction squared_ee(const Vectors& x) {
+  const auto& [a, b, c, d] = x;
+  Fraction least = std::min({squared_point_segment(a, c, d), squared_point_segment(b, c, d),
+                             squared_point_segment(c, a, b), squared_point_segment(d, a, b)});
   // The feet of the common perpendicular of the two lines, a + (u_foot / n_squared)(b - a) and c + ... (d - c).
   const Vector u = b - a, v = d - c, w = a - c, n = cross(u, v);
   const mpz_class n_squared = dot(n, n);
-  if (n_squared == 0) return sign;  // parallel, or an edge without length: some end point is nearest
+  if (n_squared == 0) return least;  // parallel, or an edge without length: some end point is nearest
   const mpz_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const mpz_class u_foot = uv * vw - vv * uw, v_foot = uu * vw - uv * uw;
-  if (u_foot >= 0 && u_foot <= n_squared && v_foot >= 0 && v_foot <= n_squared) {
-    const mpz_class gap = dot(w, n);
-    sign = std::min(sign, cmp(gap * gap, s.distance_squared * n_squared));
-  }
-  return sign;
+  if (!(u_foot >= 0 && u_foot <= n_squared && v_foot >= 0 && v_foot <= n_squared)) return least;
+  const mpz_class gap = dot(w, n);
+  return std::min(least, Fraction{gap * gap, n_squared});
 }
+
+/// Everything times one power of two: four points and the square of the distance to compare with.
+struct Scene {
+  Vectors x;
+  mpz_class distance_squared;
+};
+
+int compare_with_distance(const Fraction& squared, const Scene& s) {
+  return cmp(squared.numerator, s.distance_squared * squared.denominator);
+}
+int compare_vf(const Scene& s) { return compare_with_distance(squared_vf(s.x), s); }
+int compare_ee(const Scene& s) { return compare_with_distance(squared_ee(s.x), s); }
 
 void require_distance(double d) {
   if (!(d >= 0) || !std::isfinite(d)) throw std::invalid_argument("a distance must be finite and not negative");
@@ -120,6 +131,23 @@ Scene scene_at(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t
 
 int compare_vf_distance(const std::array<Point, 4>& x, double d) { return compare_vf(scene(x, d)); }
 int compare_ee_distance(const std::array<Point, 4>& x, double d) { return compare_ee(scene(x, d)); }
+
+int compare_distances(const FeaturePair& a, const FeaturePair& b) {
+  std::array<double, 24> values{};
+  std::array<mpz_class, 24> integers;
+  for (std::size_t i = 0; i < 12; ++i) {
+    values[i] = a.x[i / 3][i % 3];
+    values[12 + i] = b.x[i / 3][i % 3];
+  }
+  scale_to_integers(values, integers);
+  Vectors of_a, of_b;
+  for (std::size_t i = 0; i < 12; ++i) {
+    of_a[i / 3][i % 3] = std::move(integers[i]);
+    of_b[i / 3][i % 3] = std::move(integers[12 + i]);
+  }
+  const Fraction x = a.is_vf ? squared_vf(of_a) : squared_ee(of_a), y = b.is_vf ? squared_vf(of_b) : squared_ee(of_b);
+  return x < y ? -1 : (y < x ? 1 : 0);
+}
 
 bool vf_within_at(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1, double t, double d) {
   return compare_vf(scene_at(x_t0, x_t1, t, d)) <= 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "verify/smallest_gap.h"
+
 namespace selvage::verify {
 namespace {
 
@@ -63,7 +65,7 @@ void add(SequenceReport& sum, const SequenceReport& part) {
     if (static_cast<std::int64_t>(sum.disagreements.size()) < sum.max_violations)
       sum.disagreements.push_back(violation);
   }
-  if (part.gap && (!sum.gap || part.gap->upper < sum.gap->upper)) sum.gap = part.gap;
+  if (part.gap && (!sum.gap || is_smaller(*part.gap, *sum.gap))) sum.gap = part.gap;
   sum.unchecked.insert(sum.unchecked.end(), part.unchecked.begin(), part.unchecked.end());
   for (std::size_t i = 0; i < sum.exempted.size(); ++i) sum.exempted[i].pairs += part.exempted[i].pairs;
   sum.ignored = part.ignored;

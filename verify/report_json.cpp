@@ -99,7 +99,8 @@ Json gap(const SequenceReport& report) {
           {"upper_hex", hex_float(report.gap->upper)},
           {"frame", report.gap->frame},
           {"event", name_of(report.gap->event)},
-          {"features", report.gap->features}};
+          {"features", report.gap->features},
+          {"bits", bits(report.gap->x)}};
 }
 
 Json hex_words(const std::vector<std::uint32_t>& words) {

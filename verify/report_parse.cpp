@@ -208,6 +208,7 @@ ParsedReport parse(const Json& json) {
     report.gap = {hex_float(gap.at("lower_hex")), hex_float(gap.at("upper_hex")), count(gap.at("frame")),
                   named<EventKind, 2>(gap.at("event"), {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}}}),
                   features(gap.at("features"))};
+    if (gap.contains("bits")) report.gap->x = points(gap.at("bits"));  // not in reports of earlier versions
   }
   const Json& second = json.at("second_opinion");
   if (!second.is_null()) {

@@ -159,7 +159,7 @@ class SequenceCheck {
     if (!options_.gap) return;
     std::optional<Gap> gap = smallest_gap(source_->topology(), frame.points, options_.check.check_bodies);
     if (gap) gap->frame = static_cast<std::int64_t>(i);
-    if (gap && (!report_.gap || gap->upper < report_.gap->upper)) report_.gap = gap;
+    if (gap && (!report_.gap || is_smaller(*gap, *report_.gap))) report_.gap = gap;
   }
 
   /// Faces that welding took a corner from have no area in any frame.

@@ -16,17 +16,32 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Ordered by distance, then by name: the least of a set does not depend on who finds it.
 struct Candidate {
   double distance = kInfinity;
   EventKind event = EventKind::kVf;
   std::array<std::int32_t, 2> features{};
   std::array<Point, 4> x{};
-
-  friend bool operator<(const Candidate& a, const Candidate& b) {
-    return std::tie(a.distance, a.event, a.features) < std::tie(b.distance, b.event, b.features);
-  }
 };
+
+FeaturePair feature_pair(const Candidate& pair) { return {pair.event == EventKind::kVf, pair.x}; }
+
+// The least of a set does not depend on who finds it: ties are broken by name.
+
+bool is_named_before(const Candidate& a, const Candidate& b) {
+  return std::tie(a.event, a.features) < std::tie(b.event, b.features);
+}
+
+/// For distances that are estimates.
+bool is_less_by_estimate(const Candidate& a, const Candidate& b) {
+  return a.distance != b.distance ? a.distance < b.distance : is_named_before(a, b);
+}
+
+/// For distances that are the smallest double not below the exact one: where these are equal the exact ones decide.
+bool is_less(const Candidate& a, const Candidate& b) {
+  if (a.distance != b.distance) return a.distance < b.distance;
+  const int order = a.distance == 0 ? 0 : compare_distances(feature_pair(a), feature_pair(b));
+  return order != 0 ? order < 0 : is_named_before(a, b);
+}
 
 int compare_distance(const Candidate& pair, double d) {
   return pair.event == EventKind::kVf ? compare_vf_distance(pair.x, d) : compare_ee_distance(pair.x, d);
@@ -57,21 +72,24 @@ double distance_upper(const Candidate& pair) {
   return std::bit_cast<double>(high);
 }
 
-/// The least of what rate(pair, least so far) gives for the pairs within `reach`; infinite where there is none.
-template <class Rate>
+/// The least of `start` and the pairs within `reach`, with the distance that rate(pair, least so far) gives: nothing
+/// where it need not be looked at.
+template <class Rate, class Less>
 Candidate least(const Topology& topology, std::span<const Point> V, double reach, bool check_bodies, Candidate start,
-                const Rate& rate) {
+                const Rate& rate, const Less& less) {
   tbb::enumerable_thread_specific<Candidate> bests(start);
   Tally no_tally(0);
   visit_near_pairs(topology, V, reach, check_bodies, 0, no_tally,
                    [&](EventKind event, std::int32_t i, std::int32_t j, const std::array<Point, 4>& x, Tally&) {
                      Candidate& best = bests.local();
                      Candidate pair{kInfinity, event, {i, j}, x};
-                     pair.distance = rate(pair, best.distance);
-                     if (pair < best) best = pair;
+                     const std::optional<double> distance = rate(pair, best.distance);
+                     if (!distance) return;
+                     pair.distance = *distance;
+                     if (less(pair, best)) best = pair;
                    });
   for (const Candidate& best : bests) {
-    if (best < start) start = best;
+    if (less(best, start)) start = best;
   }
   return start;
 }
@@ -82,13 +100,13 @@ std::optional<Candidate> near_pair(const Topology& topology, std::span<const Poi
   const Box bounds = bounding_box(V);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, 0.5 * bounds.max[k] - 0.5 * bounds.min[k]);
-  const auto estimate = [](const Candidate& pair, double) {
+  const auto estimate = [](const Candidate& pair, double) -> std::optional<double> {
     return pair.event == EventKind::kVf ? estimate_vf_distance(pair.x) : estimate_ee_distance(pair.x);
   };
   // From boxes that overlap to the whole bounding box: it is twice `extent` wide.
   for (const double share : {0.0, 0x1p-20, 0x1p-15, 0x1p-10, 0x1p-5, 0x1p+2}) {
     const double reach = std::min(extent * share, std::numeric_limits<double>::max());
-    const Candidate nearest = least(topology, V, reach, check_bodies, {}, estimate);
+    const Candidate nearest = least(topology, V, reach, check_bodies, {}, estimate, is_less_by_estimate);
     if (nearest.distance < kInfinity) return nearest;
   }
   return std::nullopt;
@@ -104,15 +122,27 @@ std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point>
   if (!best) return std::nullopt;
   best->distance = distance_upper(*best);
   const double reach = std::min(best->distance, std::numeric_limits<double>::max());
-  best = least(topology, V, reach, check_bodies, *best, [](const Candidate& pair, double least_so_far) {
+  const auto exact_upper = [](const Candidate& pair, double least_so_far) -> std::optional<double> {
     const bool is_vf = pair.event == EventKind::kVf;
-    const bool farther = is_vf ? triage_vf_farther(pair.x, least_so_far) : triage_ee_farther(pair.x, least_so_far);
-    return farther ? kInfinity : distance_upper(pair);
-  });
-  Gap gap{best->distance, best->distance, 0, best->event, best->features};
+    if (is_vf ? triage_vf_farther(pair.x, least_so_far) : triage_ee_farther(pair.x, least_so_far)) return std::nullopt;
+    return distance_upper(pair);
+  };
+  best = least(topology, V, reach, check_bodies, *best, exact_upper, is_less);
+  Gap gap{best->distance, best->distance, 0, best->event, best->features, {best->x.begin(), best->x.end()}};
   const bool is_rounded = gap.upper == kInfinity || compare_distance(*best, gap.upper) != 0;
   if (is_rounded) gap.lower = std::bit_cast<double>(std::bit_cast<std::uint64_t>(gap.upper) - 1);
   return gap;
+}
+
+bool is_smaller(const Gap& a, const Gap& b) {
+  if (a.upper != b.upper) return a.upper < b.upper;
+  if (a.lower != b.lower) return a.lower < b.lower;
+  if (a.lower == a.upper || a.x.size() != 4 || b.x.size() != 4) return false;
+  const FpGuard guard;
+  const auto pair = [](const Gap& gap) {
+    return FeaturePair{gap.event == EventKind::kVf, {gap.x[0], gap.x[1], gap.x[2], gap.x[3]}};
+  };
+  return compare_distances(pair(a), pair(b)) < 0;
 }
 
 }  // namespace selvage::verify

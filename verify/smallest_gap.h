@@ -13,7 +13,11 @@ namespace selvage::verify {
 /// The smallest distance of a vertex and a face that does not hold it, or of two edges without a common vertex, over
 /// all pairs that the check owes (bodies and exemptions as there). 0 where they touch. Nothing where there is no such
 /// pair. `upper` is the smallest double that is not below the exact distance, `lower` the largest that is not above;
-/// the pair is the first in (event, features) order with that `upper`. Costs about as much as check_frame.
+/// the pair is a nearest one, exactly, and the first such in (event, features) order. Costs about as much as
+/// check_frame.
 [[nodiscard]] std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V, bool check_bodies);
+
+/// Of the exact distances, also where both lie between the same doubles.
+[[nodiscard]] bool is_smaller(const Gap& a, const Gap& b);
 
 }  // namespace selvage::verify

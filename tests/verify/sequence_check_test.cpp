@@ -165,6 +165,31 @@ TEST(SequenceCheck, AFaceHasOneRole) {
   EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "a group without faces overlaps nothing";
 }
 
+TEST(SequenceCheck, TheGapIsOfANearestPairOfAllFrames) {
+  // Nearest corners 1 apart, and a little less: both distances have the upper bound 1, and the second no exact double.
+  const auto two = [](double x, double y) {
+    io::MeshData mesh;
+    mesh.points = {{0, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {x, 0, y}, {x + 1, 1, y}, {x + 1, -1, y}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    return mesh;
+  };
+  const io::MeshData one = two(1, 0), less = two(1 - 0x1p-53, 0x1p-27), least = two(1 - 0x1p-53, 0x1p-28);
+  SequenceOptions options;
+  options.gap = true;
+  options.motions = false;
+  const struct {
+    std::vector<io::MeshData> frames;
+    std::int64_t nearest;
+  } cases[] = {{{one, less, least}, 2}, {{least, one, less}, 0}, {{one, less, one}, 1}, {{less, least, least}, 1}};
+  for (const auto& [frames, nearest] : cases) {
+    const std::optional<Gap> gap = check(frames, options).gap;
+    ASSERT_TRUE(gap);
+    EXPECT_EQ(gap->frame, nearest);
+    EXPECT_EQ(gap->upper, 1);
+    EXPECT_EQ(gap->lower, 1 - 0x1p-53);
+  }
+}
+
 TEST(SequenceCheck, UnreferencedVerticesAreCountedNotChecked) {
   io::MeshData mesh = sheet(4);
   testing::add_vertex(mesh, testing::point_on(mesh, 3, {1, 1, 2}));

@@ -90,6 +90,42 @@ TEST(SmallestGap, OfWhatIsFarApartOrTouches) {
   expect_smallest(mesh, "huge");
 }
 
+// Ties of the rounded distances were broken by name: 1 was reported, as an exact distance, where another pair is
+// nearer.
+TEST(SmallestGap, IsOfANearestPairWhateverTheOrder) {
+  const auto two_faces_apart = [](double x, double y, double height) {
+    return std::vector<Point>{{0, height, 0}, {-1, height + 1, 0},    {-1, height - 1, 0},
+                              {x, height, y}, {x + 1, height + 1, y}, {x + 1, height - 1, y}};
+  };
+  const std::vector<Point> one = two_faces_apart(1, 0, 0), less = two_faces_apart(1 - 0x1p-53, 0x1p-27, 100);
+  for (const bool less_first : {false, true}) {
+    io::MeshData mesh;
+    mesh.points = less_first ? less : one;
+    const std::vector<Point>& second = less_first ? one : less;
+    mesh.points.insert(mesh.points.end(), second.begin(), second.end());
+    for (std::int32_t v = 0; v < 12; v += 3) mesh.triangles.push_back({v, v + 1, v + 2});
+    expect_smallest(mesh, less_first ? "the nearest pair first" : "the nearest pair last");
+    const std::optional<Gap> gap = smallest_gap(make_topology({mesh.triangles}, 12), mesh.points, false);
+    ASSERT_EQ(gap->x.size(), 4U);
+    EXPECT_EQ(gap->x[0][1], 100);
+  }
+}
+
+TEST(SmallestGap, OfSubnormalMeshes) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 300; ++round) {
+    io::MeshData mesh;
+    const int extent = 2 + round % 7;
+    for (int v = 0; v < 9; ++v) {
+      Point p;
+      for (double& x : p) x = static_cast<double>(static_cast<int>(random()) % extent) * 0x1p-1074;
+      mesh.points.push_back(p);
+    }
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+    expect_smallest(mesh, ("round " + std::to_string(round)).c_str());
+  }
+}
+
 TEST(SmallestGap, IsOfPairsThatAreChecked) {
   io::MeshData mesh = sheet(3);
   const Topology single = make_topology({std::span(mesh.triangles).first(1)}, mesh.points.size());
