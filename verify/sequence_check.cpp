@@ -134,17 +134,26 @@ class SequenceCheck {
     return frame;
   }
 
-  /// Why a check would look at nothing, or null.
+  /// Why a check would look at nothing, or null. A face that is neither ignored nor a body's is owed a check of its
+  /// area whatever may touch, and so is one that welding took out of the topology.
   const char* nothing_to_examine() const {
-    const Topology& topology = source_->topology();
-    const bool bodies = options_.check.check_bodies;
-    if (topology.faces.cloth.empty() && topology.faces.body.empty()) return "all faces are ignored";
-    if (topology.faces.cloth.empty() && !bodies) {
+    const Parts& faces = source_->topology().faces;
+    const bool has_cloth = !faces.cloth.empty() || !source_->collapsed_cloth().empty();
+    const bool has_bodies = !faces.body.empty() || !source_->collapsed_bodies().empty();
+    if (!has_cloth && !has_bodies) return "all faces are ignored";
+    if (!has_cloth && !options_.check.check_bodies) {
       return "all faces belong to bodies, which are checked only when asked for";
     }
-    const bool has_rules = !options_.rules.exempt.empty() || !options_.rules.ignore.empty();
-    if (has_rules && !owes_pairs(topology, bodies)) return "every pair of faces is exempt or ignored";
     return nullptr;
+  }
+
+  /// The rules leave no pair of faces: each face alone is checked, and where that finds nothing it is no clean
+  /// sequence.
+  void note_absence_of_pairs(const std::string& unit) {
+    const bool has_rules = !options_.rules.exempt.empty() || !options_.rules.ignore.empty();
+    if (!has_rules || owes_pairs(source_->topology(), options_.check.check_bodies)) return;
+    report_.unchecked.push_back(unit +
+                                "every pair of faces is exempt or ignored; only each face's own area was checked");
   }
 
   void check_instant(std::size_t i, const Frame& frame) {
@@ -152,6 +161,7 @@ class SequenceCheck {
       report_.unchecked.push_back(frame.name + ": " + why);
       return;
     }
+    note_absence_of_pairs(frame.name + ": ");
     CheckResult result = check_frame(source_->topology(), frame.points, options_.check);
     add_collapsed(source_->collapsed_cloth(), frame, result);
     if (options_.check.check_bodies) add_collapsed(source_->collapsed_bodies(), frame, result);
@@ -190,6 +200,7 @@ class SequenceCheck {
       report_.unchecked.push_back(motion + why);
       return true;
     }
+    note_absence_of_pairs(motion);
     count(check_motion(source_->topology(), previous_.points, frame.points, options_.check), i - 1, true);
     return report_progress();
   }

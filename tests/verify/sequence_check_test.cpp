@@ -165,6 +165,36 @@ TEST(SequenceCheck, AFaceHasOneRole) {
   EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "a group without faces overlaps nothing";
 }
 
+// Where every pair was exempt nothing was examined, also not what exemptions leave owed.
+TEST(SequenceCheck, AreasAreCheckedWhateverMayTouch) {
+  io::MeshData mesh = sheet(3), flat = mesh;
+  flat.points[0] = testing::point_on(flat, 0, {0, 2, 2});
+  for (io::MeshData* m : {&mesh, &flat}) m->groups = {{"a", io::Group::Role::kCloth, 0, 18}};
+  SequenceOptions options;
+  options.rules.exempt = {{"a", "a"}};
+  const SequenceReport fine = check({mesh, mesh}, options);
+  EXPECT_EQ(fine.verdict, Verdict::kUnknown) << "no pair was looked at";
+  EXPECT_EQ(fine.unchecked.size(), 3U);
+  EXPECT_EQ(fine.pairs.self, 2 * 18 + 3 * 18);
+  const SequenceReport report = check({mesh, flat}, options);
+  EXPECT_EQ(report.verdict, Verdict::kViolated);
+  EXPECT_EQ(report.frames.violated, 1);
+  EXPECT_EQ(report.motions.violated, 1);
+  EXPECT_GT(report.violations_total.self, 0);
+  EXPECT_EQ(report.violations_total.overlap + report.violations_total.vf + report.violations_total.ee, 0);
+}
+
+TEST(SequenceCheck, FacesThatAllCollapseAreViolated) {
+  io::MeshData mesh;
+  mesh.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  SequenceOptions options;
+  options.weld = true;
+  const SequenceReport report = check({mesh, mesh}, options);
+  EXPECT_EQ(report.verdict, Verdict::kViolated);
+  EXPECT_EQ(report.violations_total.self, 2);
+}
+
 TEST(SequenceCheck, TheGapIsOfANearestPairOfAllFrames) {
   // Nearest corners 1 apart, and a little less: both distances have the upper bound 1, and the second no exact double.
   const auto two = [](double x, double y) {
