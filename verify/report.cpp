@@ -32,13 +32,16 @@ std::string feature_names(const Violation& violation) {
   return text + ")";
 }
 
-/// Where to look: the first vertex at the first touch, rounded.
+/// Where to look: the first vertex at the first touch, rounded. If it is the vertex that meets the face or the edge it
+/// is the point of contact; else that is somewhere on the features, and the vertex is named.
 std::string place(const Violation& violation) {
   if (violation.at_touch.empty()) return "";
+  const bool of_vertex = violation.event == EventKind::kVf || violation.event == EventKind::kSelf;
+  const bool is_contact = of_vertex && violation.kind != "near";
   char buffer[96];
   const auto& [x, y, z] = violation.at_touch.front();
-  std::snprintf(buffer, sizeof buffer, ", at (%.9g, %.9g, %.9g)", x, y, z);
-  return buffer;
+  std::snprintf(buffer, sizeof buffer, " (%.9g, %.9g, %.9g)", x, y, z);
+  return (is_contact ? ", at" : ", with vertex " + std::to_string(violation.vertices[0]) + " at") + std::string(buffer);
 }
 
 std::string line(const Violation& violation, const ReportContext& context) {

@@ -64,6 +64,20 @@ TEST(VerifyCommand, MotionThroughIsOneThoughBothFramesAreClean) {
   EXPECT_EQ(first["t"]["upper_number"], 0.25);
 }
 
+TEST(VerifyCommand, APlaceIsOfTheContactOrOfANamedVertex) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj", b = folder.path() / "b.obj";
+  spit(a, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 -1 1\nv 1 9 1\nv 1 4 9\nf 4 5 6\n");
+  spit(b, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 -1 -1\nv 1 9 -1\nv 1 4 9\nf 4 5 6\n");
+  const std::string edges = run_program(folder, {"verify", "--motion", a, b}).out;
+  EXPECT_NE(edges.find("(vertices 0 1 3 4), with vertex 0 at (0, 0, 0) ["), std::string::npos) << edges;
+  EXPECT_NE(edges.find("(vertices 0 1 2 3 4 5), with vertex 0 at (0, 0, 0) ["), std::string::npos) << edges;
+  spit(b, two_faces(-3));
+  spit(a, two_faces(1));
+  const std::string vertices = run_program(folder, {"verify", "--motion", a, b}).out;
+  EXPECT_NE(vertices.find("vf cross, vertex 3, face 0 (vertices 3 0 1 2), at ("), std::string::npos) << vertices;
+}
+
 TEST(VerifyCommand, TwoLevelsOfExactness) {
   // Vertices that come within the smallest double, and no farther.
   const TemporaryFolder folder;
