@@ -7,6 +7,7 @@
 
 #include "io/sequence.h"
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_faces.h"
 
 namespace selvage {
 namespace {
@@ -14,12 +15,7 @@ namespace {
 using testing::run_program;
 using testing::spit;
 using testing::TemporaryFolder;
-
-/// A face at z = 0 and, above it by `height`, another; as OBJ.
-std::string two_faces(double height) {
-  const std::string z = std::to_string(height);
-  return "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 1 1 " + z + "\nv 2 1 " + z + "\nv 1 2 " + z + "\nf 4 5 6\n";
-}
+using testing::two_faces;
 
 }  // namespace
 
