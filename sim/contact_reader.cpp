@@ -23,7 +23,8 @@ std::optional<ContactProperties> ContactReader::read(TomlTable& table, bool clot
   own.friction_kinetic =
       table.number("friction_kinetic", kNotNegative, one_friction ? own.friction_static : scene_.friction_kinetic);
   if (own.friction_kinetic > own.friction_static) {
-    table.fail("friction_kinetic", "friction_kinetic must not exceed friction_static");
+    table.fail("friction_kinetic",
+               fmt::format("friction_kinetic must not exceed friction_static, which is {}", own.friction_static));
   }
   if (!(own.tolerance_m < own.thickness_m)) {
     table.fail(table.has("tolerance_m") ? "tolerance_m" : "thickness_m",

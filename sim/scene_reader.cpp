@@ -227,7 +227,8 @@ CollisionOptions read_collision(TomlTable table) {
   options.friction_static = table.number("friction_static", kNotNegative, 0);
   options.friction_kinetic = table.number("friction_kinetic", kNotNegative, options.friction_static);
   if (options.friction_kinetic > options.friction_static) {
-    table.fail("friction_kinetic", "friction_kinetic must not exceed friction_static");
+    table.fail("friction_kinetic",
+               fmt::format("friction_kinetic must not exceed friction_static, which is {}", options.friction_static));
   }
   options.impulse_iterations =
       static_cast<std::int32_t>(table.integer("impulse_rounds", 0, 1000, options.impulse_iterations));

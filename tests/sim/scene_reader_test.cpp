@@ -52,6 +52,8 @@ const BadScene kBadScenes[] = {
      "below thickness_m"},
     {"kinetic above static", kScene + "[collision]\nfriction_static = 0.2\nfriction_kinetic = 0.3\n", 11,
      "must not exceed friction_static"},
+    {"kinetic friction alone", kScene + "[collision]\nfriction_kinetic = 0.3\n", 10,
+     "must not exceed friction_static, which is 0"},
     {"a negative thickness of a part", kScene + "[[body]]\nsphere = {radius_m = 1}\nthickness_m = -1\n", 11,
      "thickness_m must be a number above 0"},
     {"a part's tolerance above its thickness", kScene + "[[body]]\nsphere = {radius_m = 1}\ntolerance_m = 2e-3\n", 11,
