@@ -103,9 +103,11 @@ TEST(Friction, AddsNoEnergyWhereMassesDifferByMoreThanDoublesHold) {
     const auto change = first_friction(pair.interaction, pair.x_t0, pair.displacement, 1, {friction, friction});
     if (!change) return;
     ++rubbed;
+    const auto& mobility = pair.interaction.mobility;
+    const auto heaviest = static_cast<std::size_t>(std::ranges::min_element(mobility) - mobility.begin());
     double before = 0, after = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3 d = pair.displacement[i] - pair.displacement[0];
+      const Vec3 d = pair.displacement[i] - pair.displacement[heaviest];
       before += d.squaredNorm() / pair.interaction.mobility[i];
       after += (d + (*change)[i]).squaredNorm() / pair.interaction.mobility[i];
     }
