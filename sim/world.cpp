@@ -155,7 +155,7 @@ class WorldBuilder {
 
   ContactSurfaces take_contacts() {
     ContactSurfaces contacts;
-    if (contacts_.properties.size() > 1) contacts = contacts_;
+    if (contacts_.properties.size() > 1) contacts = std::move(contacts_);
     contacts.rest_pairs = std::move(rest_pairs_);
     return contacts;
   }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernel/kernel.h"
 #include "tests/property.h"
 
 namespace selvage {
@@ -23,8 +24,30 @@ Faces faces_of(const std::vector<std::array<VertexId, 3>>& list) {
 
 }  // namespace
 
+TEST(Requirements, AreAskedBeforeAnythingIsProved) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(validate(CcdOptions{}), InputError::kNone);
+  for (const double bad : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(validate(CcdOptions{.tolerance = bad}), InputError::kBadTolerance) << bad;
+  }
+  EXPECT_EQ(validate(CcdOptions{.max_intervals = 0}), InputError::kBadOption);
+
+  Faces F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  const Mesh mesh = make_mesh(6, F);
+  BoxHierarchy hierarchy(mesh);
+  const Positions V = Positions::Random(6, 3);
+  Positions bad = V;
+  bad(5, 2) = kNan;
+  EXPECT_DEATH(static_cast<void>(find_collisions(mesh, hierarchy, V, bad, {})), "find_collisions is called without");
+  EXPECT_DEATH(static_cast<void>(find_collisions(mesh, hierarchy, V, V, {.tolerance = -1})), "validate\\(options\\)");
+  EXPECT_DEATH(static_cast<void>(find_proximities(mesh, hierarchy, bad, 0.1)),
+               "is called without what it requires: validate");
+  EXPECT_DEATH(static_cast<void>(BoxHierarchy(mesh).candidates()), "candidates is called without");
+}
+
 TEST(InputErrorText, EveryErrorSaysWhatToDo) {
-  for (int i = 0; i <= static_cast<int>(InputError::kOffLattice); ++i) {
+  for (int i = 0; i <= static_cast<int>(InputError::kBadSurfaces); ++i) {
     EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error");
   }
   EXPECT_STREQ(describe(static_cast<InputError>(255)), "unknown error");

@@ -3,34 +3,21 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "sim/points.h"
 #include "sim/run_totals.h"
+#include "tests/sim/exact_step.h"
 #include "tests/sim/small_scene.h"
-#include "verify/check.h"
 
 namespace selvage {
 
 using namespace sim;
 using testing::ScratchFolder;
 using testing::small_scene_text;
+using testing::violations;
 
 namespace {
 
 Scene small_scene(int frames, const std::string& extra = "", const std::string& collision = "") {
   return parse_scene(small_scene_text(frames, extra, collision), "small.toml");
-}
-
-// Exactly: the frame, and the motion that led to it.
-std::int64_t violations(const World& world, const Positions& x_t0, const Positions& x_t1) {
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    for (FaceId f = group.face_begin; f < group.face_end; ++f) {
-      is_body[static_cast<std::size_t>(f)] = group.role == io::Group::Role::kBody;
-    }
-  }
-  const verify::Surface surface{world.triangles, is_body};
-  return verify::check_frame(surface, points_of(x_t1), {}).violations_total.total() +
-         verify::check_motion(surface, points_of(x_t0), points_of(x_t1), {}).violations_total.total();
 }
 
 }  // namespace
@@ -302,128 +289,6 @@ release_s = 0.4
   EXPECT_LT(simulation.x()(2, 2), -0.05) << "the free edge has swung down";
   while (simulation.clock().state().frame < 20) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
   EXPECT_LT(simulation.x()(22, 2), start(22, 2) - 0.1) << "free fall since the release";
-}
-
-namespace {
-
-// Two boxes close on a sheet between them.
-Scene squeeze_scene(const std::string& policy) {
-  return parse_scene("squeeze = \"" + policy + R"("
-[time]
-frames = 10
-max_step_s = 0.01
-min_step_s = 0.004
-[[cloth]]
-sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
-density_kg_m2 = 0.3
-stretch_n_m = 40
-shear_n_m = 20
-[[body]]
-name = "anvil"
-box = {size_m = [1, 1, 0.1]}
-position_m = [0, 0, -0.06]
-[[body]]
-name = "hammer"
-box = {size_m = [1, 1, 0.1]}
-[[body.key]]
-time_s = 0
-position_m = [0, 0, 0.08]
-[[body.key]]
-time_s = 0.2
-position_m = [0, 0, 0.04]
-)",
-                     "squeeze.toml");
-}
-
-}  // namespace
-
-TEST(Simulation, StopsWithAWitnessWhereBodiesSqueeze) {
-  Simulation simulation(squeeze_scene("stop"));
-  StepResult step;
-  Positions before;
-  do {
-    before = simulation.x();
-    step = simulation.step();
-  } while (step.report.status == StepStatus::kSafe && simulation.clock().state().frame < 10);
-  ASSERT_EQ(step.report.status, StepStatus::kStopped);
-  EXPECT_TRUE(step.report.witness.has_value());
-  EXPECT_EQ(simulation.x(), before) << "nothing is advanced";
-}
-
-TEST(Simulation, BodiesWaitUnderYieldAndTheClothStaysFree) {
-  Simulation simulation(squeeze_scene("yield"));
-  RunTotals totals;
-  EXPECT_EQ(totals.shortfalls(), "");
-  while (simulation.clock().state().frame < 10) {
-    const Positions before = simulation.x();
-    const StepResult step = simulation.step();
-    ASSERT_EQ(step.report.status, StepStatus::kSafe);
-    ASSERT_EQ(violations(simulation.world(), before, simulation.x()), 0);
-    ASSERT_TRUE(step.report.waiting_bodies.empty() || simulation.state().loads.empty());
-    totals.add(step);
-  }
-  EXPECT_GT(totals.waiting_bodies, 0);
-  EXPECT_NE(totals.shortfalls().find("times a body waited"), std::string::npos);
-}
-
-namespace {
-
-// A ball is pressed 2 cm too deep into cloth on the ground for a second, and drawn aside.
-constexpr const char* kPressed = R"(
-squeeze = "yield"
-gravity_m_s2 = [0, 0, -9.81]
-[time]
-frames_per_s = 30
-frames = 70
-[collision]
-thickness_m = 0.004
-friction_static = 0.3
-[[cloth]]
-sheet = {nx = 14, ny = 14, width_m = 0.5, height_m = 0.5}
-position_m = [0, 0, 0.01]
-density_kg_m2 = 0.2
-stretch_n_m = 60
-shear_n_m = 20
-bend_n_m = 0.6
-damping_ratio = 0.1
-[[body]]
-name = "ball"
-sphere = {radius_m = 0.15, subdivisions = 2}
-position_m = [0, 0, 0.25]
-interpolation = "linear"
-key = [{time_s = 0}, {time_s = 0.4, position_m = [0, 0, -0.12]}, {time_s = 1.4, position_m = [0, 0, -0.12]},
-       {time_s = 2, position_m = [0.3, 0, 0.1]}]
-[[body]]
-name = "ground"
-sheet = {nx = 2, ny = 2, width_m = 20, height_m = 20}
-)";
-
-}  // namespace
-
-TEST(Simulation, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
-  Simulation simulation(parse_scene(kPressed, "pressed.toml"));
-  const std::int32_t cloth = simulation.world().cloth_vertex_count;
-  const Collider& ball = simulation.world().colliders.front();
-  double fastest_m_s = 0, fastest_ball_m_s = 0, pressed_m_s = 0;
-  std::int64_t waits = 0, steps = 0;
-  while (simulation.clock().state().frame < 70) {
-    const Positions before = simulation.x();
-    const StepResult step = simulation.step();
-    ASSERT_EQ(step.report.status, StepStatus::kSafe);
-    const auto speed_m_s = ((simulation.x() - before) / step.dt_s).rowwise().norm().eval();
-    fastest_m_s = std::max(fastest_m_s, speed_m_s.head(cloth).maxCoeff());
-    for (const VertexId v : ball.vertices()) fastest_ball_m_s = std::max(fastest_ball_m_s, speed_m_s[v]);
-    if (simulation.clock().state().frame == 40) pressed_m_s = speed_m_s.head(cloth).maxCoeff();
-    waits += static_cast<std::int64_t>(step.report.waiting_bodies.size());
-    ++steps;
-  }
-  EXPECT_GT(waits, 20);
-  EXPECT_LT(pressed_m_s, 0.03) << "it rests under the ball; 0.4 m/s where the dynamics saw the ball move";
-  EXPECT_LT(fastest_ball_m_s, 1.6) << "its script goes at 0.9 m/s";
-  EXPECT_LT(fastest_m_s, 5);
-  EXPECT_LT(steps, 300);
-  const Positions end = ball.placed_at(simulation.clock().time_s(), false);
-  EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), end) << "to the bit";
 }
 
 TEST(World, PartsAreInOrderAndPinsAreColliders) {

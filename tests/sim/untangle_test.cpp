@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include <xmmintrin.h>
+
 #include "tests/sim/step_scene.h"
 
 namespace selvage::sim::testing {
@@ -60,6 +62,16 @@ void expect_repaired(const StepScene& scene, double largest_move_m) {
   EXPECT_GT(result.report.moved_vertices, 0);
 }
 
+StepScene interpenetrating_layers() {
+  StepScene scene;
+  scene.add(make_sheet(13, 13, 0.3, 0.3), Vec3::Zero());
+  const StepScene::Part upper = scene.add(make_sheet(12, 12, 0.28, 0.28), Vec3(0.003, 0.002, 0.001));
+  for (VertexId v = upper.begin; v < upper.end; ++v) {
+    scene.V_t0(v, 2) += 0.006 * std::sin(40 * scene.V_t0(v, 0)) * std::cos(30 * scene.V_t0(v, 1));
+  }
+  return scene;
+}
+
 }  // namespace
 
 TEST(Untangle, WhatIsCleanIsReturnedAsItIs) {
@@ -72,14 +84,17 @@ TEST(Untangle, WhatIsCleanIsReturnedAsItIs) {
   EXPECT_EQ(defect_of(scene, result), "");
 }
 
-TEST(Untangle, LayersThatInterpenetrate) {
-  StepScene scene;
-  scene.add(make_sheet(13, 13, 0.3, 0.3), Vec3::Zero());
-  const StepScene::Part upper = scene.add(make_sheet(12, 12, 0.28, 0.28), Vec3(0.003, 0.002, 0.001));
-  for (VertexId v = upper.begin; v < upper.end; ++v) {
-    scene.V_t0(v, 2) += 0.006 * std::sin(40 * scene.V_t0(v, 0)) * std::cos(30 * scene.V_t0(v, 1));
-  }
-  expect_repaired(scene, 0.02);
+TEST(Untangle, LayersThatInterpenetrate) { expect_repaired(interpenetrating_layers(), 0.02); }
+
+TEST(Untangle, SameBitsWhateverRoundingTheCallerHas) {
+  constexpr unsigned kUpwards = 0x4000;  // of MXCSR
+  const StepScene scene = interpenetrating_layers();
+  const UntangleResult expected = untangle_scene(scene);
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | kUpwards);
+  const UntangleResult result = untangle_scene(scene);
+  _mm_setcsr(before);
+  EXPECT_EQ(result.x, expected.x);
 }
 
 TEST(Untangle, ASheetThatStandsInAnother) {
