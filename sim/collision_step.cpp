@@ -264,6 +264,8 @@ CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, 
 CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
 
+const ContactTable& CollisionStep::contact_table() const { return impl_->contacts; }
+
 CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                               const CollisionBodies& bodies, double dt_s, const Patience& patience,
                                               std::span<const RepulsionContact> held) {
@@ -309,13 +311,13 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
 }
 
 std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
-                                                           const CollisionBodies& bodies) {
+                                                           const CollisionBodies& bodies, const Vec3& fall) {
   const FpEnvGuard guard;
   Impl& impl = *impl_;
   if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
-  return make_contacts(impl.proximities.find(V_candidate), impl.contacts, V_t0, bodies.inverse_mass);
+  return make_contacts(impl.proximities.find(V_candidate, fall), impl.contacts, V_t0, bodies.inverse_mass);
 }
 
 }  // namespace selvage::sim

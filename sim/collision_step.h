@@ -17,6 +17,8 @@
 
 namespace selvage::sim {
 
+class ContactTable;
+
 /// Defaults are the paper's numbers, except for `relaxation`. The first two and the friction are those of the whole
 /// mesh, unless ContactSurfaces says what its parts have.
 struct CollisionOptions {
@@ -126,10 +128,15 @@ class CollisionStep {
 
   /// For dynamics that hold contacts (held_contacts.h): those that a motion from V_t0 to V_candidate would press, to be
   /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left.
-  /// REQUIRES valid arguments, as above; with an invalid one there is none. O(n log n) as a step; a step from the same
-  /// V_t0 need not look for near pairs again.
+  /// Those that rest, too: which a fall by `fall`, m, of one of the two alone would press. REQUIRES valid arguments, as
+  /// above; with an invalid one there is none. O(n log n) as a step; a step from the same V_t0 need not look for near
+  /// pairs again.
   [[nodiscard]] std::vector<RepulsionContact> find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
-                                                            const CollisionBodies& bodies);
+                                                            const CollisionBodies& bodies,
+                                                            const Vec3& fall = Vec3::Zero());
+
+  /// Of the mesh and its surfaces.
+  [[nodiscard]] const ContactTable& contact_table() const;
 
  private:
   struct Impl;

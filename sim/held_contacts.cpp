@@ -19,6 +19,8 @@ constexpr double kLearning = 0.5;
 /// without, 0.8 to 3 under one (docs/simulator-speed.md).
 constexpr double kOverRelaxation = 1.7;
 
+constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
+
 void move(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
   step.x_t1.row(vertex) += change.transpose();
   step.v.row(vertex) += change.transpose() / step.h;
@@ -29,9 +31,9 @@ std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return 
 }  // namespace
 
 HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
-                           const Positions& V_t0, const Positions& V_t1, Eigen::Index cloth_count, double dt_s,
+                           const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s,
                            int sweeps)
-    : V_t0_(V_t0), V_t1_(V_t1), cloth_count_(cloth_count), dt_s_(dt_s), sweeps_(sweeps) {
+    : surface_(surface), V_t0_(V_t0), V_t1_(V_t1), dt_s_(dt_s), sweeps_(sweeps) {
   lines_.reserve(contacts.size());
   for (const RepulsionContact& contact : contacts) {
     (contact.kind == PairKind::kVf ? vf_ : ee_).push_back(lines_.size());
@@ -50,10 +52,12 @@ void HeldContacts::set(Line& line) const {
   const Vec3& normal = line.contact.normal;
   const PairVectors unit = distribute(interaction, normal);
   line.lever_share = lever_share(interaction);
+  line.vertices = {};
+  line.weights = line.shares = {};
   line.scripted_t0 = line.scripted_t1 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const VertexId vertex = interaction.vertices[i];
-    if (vertex < cloth_count_) {
+    if (vertex < surface_.cloth_count) {
       line.vertices[i] = vertex;
       line.weights[i] = interaction.weights[i];
       line.shares[i] = unit[i].dot(normal);
@@ -88,7 +92,7 @@ void HeldContacts::bear(Line& line, const MidstepMotion& step) const {
   line.pushed = 0;
   if (!(line.load_m_s2 > 0)) return;
   look_again(line, step);
-  push(line, line.load_m_s2 * step.h * step.h, step);
+  if (line.lever_share == 1) push(line, line.load_m_s2 * step.h * step.h, step);  // else what is missing, once
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
@@ -104,7 +108,8 @@ void HeldContacts::hold(Line& line, double relaxation, const MidstepMotion& step
 
 void HeldContacts::learn(Line& line, const MidstepMotion& step) {
   const double now_m_s2 = std::min(line.pushed / (step.h * step.h), std::numeric_limits<double>::max());
-  line.load_m_s2 = line.pushed > 0 ? line.load_m_s2 + kLearning * (now_m_s2 - line.load_m_s2) : 0;
+  const bool bears = line.pushed > 0 && line.lever_share == 1;
+  line.load_m_s2 = bears ? line.load_m_s2 + kLearning * (now_m_s2 - line.load_m_s2) : 0;
 }
 
 void HeldContacts::push(Line& line, double change, const MidstepMotion& step) {
@@ -129,14 +134,44 @@ double HeldContacts::excess(const Line& line, const MidstepMotion& step) const {
 
 /// The pair's nearest points now; features that have passed through each other are left to the collision step.
 void HeldContacts::look_again(Line& line, const MidstepMotion& step) const {
-  RepulsionContact& contact = line.contact;
-  const PairVectors x = positions(line, step);
-  const QuickProximity quick = quick_proximity(contact.kind, x);
-  if (!(quick.direction.dot(contact.normal) > 0)) return;
-  contact.x_t0 = x;
-  contact.normal = quick.direction;
-  contact.interaction.weights = quick.weights;
+  RepulsionContact now = line.contact;
+  QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
+  while (slides_on(now, nearest, step)) continue;
+  if (!(nearest.direction.dot(line.contact.normal) > 0)) return;
+  if (now.second != line.contact.second) {
+    now.interaction = make_interaction(now.kind, now.interaction.vertices, nearest.weights, surface_.inverse_mass);
+    now.properties = surface_.properties.of(now.kind, now.first, now.second);
+  }
+  now.x_t0 = positions(now.interaction.vertices, step);
+  now.normal = nearest.direction;
+  now.interaction.weights = nearest.weights;
+  line.contact = now;
   set(line);
+}
+
+/// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is
+/// nearer. A walk from face to face ends, because the distance falls.
+bool HeldContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest, const MidstepMotion& step) const {
+  if (contact.kind != PairKind::kVf) return false;
+  const std::array<VertexId, 4> from = contact.interaction.vertices;
+  const auto on_corner = [weights = nearest.weights](std::size_t k) { return weights[k] != 0; };
+  const auto corner = std::ranges::find_if(kCorners, on_corner);
+  if (corner == kCorners.end() || std::ranges::all_of(kCorners, on_corner)) return false;
+  bool slides = false;
+  for (const FaceId id : surface_.faces.of(from[*corner])) {
+    const auto& [a, b, c] = surface_.mesh.faces[static_cast<std::size_t>(id)];
+    const auto holds = [&](VertexId v) { return v == a || v == b || v == c; };
+    const auto is_beside = [&](std::size_t k) { return !on_corner(k) || holds(from[k]); };
+    if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
+    const std::array<VertexId, 4> pair{from[0], a, b, c};
+    const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, step));
+    if (!(other.distance < nearest.distance)) continue;
+    nearest = other;
+    contact.second = id;
+    contact.interaction.vertices = pair;
+    slides = true;
+  }
+  return slides;
 }
 
 void HeldContacts::rub(Line& line, const MidstepMotion& step) const {
@@ -149,15 +184,15 @@ void HeldContacts::rub(Line& line, const MidstepMotion& step) const {
   if (!change) return;
   line.rubbed = true;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (interaction.vertices[i] < cloth_count_) move(interaction.vertices[i], (*change)[i], step);
+    if (interaction.vertices[i] < surface_.cloth_count) move(interaction.vertices[i], (*change)[i], step);
   }
 }
 
-PairVectors HeldContacts::positions(const Line& line, const MidstepMotion& step) const {
+PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const {
   PairVectors x;
   for (std::size_t i = 0; i < 4; ++i) {
-    const VertexId vertex = line.contact.interaction.vertices[i];
-    if (vertex < cloth_count_) {
+    const VertexId vertex = vertices[i];
+    if (vertex < surface_.cloth_count) {
       x[i] = step.x_t1.row(vertex) - step.h * step.v.row(vertex);
     } else {
       x[i] = V_t0_.row(vertex) + (step.share - step.h / dt_s_) * (V_t1_.row(vertex) - V_t0_.row(vertex));
@@ -170,7 +205,7 @@ PairVectors HeldContacts::displacements(const Line& line, const MidstepMotion& s
   PairVectors moved;
   for (std::size_t i = 0; i < 4; ++i) {
     const VertexId vertex = line.contact.interaction.vertices[i];
-    if (vertex < cloth_count_) {
+    if (vertex < surface_.cloth_count) {
       moved[i] = step.h * step.v.row(vertex);
     } else {
       moved[i] = step.h / dt_s_ * (V_t1_.row(vertex) - V_t0_.row(vertex));

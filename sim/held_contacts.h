@@ -6,9 +6,12 @@
 #include <array>
 #include <vector>
 
+#include "sim/contact_table.h"
 #include "sim/friction.h"
 #include "sim/lane_vectors.h"
+#include "sim/quick_proximity.h"
 #include "sim/repulsion_contact.h"
+#include "sim/vertex_faces.h"
 
 namespace selvage::sim {
 
@@ -29,12 +32,22 @@ struct ContactLoad {
   double acceleration_m_s2;  ///< of the pair's relative motion, > 0
 };
 
+/// What the contacts are on; all must outlive them. The first `cloth_count` vertices move as the dynamics says, the
+/// others on straight lines.
+struct HeldSurface {
+  const Mesh& mesh;
+  const VertexFaces& faces;
+  const ContactTable& properties;
+  std::span<const double> inverse_mass;
+  Eigen::Index cloth_count;
+};
+
 class HeldContacts {
  public:
-  /// Of a collision step of dt_s from V_t0. The first `cloth_count` vertices move as the dynamics says, the others on
-  /// straight lines to V_t1. `loads` are those at V_t0, sorted. The positions must outlive it. `sweeps` >= 1.
+  /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted. `loads` are those at V_t0, sorted. The
+  /// positions must outlive it. `sweeps` >= 1.
   HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
-               const Positions& V_t0, const Positions& V_t1, Eigen::Index cloth_count, double dt_s, int sweeps);
+               const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
   /// The loads, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). A contact alone
   /// ends no nearer than its thickness, or than it was before the step, after any number of sweeps, and adds no
@@ -42,10 +55,12 @@ class HeldContacts {
   /// (interaction.h) it is pushed once, as far as that lets it. Of many something is left (tests/sim/physics_test.cpp
   /// asks their energy). They keep linear momentum. Every contact that presses is first looked at where it is now:
   /// held where they were at the start of the collision step, cloth that a ball pulls along at 3.6 m/s gained 8 % of
-  /// kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. In turn back and forth,
-  /// but vertices before edges always: in cloth at rest on a plane they leave nothing for the edges between them to
-  /// press, while edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever). Call for the
-  /// steps of a collision step in their order. O(contacts) a sweep, serial: same bits for any number of threads.
+  /// kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. A vertex that has left
+  /// its face is held by the one on which it is now: held by the border that it left, cloth without friction that slid
+  /// at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second. In turn back and forth, but vertices
+  /// before edges always: in cloth at rest on a plane they leave nothing for the edges between them to press, while
+  /// edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever). Call for the steps of a
+  /// collision step in their order. O(contacts) a sweep, serial: same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
   /// As they were last looked at, measured at V_t0: the collision step repels them where they are at its end.
@@ -78,16 +93,17 @@ class HeldContacts {
   static void learn(Line& line, const MidstepMotion& step);
   [[nodiscard]] double excess(const Line& line, const MidstepMotion& step) const;
   void look_again(Line& line, const MidstepMotion& step) const;
+  bool slides_on(RepulsionContact& contact, QuickProximity& nearest, const MidstepMotion& step) const;
   void rub(Line& line, const MidstepMotion& step) const;
   /// Of the contact's vertices at the start of the step, and what it moves them by.
-  [[nodiscard]] PairVectors positions(const Line& line, const MidstepMotion& step) const;
+  [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const;
   [[nodiscard]] PairVectors displacements(const Line& line, const MidstepMotion& step) const;
 
   std::vector<Line> lines_;
   std::vector<std::size_t> vf_, ee_;  ///< which of them are of either kind
+  HeldSurface surface_;
   const Positions& V_t0_;
   const Positions& V_t1_;
-  Eigen::Index cloth_count_;
   double dt_s_;
   int sweeps_;
   bool backwards_ = false;

@@ -26,9 +26,11 @@ class NearPairs {
 
   [[nodiscard]] std::size_t size() const { return pairs_.size(); }
 
-  /// Those that come nearer than their thickness, along their direction, in a motion from V_t0 to V_t1; ascending.
-  /// Where numbers overflow or features have no size a pair does.
-  [[nodiscard]] std::vector<std::size_t> approaching(const Positions& V_t0, const Positions& V_t1) const;
+  /// Those that come nearer than their thickness, along their direction, in a motion from V_t0 to V_t1; ascending. Or
+  /// that nearly do, and would if one of the two stood still, which the motion does not know, while the other fell by
+  /// `fall`. Where numbers overflow or features have no size a pair does.
+  [[nodiscard]] std::vector<std::size_t> approaching(const Positions& V_t0, const Positions& V_t1,
+                                                     const Vec3& fall = Vec3::Zero()) const;
 
   /// `pairs`, and all others that are as near as one of them to features on both sides: what a pair must be compared
   /// with to know whether its distance is a local minimum. Ascending, as `pairs`.

@@ -16,7 +16,7 @@ std::optional<RepulsionContact> make_contact(const PairProximity& pair, const Co
   RepulsionContact contact;
   contact.kind = pair.kind;
   contact.first = pair.first;
-  contact.second = pair.second;
+  contact.second = contact.second_t0 = pair.second;
   contact.interaction = make_interaction(pair.kind, pair.vertices, pair.proximity.weights, inverse_mass);
   contact.properties = properties;
   contact.x_t0 = gather(contact.interaction, V_t0);
@@ -31,7 +31,7 @@ std::optional<RepulsionContact> make_contact(const Collision& collision, const s
   RepulsionContact contact;
   contact.kind = collision.kind;
   contact.first = collision.first;
-  contact.second = collision.second;
+  contact.second = contact.second_t0 = collision.second;
   contact.interaction = make_interaction(collision.kind, vertices, collision.ccd.weights, inverse_mass);
   contact.properties = properties;
   contact.x_t0 = gather(contact.interaction, V_t0);

@@ -14,6 +14,7 @@ namespace selvage::sim {
 struct RepulsionContact {
   PairKind kind = PairKind::kVf;
   std::int32_t first = 0, second = 0;  ///< the pair, as in PairProximity
+  std::int32_t second_t0 = 0;          ///< that was met: a vertex slides on to other faces (held_contacts.h)
   Interaction interaction;
   ContactProperties properties;
   PairVectors x_t0 = zero_vectors();

@@ -31,15 +31,17 @@ void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, con
 
 void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
   for (const RepulsionContact& held : contacts) {
-    if (const auto place = near_.place(held.kind, held.first, held.second)) known_.push_back(*place);
+    for (const std::int32_t second : {held.second_t0, held.second}) {
+      if (const auto place = near_.place(held.kind, held.first, second)) known_.push_back(*place);
+    }
   }
   std::ranges::sort(known_);
   known_.erase(std::ranges::unique(known_).begin(), known_.end());
 }
 
-std::vector<PairProximity> StartProximities::find(const Positions& V_t1) {
+std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const Vec3& fall) {
   std::vector<std::size_t> found, known;
-  std::ranges::set_difference(near_.approaching(V_t0_, V_t1), known_, std::back_inserter(found));
+  std::ranges::set_difference(near_.approaching(V_t0_, V_t1, fall), known_, std::back_inserter(found));
   count_ += std::ssize(found);
   decide(found);
   std::ranges::set_union(known_, found, std::back_inserter(known));

@@ -13,36 +13,13 @@
 namespace selvage::sim {
 namespace {
 
-// Where no dynamics step is given: this part of the limit that Gershgorin's bound leaves. Springs that are compressed
-// or turn within the step are not in the bound; nine tenths was stable in every scene tried.
-constexpr double kStableShare = 0.9;
-
-// Implicit dynamics have no stable step to name the shortest collision step. In an eighth of the longest, cloth that
-// moves at 1 m/s against 1/60 s has 2 mm to go, which is about the thickness that repulsions reach.
-constexpr double kShortestImplicitShare = 1.0 / 8;
-
-double longest_step_s(const Scene& scene) { return scene.time.max_step_s.value_or(1 / scene.time.frames_per_s); }
-
-double dynamics_step_s(const Scene& scene, const World& world) {
-  if (scene.solver == Solver::kImplicit) return scene.time.dynamics_step_s.value_or(longest_step_s(scene));
-  return scene.time.dynamics_step_s.value_or(std::min(kStableShare * world.stable_step_s, 1 / scene.time.frames_per_s));
-}
-
-StepClock make_clock(const Scene& scene, const World& world) {
-  const double longest_s = longest_step_s(scene);
-  const double shortest_s = scene.time.min_step_s.value_or(
-      scene.solver == Solver::kImplicit ? kShortestImplicitShare * longest_s : dynamics_step_s(scene, world));
-  return StepClock(scene.time.frames_per_s, std::min(shortest_s, longest_s), longest_s);
-}
-
-std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world) {
+std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world, double step_s) {
   const StabilizerSystem* stabilizers = world.stabilizers.empty() ? nullptr : &world.stabilizers;
   if (scene.solver == Solver::kImplicit) {
     return std::make_unique<ImplicitDynamics>(
-        world.springs, ImplicitDynamicsOptions{{scene.gravity_m_s2, scene.drag_1_s, scene.quadratic_drag_1_m},
-                                               scene.strain,
-                                               dynamics_step_s(scene, world),
-                                               stabilizers});
+        world.springs,
+        ImplicitDynamicsOptions{
+            {scene.gravity_m_s2, scene.drag_1_s, scene.quadratic_drag_1_m}, scene.strain, step_s, stabilizers});
   }
   CentralDifferencesOptions options;
   options.gravity_m_s2 = scene.gravity_m_s2;
@@ -50,7 +27,7 @@ std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world) 
   options.quadratic_drag_1_m = scene.quadratic_drag_1_m;
   options.strain = scene.strain;
   options.stabilizers = stabilizers;
-  options.step_s = dynamics_step_s(scene, world);
+  options.step_s = step_s;
   return std::make_unique<CentralDifferences>(world.springs, options);
 }
 
@@ -76,9 +53,11 @@ bool touched(const CollisionStepReport& report) { return report.repulsions + rep
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
       world_(build_world(scene_)),
-      clock_(make_clock(scene_, world_)),
-      dynamics_(make_dynamics(scene_, world_)),
+      lengths_(scene_, world_),
+      clock_(lengths_.clock()),
+      dynamics_(make_dynamics(scene_, world_, lengths_.dynamics_s())),
       collision_step_(world_.mesh, scene_.collision, world_.contacts),
+      vertex_faces_(world_.mesh),
       x_(world_.x_t0),
       v_(world_.v_t0),
       patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
@@ -86,6 +65,7 @@ Simulation::Simulation(const Scene& scene)
 StepResult Simulation::step() {
   StepResult result;
   const StepClock::State start = clock_.state();
+  shortest_s_ = lengths_.shortest_s(v_.rows() > 0 ? v_.rowwise().norm().maxCoeff() : 0);
   waits_.assign(world_.colliders.size(), 0);
   Try tried = try_step(result);
   while (tried.failed || others_wait(tried)) {
@@ -134,33 +114,35 @@ Simulation::Try Simulation::try_step(StepResult& result) {
   std::vector<RepulsionContact> held;
   if (holds) {
     const PhaseTimer timer(result.phases.collision), within(result.phases.within.proximity);
-    held = collision_step_.find_contacts(x_, in_free_flight(candidate, dt_s), bodies());
+    const Vec3 fall = dt_s * dt_s / 2 * scene_.gravity_m_s2;
+    held = collision_step_.find_contacts(x_, in_free_flight(candidate, dt_s), bodies(), fall);
   }
   for (int round = holds ? 0 : kHoldingRounds;; ++round) {
     std::vector<RepulsionContact> held_to_the_end;
     {
       const PhaseTimer timer(result.phases.dynamics);
-      HeldContacts contacts(held, loads_, x_, candidate, world_.cloth_vertex_count, dt_s, scene_.contact_sweeps);
+      const HeldSurface surface{world_.mesh, vertex_faces_, collision_step_.contact_table(), inverse_mass_,
+                                world_.cloth_vertex_count};
+      HeldContacts contacts(held, loads_, surface, x_, candidate, dt_s, scene_.contact_sweeps);
       result.dynamics = advance_cloth(candidate, tried.end, held.empty() ? nullptr : &contacts);
       tried.held = contacts.count();
       tried.loads = contacts.loads();
       held_to_the_end = contacts.contacts();
     }
-    tried.failed = result.dynamics.unconverged > 0 && clock_.can_halve();
+    tried.failed = result.dynamics.unconverged > 0 && can_halve();
     if (tried.failed) return tried;
     const bool is_last = round == kHoldingRounds;
     {
       const PhaseTimer timer(result.phases.collision);
-      const Patience in_last = clock_.can_halve() ? patience_ : Patience{};
+      const Patience in_last = can_halve() ? patience_ : Patience{};
       const Patience patience = is_last ? in_last : Patience{few_collisions(), kImpulseRounds};
       tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held_to_the_end);
     }
     result.phases.within += tried.safe.report.phases;
     // Cut back by the collision step (travel_limit.h), which a shorter one need not do.
-    tried.failed = clock_.can_halve() && tried.safe.report.cut_candidates > 0;
+    tried.failed = can_halve() && tried.safe.report.cut_candidates > 0;
     if (tried.failed) return tried;
-    tried.failed =
-        tried.safe.report.status == StepStatus::kAbandoned || (clock_.can_halve() && overstrains(tried, candidate));
+    tried.failed = tried.safe.report.status == StepStatus::kAbandoned || (can_halve() && overstrains(tried, candidate));
     if (!tried.failed || is_last) return tried;
     if (tried.safe.met.empty()) round = kHoldingRounds - 1;  // another round would do the same
     held.insert(held.end(), tried.safe.met.begin(), tried.safe.met.end());
@@ -199,6 +181,7 @@ void Simulation::follow_script(const Collider& collider, Positions& x) const {
 }
 
 // Where a step leads without springs, and twice as deep as cloth falls in it: which contacts are likely to be pressed.
+// What lies on other cloth falls with it there, and is not: so those count, too, that one's fall alone would press.
 // Running the dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s).
 Positions Simulation::in_free_flight(Positions x, double dt_s) const {
   for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {

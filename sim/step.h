@@ -8,6 +8,7 @@
 #include "sim/held_contacts.h"
 #include "sim/phase_times.h"
 #include "sim/scene.h"
+#include "sim/step_lengths.h"
 #include "sim/time_step.h"
 #include "sim/world.h"
 
@@ -63,6 +64,7 @@ class Simulation {
   [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
   DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
   [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze}; }
+  [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
   /// That a step bears in all tries, and that count as none.
   [[nodiscard]] std::int64_t few_collisions() const;
   /// Whether contact presses more springs than are borne.
@@ -71,9 +73,12 @@ class Simulation {
 
   Scene scene_;
   World world_;
+  StepLengths lengths_;
   StepClock clock_;
+  double shortest_s_ = 0;  ///< of this step
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
+  VertexFaces vertex_faces_;
   Positions x_, v_;
   std::vector<ContactLoad> loads_;
   Patience patience_;                 ///< while the step can be halved

@@ -28,6 +28,10 @@ StepClock::StepClock(double frames_per_s, double shortest_s, double longest_s) :
   state_.good_steps_asked = kFewestGoodSteps;
 }
 
+bool StepClock::can_halve(double shortest_s) const {
+  return state_.level < max_level_ && dt_s() / 2 * kSlack >= shortest_s;
+}
+
 double StepClock::dt_s() const { return std::ldexp(1 / frames_per_s_, -state_.level); }
 
 double StepClock::time_at(std::int64_t tick) const {

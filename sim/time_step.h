@@ -36,7 +36,8 @@ class StepClock {
   [[nodiscard]] double end_s() const { return time_at(state_.tick + step_ticks()); }
   [[nodiscard]] double dt_s() const;
   [[nodiscard]] bool at_frame() const { return state_.tick == 0; }
-  [[nodiscard]] bool can_halve() const { return state_.level < max_level_; }
+  /// Whether half the step is no shorter than `shortest_s`, and than the constructor's.
+  [[nodiscard]] bool can_halve(double shortest_s = 0) const;
 
   void halve();
   /// The step is done. `good`: no collision was left after the repulsions.

@@ -1,0 +1,51 @@
+#include "sim/step_lengths.h"
+
+#include <algorithm>
+
+namespace selvage::sim {
+namespace {
+
+// Where no dynamics step is given: this part of the limit that Gershgorin's bound leaves. Springs that are compressed
+// or turn within the step are not in the bound; nine tenths was stable in every scene tried.
+constexpr double kStableShare = 0.9;
+
+// Implicit dynamics have no stable step to name the shortest collision step. In an eighth of the longest, cloth that
+// moves at 1 m/s against 1/60 s has 2 mm to go, which is about the thickness that repulsions reach.
+constexpr double kShortestImplicitShare = 1.0 / 8;
+
+// Two sheets of 24 x 24 vertices, 21 mm apart, that meet edge-on at 100 m/s: at the dynamics' step, 1.25 ms, their
+// springs came to 20 times their length or without end; a quarter of the mean spring allows 0.15 ms, and they came to
+// 3.2 times, with an eighth to 3.0 in 1.2 times the time.
+constexpr double kSpringShare = 1.0 / 4;
+constexpr double kLeastShare = 1.0 / 64;
+
+double mean_rest_length_m(const SpringSystem& springs) {
+  double sum_m = 0;
+  for (const Spring& spring : springs.springs()) sum_m += spring.rest_length_m;
+  return sum_m / std::max(1.0, static_cast<double>(springs.springs().size()));
+}
+
+}  // namespace
+
+StepLengths::StepLengths(const Scene& scene, const World& world)
+    : frames_per_s_(scene.time.frames_per_s),
+      longest_s_(scene.time.max_step_s.value_or(1 / frames_per_s_)),
+      dynamics_s_(longest_s_),
+      mean_spring_m_(mean_rest_length_m(world.springs)) {
+  const bool is_implicit = scene.solver == Solver::kImplicit;
+  if (!is_implicit) dynamics_s_ = std::min(kStableShare * world.stable_step_s, 1 / frames_per_s_);
+  dynamics_s_ = scene.time.dynamics_step_s.value_or(dynamics_s_);
+  const double shortest_s = is_implicit ? kShortestImplicitShare * longest_s_ : dynamics_s_;
+  shortest_s_ = std::min(scene.time.min_step_s.value_or(shortest_s), longest_s_);
+  const double most_steps_s = std::min(shortest_s_, kLeastStepShare / frames_per_s_);
+  least_s_ = scene.time.min_step_s ? shortest_s_ : std::max(kLeastShare * shortest_s_, most_steps_s);
+}
+
+double StepLengths::shortest_s(double fastest_m_s) const {
+  const double crossing_s = kSpringShare * mean_spring_m_ / fastest_m_s;  // infinite at rest
+  return crossing_s < shortest_s_ ? std::max(crossing_s, least_s_) : shortest_s_;
+}
+
+StepClock StepLengths::clock() const { return StepClock(frames_per_s_, least_s_, longest_s_); }
+
+}  // namespace selvage::sim

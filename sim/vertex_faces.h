@@ -1,0 +1,28 @@
+// The faces around each vertex: where the surface goes on beside a face.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kernel/mesh.h"
+
+namespace selvage::sim {
+
+class VertexFaces {
+ public:
+  /// O(#V + #F), 4 bytes for each corner and 8 for each vertex.
+  explicit VertexFaces(const Mesh& mesh);
+
+  /// Ascending.
+  [[nodiscard]] std::span<const FaceId> of(VertexId vertex) const {
+    const auto at = static_cast<std::size_t>(vertex);
+    return std::span(faces_).subspan(begin_[at], begin_[at + 1] - begin_[at]);
+  }
+
+ private:
+  std::vector<std::size_t> begin_;  ///< of each vertex's; one more at the end
+  std::vector<FaceId> faces_;
+};
+
+}  // namespace selvage::sim
