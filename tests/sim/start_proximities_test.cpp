@@ -120,6 +120,28 @@ TEST(StartProximities, PropDoNotDependOnWhatWasAskedBefore) {
   EXPECT_GT(answers, 1000);
 }
 
+TEST(StartProximities, OfClothThatRestsOnClothFindWhatAFallOfOneWouldPress) {
+  constexpr double kThickness = 0.01;
+  const auto found = [&](double gap_m, const Vec3& fall) {
+    StepScene scene;
+    scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
+    scene.add(make_sheet(4, 4, 0.08, 0.08), Vec3(0.01, 0.01, gap_m));
+    scene.options.thickness_m = kThickness;
+    const Mesh mesh = scene.mesh();
+    const ContactTable contacts(mesh, scene.options, {});
+    BoxHierarchy hierarchy(mesh);
+    StartProximities near(mesh, contacts);
+    near.start(hierarchy, scene.V_t0, std::vector<std::uint8_t>(scene.inverse_mass.size(), 1));
+    const Positions both_fallen = scene.V_t0.rowwise() + 2 * fall.transpose();
+    return near.find(both_fallen, fall).size();
+  };
+  EXPECT_GT(found(1.01 * kThickness, {0, 0, -0.02 * kThickness}), 10U);
+  EXPECT_GT(found(1.01 * kThickness, {0, 0, 0.02 * kThickness}), 10U) << "whichever of the two stands still";
+  EXPECT_EQ(found(1.03 * kThickness, {0, 0, -0.02 * kThickness}), 0U) << "farther apart than they fall";
+  EXPECT_EQ(found(1.01 * kThickness, {-0.02 * kThickness, 0, 0}), 0U) << "across";
+  EXPECT_EQ(found(1.2 * kThickness, {0, 0, -kThickness}), 0U) << "no rest";
+}
+
 TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
   StepScene scene;
   scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
