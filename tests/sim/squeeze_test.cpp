@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/catch_up.h"
 #include "sim/run_totals.h"
 #include "sim/scene_reader.h"
 #include "sim/scripted_groups.h"
@@ -135,6 +136,29 @@ TEST(Squeeze, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
   EXPECT_LT(steps, 300);
   const Positions end = ball.placed_at(simulation.clock().time_s(), false);
   EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), end) << "to the bit";
+}
+
+TEST(Squeeze, WhatHasWaitedFarFromItsScriptDoesNotJump) {
+  // Drawn aside by 0.3 m while it is pressed too deep, then lifted: where it is free it is far behind.
+  std::string text = kPressed;
+  const std::size_t keys = text.find("{time_s = 1.4"), end = text.find("]\n[[body]]\nname = \"ground\"");
+  text.replace(keys, end - keys,
+               "{time_s = 1, position_m = [0.3, 0, -0.12]}, {time_s = 1.5, position_m = [0.3, 0, 0.1]}");
+  Simulation simulation(parse_scene(text, "dragged.toml"));
+  const Collider& ball = simulation.world().colliders.front();
+  double fastest_m_s = 0, farthest_behind_m = 0;
+  while (simulation.clock().state().frame < 70) {
+    const Positions before = simulation.x()(ball.vertices(), Eigen::all);
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    const Positions now = simulation.x()(ball.vertices(), Eigen::all);
+    fastest_m_s = std::max(fastest_m_s, (now - before).row(0).norm() / step.dt_s);
+    const Positions script = ball.placed_at(simulation.clock().time_s(), false);
+    farthest_behind_m = std::max(farthest_behind_m, (script - now).row(0).norm());
+  }
+  EXPECT_GT(farthest_behind_m, 0.1);
+  EXPECT_LT(fastest_m_s, 1.1 * (farthest_behind_m / kCatchUpTime_s + 0.6)) << "its script goes at 0.5 m/s";
+  EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), ball.placed_at(simulation.clock().time_s(), false));
 }
 
 TEST(Squeeze, ABodyOfTheLargestNumberIsNoPin) {
