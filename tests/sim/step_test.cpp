@@ -80,9 +80,11 @@ TEST(Simulation, AStepThatGoesTooFarIsShortenedOrSaysThatItWasCut) {
   }
 }
 
-// In steps of the dynamics, in which they go five edges, springs came to 32 times their length; larger sheets needed
-// the fail-safe, which took their momentum.
-TEST(Simulation, SheetsThatMeetEdgeOnAt100MetersASecondStayWhole) {
+namespace {
+
+/// Two sheets meet edge-on at 100 m/s; the shortest step is the scene's where it is given. The longest of all springs,
+/// over its rest length, after 40 ms.
+double longest_after_edges_meet(const std::string& shortest, RunTotals& totals) {
   const auto sheet = [](const std::string& name, double z, double turn_deg, double speed_m_s) {
     return "[[cloth]]\nname = \"" + name +
            "\"\nsheet = {nx = 12, ny = 12, width_m = 0.25, height_m = 0.25}\nposition_m = [0.01, 0.01, " +
@@ -91,22 +93,43 @@ TEST(Simulation, SheetsThatMeetEdgeOnAt100MetersASecondStayWhole) {
            "]\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\n"
            "damping_ratio = 0.1\n";
   };
-  Simulation simulation(parse_scene(
-      "[time]\nframes_per_s = 200\nduration_s = 0.04\n[collision]\nthickness_m = 0.002\nfriction_static = 0.5\n" +
-          sheet("upper", 0.225, 0, -50) + sheet("lower", -0.225, 90, 50),
-      "edges.toml"));
+  Simulation simulation(parse_scene("[time]\nframes_per_s = 200\nduration_s = 0.04\n" + shortest +
+                                        "[collision]\nthickness_m = 0.002\nfriction_static = 0.5\n" +
+                                        sheet("upper", 0.225, 0, -50) + sheet("lower", -0.225, 90, 50),
+                                    "edges.toml"));
   const Positions start = simulation.x();
-  RunTotals totals;
-  while (simulation.clock().time_s() < 0.04 - 1e-9) totals.add(simulation.step());
-  EXPECT_GT(totals.repulsions, 1000);
-  EXPECT_EQ(totals.fail_safe_vertices, 0);
-  EXPECT_LT((simulation.x() - start).colwise().mean().norm(), 1e-9) << "both weigh the same";
+  while (simulation.clock().time_s() < 0.04 - 1e-9) {
+    const StepResult step = simulation.step();
+    const bool had_room = step.report.zone_rounds + step.report.fail_safe_rounds == 0;
+    EXPECT_TRUE(had_room || simulation.state().loads.empty());
+    totals.add(step);
+  }
+  if (totals.fail_safe_vertices == 0) {
+    EXPECT_LT((simulation.x() - start).colwise().mean().norm(), 1e-9) << "both weigh the same";
+  }
   double longest = 0;
   for (const Spring& spring : simulation.world().springs.springs()) {
     const double length_m = (simulation.x().row(spring.a) - simulation.x().row(spring.b)).norm();
     longest = std::max(longest, length_m / spring.rest_length_m);
   }
-  EXPECT_LT(longest, 3);
+  return longest;
+}
+
+}  // namespace
+
+TEST(Simulation, SheetsThatMeetEdgeOnAt100MetersASecondStayWhole) {
+  // In steps of the dynamics, in which they go five edges, springs came to 32 times their length; larger sheets needed
+  // the fail-safe, which took their momentum.
+  RunTotals totals;
+  EXPECT_LT(longest_after_edges_meet("", totals), 3);
+  EXPECT_GT(totals.repulsions, 1000);
+  EXPECT_EQ(totals.fail_safe_vertices, 0);
+}
+
+TEST(Simulation, WhatPressesInAJamIsNotLearntAsWeight) {
+  RunTotals totals;
+  EXPECT_LT(longest_after_edges_meet("min_step_s = 0.00125\n", totals), 100) << "at steps that are too long";
+  EXPECT_GT(totals.zone_rounds, 0);
 }
 
 TEST(Simulation, AfterContactGravityActsForTheSecondHalfOfTheStep) {
