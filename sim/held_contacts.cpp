@@ -19,6 +19,10 @@ constexpr double kLearning = 0.5;
 /// without, 0.8 to 3 under one (docs/simulator-speed.md).
 constexpr double kOverRelaxation = 1.7;
 
+/// As far as another face must be nearer to count: above rounding, which has a vertex over an edge go back and forth;
+/// on a flat surface it has slid over the border by 1.4e-3 of its distance then.
+constexpr double kNearer = 1 - 1e-6;
+
 constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
 
 void move(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
@@ -39,12 +43,24 @@ HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const 
     (contact.kind == PairKind::kVf ? vf_ : ee_).push_back(lines_.size());
     lines_.push_back({.contact = contact});
     set(lines_.back());
-    if (contact.kind != PairKind::kVf) continue;
-    const auto load = std::ranges::lower_bound(loads, std::pair(contact.first, contact.second), {}, pair_of);
-    if (load != loads.end() && pair_of(*load) == std::pair(contact.first, contact.second)) {
-      lines_.back().load_m_s2 = load->acceleration_m_s2;
-    }
   }
+  for (const std::size_t at : vf_) lines_[at].load_m_s2 = load_of(lines_[at].contact, loads);
+}
+
+/// That of its pair; else that of the vertex on a face beside. Over an edge or a corner of the surface a vertex lies on
+/// any of the faces there, and another may have been found than the one that bore it. Several may begin with one load:
+/// what is too much they take back.
+double HeldContacts::load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const {
+  const auto [begin, end] = std::ranges::equal_range(loads, contact.first, {}, &ContactLoad::vertex);
+  auto load = std::find_if(begin, end, [&](const ContactLoad& l) { return l.face == contact.second; });
+  if (load == end) load = std::find_if(begin, end, [&](const ContactLoad& l) { return touch(l.face, contact.second); });
+  return load == end ? 0 : load->acceleration_m_s2;
+}
+
+bool HeldContacts::touch(FaceId a, FaceId b) const {
+  const auto& of_a = surface_.mesh.faces[static_cast<std::size_t>(a)];
+  const auto& of_b = surface_.mesh.faces[static_cast<std::size_t>(b)];
+  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
 void HeldContacts::set(Line& line) const {
@@ -101,6 +117,7 @@ void HeldContacts::hold(Line& line, double relaxation, const MidstepMotion& step
   if (!(line.load_m_s2 > 0 || line.pushed > 0)) {  // else it has been looked at in this step
     if (!(change > 0)) return;
     look_again(line, step);
+    if (relaxation != 1 && line.lever_share < 1) return;
     change = excess(line, step);
   }
   push(line, change > 0 ? relaxation * change : std::max(change, -line.pushed), step);
@@ -139,12 +156,13 @@ void HeldContacts::look_again(Line& line, const MidstepMotion& step) const {
   while (slides_on(now, nearest, step)) continue;
   if (!(nearest.direction.dot(line.contact.normal) > 0)) return;
   if (now.second != line.contact.second) {
-    now.interaction = make_interaction(now.kind, now.interaction.vertices, nearest.weights, surface_.inverse_mass);
+    now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
   }
   now.x_t0 = positions(now.interaction.vertices, step);
   now.normal = nearest.direction;
   now.interaction.weights = nearest.weights;
+  if (!(effective_mobility(now.interaction) > 0)) return;  // all of it on vertices that cannot move
   line.contact = now;
   set(line);
 }
@@ -165,7 +183,7 @@ bool HeldContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest,
     if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
     const std::array<VertexId, 4> pair{from[0], a, b, c};
     const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, step));
-    if (!(other.distance < nearest.distance)) continue;
+    if (!(other.distance < kNearer * nearest.distance)) continue;
     nearest = other;
     contact.second = id;
     contact.interaction.vertices = pair;

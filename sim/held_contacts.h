@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "sim/contact_table.h"
@@ -86,6 +87,8 @@ class HeldContacts {
     bool repelled = false, rubbed = false;
   };
 
+  [[nodiscard]] double load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const;
+  [[nodiscard]] bool touch(FaceId a, FaceId b) const;
   void set(Line& line) const;
   void bear(Line& line, const MidstepMotion& step) const;
   void hold(Line& line, double relaxation, const MidstepMotion& step) const;

@@ -72,7 +72,7 @@ Simulation::Simulation(const Scene& scene)
 StepResult Simulation::step() {
   StepResult result;
   const StepClock::State start = clock_.state();
-  shortest_s_ = lengths_.shortest_s(v_.rows() > 0 ? v_.rowwise().norm().maxCoeff() : 0);
+  shortest_s_ = lengths_.shortest_s(0);
   waits_.assign(world_.colliders.size(), 0);
   Try tried = try_step(result);
   while (tried.failed || others_wait(tried)) {
@@ -93,7 +93,8 @@ StepResult Simulation::step() {
     commit(tried.safe, std::move(tried.end));
     loads_ = had_room(tried.safe.report) ? std::move(tried.loads) : std::vector<ContactLoad>();
     const bool few = tried.safe.report.first_collisions <= few_collisions();
-    clock_.advance(few && result.dynamics.unconverged == 0);
+    const bool is_too_short = 2 * clock_.dt_s() <= shortest_s_;  // for what meets now: it was faster
+    clock_.advance((few || is_too_short) && result.dynamics.unconverged == 0);
   }
   result.report = std::move(tried.safe.report);
   result.report.repulsions += tried.held.repulsions;
@@ -140,11 +141,17 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     const bool is_last = round == kHoldingRounds;
     {
       const PhaseTimer timer(result.phases.collision);
-      const Patience in_last = can_halve() ? patience_ : Patience{};
-      const Patience patience = is_last ? in_last : Patience{few_collisions(), kImpulseRounds};
-      tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held_to_the_end);
+      const auto resolve = [&](const Patience& patience) {
+        tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held_to_the_end);
+        result.phases.within += tried.safe.report.phases;
+      };
+      const Patience in_last = clock_.can_halve() ? patience_ : Patience{};
+      resolve(is_last ? in_last : Patience{few_collisions(), kImpulseRounds});
+      const double fastest_m_s =
+          std::max(fastest_contact(held_to_the_end, candidate), fastest_contact(tried.safe.met, candidate));
+      shortest_s_ = lengths_.shortest_s(fastest_m_s);
+      if (is_last && tried.safe.report.status == StepStatus::kAbandoned && !can_halve()) resolve(Patience{});
     }
-    result.phases.within += tried.safe.report.phases;
     // Cut back by the collision step (travel_limit.h), which a shorter one need not do.
     tried.failed = can_halve() && tried.safe.report.cut_candidates > 0;
     if (tried.failed) return tried;
@@ -205,6 +212,22 @@ DynamicsReport Simulation::advance_cloth(Positions& candidate, Motion& end, Held
       dynamics_->advance(end, candidate.topRows(cloth), inverse_mass_, clock_.dt_s(), contacts);
   candidate.topRows(cloth) = end.x;
   return report;
+}
+
+/// How fast, at the start of the step, the points of any of these contacts move against each other; m/s.
+double Simulation::fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const {
+  double fastest_m_s = 0;
+  for (const RepulsionContact& contact : contacts) {
+    PairVectors v;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const VertexId vertex = contact.interaction.vertices[i];
+      const bool is_cloth = inverse_mass_[static_cast<std::size_t>(vertex)] > 0;
+      v[i] = v_.row(vertex);
+      if (!is_cloth) v[i] = (candidate.row(vertex) - x_.row(vertex)) / clock_.dt_s();
+    }
+    fastest_m_s = std::max(fastest_m_s, relative(contact.interaction, v).norm());
+  }
+  return fastest_m_s;
 }
 
 std::int64_t Simulation::few_collisions() const { return patience_.collisions / kGoodShare; }

@@ -65,6 +65,7 @@ class Simulation {
   DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
   [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze}; }
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
+  [[nodiscard]] double fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const;
   /// That a step bears in all tries, and that count as none.
   [[nodiscard]] std::int64_t few_collisions() const;
   /// Whether contact presses more springs than are borne.
@@ -75,7 +76,7 @@ class Simulation {
   World world_;
   StepLengths lengths_;
   StepClock clock_;
-  double shortest_s_ = 0;  ///< of this step
+  double shortest_s_ = 0;  ///< for what meets in this step
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
   VertexFaces vertex_faces_;

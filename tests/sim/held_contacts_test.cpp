@@ -350,6 +350,22 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
   }
 }
 
+TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
+  // Over the border of two faces a vertex lies on either.
+  constexpr double kLoad = 7;
+  TwoFaces scene;
+  const auto learnt = [&](const std::vector<ContactLoad>& loads) {
+    HeldContacts held({scene.one.contact}, loads, scene.ground.surface(1), scene.V, scene.V, kStep, 1);
+    const std::vector<ContactLoad> begun = held.loads();
+    return begun.empty() ? 0 : begun.front().acceleration_m_s2;
+  };
+  EXPECT_EQ(learnt({{0, 0, kLoad}}), kLoad);
+  EXPECT_EQ(learnt({{0, 1, kLoad}}), kLoad);
+  EXPECT_EQ(learnt({{0, 0, kLoad}, {0, 1, 3}}), kLoad) << "its own first";
+  EXPECT_EQ(learnt({{1, 0, kLoad}}), 0) << "another vertex";
+  EXPECT_EQ(learnt({}), 0);
+}
+
 TEST(HeldContacts, DoNotGoOnToAFaceThatHoldsTheVertex) {
   // The second face's last corner is the vertex itself.
   OneContact one = vertex_over_body({0, -2.1 / kStep, 0});

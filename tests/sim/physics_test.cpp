@@ -364,8 +364,8 @@ TEST(Physics, SheetComesToRestAndStays) {
 }
 
 TEST(Physics, SheetsThatLieOnOneAnotherKeepTheirDistances) {
-  // Of 30 mm 23.1 are left, which is lost where the stack is put down. Where loads ended with a collision step 19.1
-  // were, without loads 18.2, and 17 tries were thrown away.
+  // Of 30 mm 27.0 are left, which is lost where the stack is put down. Where loads ended with a collision step 19.1
+  // were, without loads 18.2, and 17 tries were thrown away; 23.1 where what rests was held from the second round on.
   constexpr int kLayers = 10, kVertices = 4 * 4;
   Simulation simulation(
       parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.5\n"
@@ -379,7 +379,26 @@ TEST(Physics, SheetsThatLieOnOneAnotherKeepTheirDistances) {
   while (simulation.clock().time_s() < 0.5 - 1e-9) halvings += simulation.step().halvings;
   EXPECT_EQ(halvings, 0);
   const double top = mean(simulation.x(), kVertices * (kLayers - 1), kVertices * kLayers).z();
-  EXPECT_GT(top, 0.72 * kLayers * 0.003);
+  EXPECT_GT(top, 0.85 * kLayers * 0.003);
+}
+
+TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
+  // Each vertex lies over a corner of six faces, any of which may be found to bear it. Of 40 mm 28.3 are left; 25.5,
+  // and 7 tries were thrown away, where a load was lost with the face that bore it.
+  constexpr int kLayers = 10, kVertices = 6 * 6;
+  Simulation simulation(
+      parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 0.5\n"
+                  "[collision]\nthickness_m = 0.004\nfriction_static = 0.3\n"
+                  "[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.25, height_m = 0.25}\ncopies = 10\n"
+                  "copy_offset_m = [0, 0, 0.0041]\nposition_m = [0, 0, 0.0041]\ndensity_kg_m2 = 0.2\n"
+                  "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\ndamping_ratio = 0.1\n"
+                  "[[body]]\nsheet = {nx = 11, ny = 11, width_m = 0.5, height_m = 0.5}\n",
+                  "aligned.toml"));
+  std::int64_t halvings = 0;
+  while (simulation.clock().time_s() < 0.5 - 1e-9) halvings += simulation.step().halvings;
+  EXPECT_EQ(halvings, 0);
+  const double top = mean(simulation.x(), kVertices * (kLayers - 1), kVertices * kLayers).z();
+  EXPECT_GT(top, 0.68 * kLayers * 0.004);
 }
 
 TEST(Physics, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {

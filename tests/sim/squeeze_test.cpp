@@ -138,6 +138,19 @@ TEST(Squeeze, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
   EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), end) << "to the bit";
 }
 
+TEST(Squeeze, AFastBodyFarAwayMakesNoStepShorter) {
+  const std::string fan =
+      "[[body]]\nname = \"fan\"\nbox = {size_m = [2, 0.02, 0.1]}\nposition_m = [30, 0, 1]\ninterpolation = \"linear\"\n"
+      "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 14400]}]\n";
+  const auto steps = [](const std::string& scene) {
+    Simulation simulation(parse_scene(scene, "pressed.toml"));
+    std::int64_t count = 0;
+    for (; simulation.clock().state().frame < 15; ++count) simulation.step();
+    return count;
+  };
+  EXPECT_EQ(steps(kPressed + fan), steps(kPressed));
+}
+
 TEST(Squeeze, WhatHasWaitedFarFromItsScriptDoesNotJump) {
   // Drawn aside by 0.3 m while it is pressed too deep, then lifted: where it is free it is far behind.
   std::string text = kPressed;
