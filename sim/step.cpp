@@ -145,6 +145,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
         tried.safe = collision_step_(x_, candidate, bodies(), dt_s, patience, held_to_the_end);
         result.phases.within += tried.safe.report.phases;
       };
+      // Given up early where a shorter step may be tried. How short it may be, what meets will say.
       const Patience in_last = clock_.can_halve() ? patience_ : Patience{};
       resolve(is_last ? in_last : Patience{few_collisions(), kImpulseRounds});
       const double fastest_m_s =

@@ -1,6 +1,7 @@
 // The exact verdict on one step of a simulation.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sim/points.h"

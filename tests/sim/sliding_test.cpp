@@ -21,12 +21,12 @@ std::string start(double friction, double duration_s) {
          "\n[collision]\nthickness_m = 0.004\nfriction_static = " + std::to_string(friction) + "\n";
 }
 
+const std::string kMaterial =
+    "density_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\ndamping_ratio = 0.1\n";
+
 /// Edges of 33 mm; `place` says where, and how fast.
 std::string sheet(const std::string& place) {
-  return "[[cloth]]\nsheet = {nx = 10, ny = 10, width_m = 0.3, height_m = 0.3}\n" + place +
-         "\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\ndamping_ratio "
-         "= "
-         "0.1\n";
+  return "[[cloth]]\nsheet = {nx = 10, ny = 10, width_m = 0.3, height_m = 0.3}\n" + place + "\n" + kMaterial;
 }
 
 /// Flat, of cells of 20 mm by 25 mm.
@@ -89,10 +89,9 @@ TEST(Sliding, OnClothThatLiesOnTheGroundIsAsOnTheGround) {
   // Both fall in the free flight that tells which contacts are pressed: the upper one was let fall through the lower
   // one, thrown back at the end of every step, and lost 0.09 of 1.5 m/s in a second.
   Slide slide(start(0, 0.3) + sheet("position_m = [-0.3, 0.007, 0.0081]\nvelocity_m_s = [1.5, 0, 0]") +
-              "[[cloth]]\nname = \"under\"\nsheet = {nx = 31, ny = 16, width_m = 1.2, height_m = 0.6}\nposition_m = "
-              "[0, 0, 0.0041]\n"
-              "density_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\n"
-              "damping_ratio = 0.1\n[[body]]\nsheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}\n");
+              "[[cloth]]\nname = \"under\"\nsheet = {nx = 31, ny = 16, width_m = 1.2, height_m = 0.6}\n"
+              "position_m = [0, 0, 0.0041]\n" +
+              kMaterial + "[[body]]\nsheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}\n");
   slide.run_to(0.3);
   EXPECT_LT(slide.largest_error_m_s({1.5, 0, 0}), 0.01);
   EXPECT_GT(slide.x().col(2).minCoeff(), 1.95 * kThickness);
