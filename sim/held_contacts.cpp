@@ -91,8 +91,7 @@ void HeldContacts::hold(const MidstepMotion& step) {
     for (const std::vector<std::size_t>* kind : {&vf_, &ee_}) {
       for (std::size_t k = 0; k < kind->size(); ++k) {
         Line& line = lines_[(*kind)[backwards_ ? kind->size() - 1 - k : k]];
-        if (!is_last && line.lever_share < 1) continue;  // once, or the limit of its lever would not hold
-        hold(line, is_last ? 1 : kOverRelaxation, step);
+        hold(line, is_last, step);
         if (!is_last || !(line.pushed > 0)) continue;
         line.repelled = true;
         rub(line, step);
@@ -107,20 +106,20 @@ void HeldContacts::hold(const MidstepMotion& step) {
 void HeldContacts::bear(Line& line, const MidstepMotion& step) const {
   line.pushed = 0;
   if (!(line.load_m_s2 > 0)) return;
-  look_again(line, step);
+  if (!look_again(line, step)) line.load_m_s2 = 0;
   if (line.lever_share == 1) push(line, line.load_m_s2 * step.h * step.h, step);  // else what is missing, once
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
-void HeldContacts::hold(Line& line, double relaxation, const MidstepMotion& step) const {
+void HeldContacts::hold(Line& line, bool is_last, const MidstepMotion& step) const {
   double change = excess(line, step);
   if (!(line.load_m_s2 > 0 || line.pushed > 0)) {  // else it has been looked at in this step
     if (!(change > 0)) return;
-    look_again(line, step);
-    if (relaxation != 1 && line.lever_share < 1) return;
+    if (!look_again(line, step)) return;
     change = excess(line, step);
   }
-  push(line, change > 0 ? relaxation * change : std::max(change, -line.pushed), step);
+  if (!is_last && line.lever_share < 1) return;  // once, or the limit of its lever would not hold
+  push(line, change > 0 ? (is_last ? 1 : kOverRelaxation) * change : std::max(change, -line.pushed), step);
 }
 
 void HeldContacts::learn(Line& line, const MidstepMotion& step) {
@@ -149,12 +148,13 @@ double HeldContacts::excess(const Line& line, const MidstepMotion& step) const {
   return std::min(overlap, approach);
 }
 
-/// The pair's nearest points now; features that have passed through each other are left to the collision step.
-void HeldContacts::look_again(Line& line, const MidstepMotion& step) const {
+/// The pair's nearest points now; features that have passed through each other are left to the collision step. Whether
+/// the line can act: not where the points are all on vertices that cannot move.
+bool HeldContacts::look_again(Line& line, const MidstepMotion& step) const {
   RepulsionContact now = line.contact;
   QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
   while (slides_on(now, nearest, step)) continue;
-  if (!(nearest.direction.dot(line.contact.normal) > 0)) return;
+  if (!(nearest.direction.dot(line.contact.normal) > 0)) return true;
   if (now.second != line.contact.second) {
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
@@ -162,9 +162,10 @@ void HeldContacts::look_again(Line& line, const MidstepMotion& step) const {
   now.x_t0 = positions(now.interaction.vertices, step);
   now.normal = nearest.direction;
   now.interaction.weights = nearest.weights;
-  if (!(effective_mobility(now.interaction) > 0)) return;  // all of it on vertices that cannot move
+  if (!(effective_mobility(now.interaction) > 0)) return false;
   line.contact = now;
   set(line);
+  return true;
 }
 
 /// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is

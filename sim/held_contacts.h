@@ -91,11 +91,11 @@ class HeldContacts {
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
   void set(Line& line) const;
   void bear(Line& line, const MidstepMotion& step) const;
-  void hold(Line& line, double relaxation, const MidstepMotion& step) const;
+  void hold(Line& line, bool is_last, const MidstepMotion& step) const;
   static void push(Line& line, double change, const MidstepMotion& step);
   static void learn(Line& line, const MidstepMotion& step);
   [[nodiscard]] double excess(const Line& line, const MidstepMotion& step) const;
-  void look_again(Line& line, const MidstepMotion& step) const;
+  [[nodiscard]] bool look_again(Line& line, const MidstepMotion& step) const;
   bool slides_on(RepulsionContact& contact, QuickProximity& nearest, const MidstepMotion& step) const;
   void rub(Line& line, const MidstepMotion& step) const;
   /// Of the contact's vertices at the start of the step, and what it moves them by.

@@ -5,9 +5,11 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "kernel/assert.h"
 #include "sim/parallel.h"
+#include "sim/vertex_faces.h"
 
 namespace selvage::sim {
 namespace {
@@ -20,9 +22,10 @@ struct Ring {
 
 // The faces at a vertex as arrows from neighbour to neighbour; one closed chain is an inner vertex, one open chain a
 // boundary.
-Ring ring_of(VertexId vertex, const std::vector<std::array<VertexId, 3>>& faces_at) {
+Ring ring_of(VertexId vertex, const Mesh& mesh, std::span<const FaceId> faces_at) {
   std::map<VertexId, VertexId> next, previous;
-  for (const auto& f : faces_at) {
+  for (const FaceId face : faces_at) {
+    const auto& f = mesh.faces[static_cast<std::size_t>(face)];
     const std::size_t k = f[0] == vertex ? 0 : (f[1] == vertex ? 1 : 2);
     const VertexId from = f[(k + 1) % 3], to = f[(k + 2) % 3];
     if (!next.emplace(from, to).second || !previous.emplace(to, from).second) return {};
@@ -126,14 +129,12 @@ RingWeights ring_weights(std::int32_t n) {
 LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
     : edges_(coarse.edges), coarse_count_(coarse.vertex_count) {
   const auto vertex_count = static_cast<std::size_t>(coarse_count_);
-  std::vector<std::vector<std::array<VertexId, 3>>> faces_at(vertex_count);
   std::vector<std::uint8_t> stays(vertex_count, 0);
   std::vector<std::vector<VertexId>> opposite(edges_.size());
   for (std::size_t f = 0; f < coarse.faces.size(); ++f) {
     const auto& face = coarse.faces[f];
     std::array<VertexId, 3> middle{};
     for (std::size_t k = 0; k < 3; ++k) {
-      faces_at[static_cast<std::size_t>(face[k])].push_back(face);
       if (!rigid.empty() && rigid[f] != 0) stays[static_cast<std::size_t>(face[k])] = 1;
       opposite[static_cast<std::size_t>(coarse.face_edges[f][k])].push_back(face[k]);
       middle[k] = coarse_count_ + coarse.face_edges[f][k];
@@ -141,8 +142,9 @@ LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
     for (std::size_t k = 0; k < 3; ++k) triangles_.push_back({face[k], middle[(k + 2) % 3], middle[(k + 1) % 3]});
     triangles_.push_back(middle);
   }
+  const VertexFaces faces(coarse);
   std::vector<Ring> rings;
-  for (std::size_t v = 0; v < vertex_count; ++v) rings.push_back(ring_of(static_cast<VertexId>(v), faces_at[v]));
+  for (VertexId v = 0; v < coarse_count_; ++v) rings.push_back(ring_of(v, coarse, faces.of(v)));
   for (std::size_t v = 0; v < vertex_count; ++v) {
     rows_.push_back(stays[v] != 0 ? std::vector<RuleTerm>{} : vertex_rule(static_cast<VertexId>(v), rings[v]));
   }

@@ -19,8 +19,8 @@ namespace {
 /// far above 2^-52, far below what tells two pairs apart.
 constexpr double kRounding = 1 + 1e-6;
 
-/// Of the thickness: as far as a fall counts. Cloth that rests on cloth is nearer than that; without a limit
-/// sim/scenes/curtain.toml takes up to 1.15 times the time, with it 1.0 to 1.07 (docs/simulator-speed.md).
+/// Of the thickness: as far as a fall counts. Cloth that rests on cloth is nearer than that. Without a limit stretches
+/// of sim/scenes/curtain.toml take up to 1.25 times the time, with it up to 1.13 (docs/simulator-speed.md).
 constexpr double kMostFallShare = 1.0 / 8;
 
 /// Candidates of one task. The tasks are the same for any number of threads, and so is the order of what they find.

@@ -83,6 +83,13 @@ struct OneContact {
   }
 };
 
+/// One step of the dynamics in which the first vertex moves at v, m/s.
+void move_and_hold(OneContact& one, HeldContacts& held, const Eigen::RowVector3d& v, double share) {
+  one.v.row(0) = v;
+  one.x.row(0) += kStep * v;
+  held.hold({kStep, share, one.x, one.v});
+}
+
 /// A vertex a thickness above the middle of a face of a body, which moves by `moved` within the step.
 OneContact vertex_over_body(const Vec3& velocity, const Vec3& moved = Vec3::Zero()) {
   RandomPair pair;
@@ -239,7 +246,8 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
   // The only free corner of a face, 32 times as far from the body's vertex below it as the corners that are held. The
   // vertex rises.
   constexpr double kLever = 32, kRise = 1e-3;
-  for (const int sweeps : {1, 4}) {
+  for (const auto& [sweeps, is_found_late] : {std::pair(1, false), {4, false}, {1, true}, {4, true}}) {
+    SCOPED_TRACE(::testing::Message() << sweeps << " sweeps, the lever is " << (is_found_late ? "found" : "known"));
     Positions V(4, 3), V_t1(4, 3);
     V << 0, 1, kThickness, 0, 1 / kLever, 0, -2, 0, kThickness, 2, 0, kThickness;
     V_t1 = V;
@@ -249,6 +257,7 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
         make_interaction(PairKind::kVf, {1, 2, 3, 0}, {1, (1 - 1 / kLever) / 2, (1 - 1 / kLever) / 2, 1 / kLever},
                          std::array<double, 4>{1, 0, 0, 0});
     ASSERT_LT(lever_share(contact.interaction), 0.5);
+    if (is_found_late) contact.interaction.weights = {1, -1.0 / 3, -1.0 / 3, -1.0 / 3};
     contact.x_t0 = gather(contact.interaction, V);
     contact.normal = -Vec3::UnitZ();
     contact.properties.thickness_m = kThickness;
@@ -262,6 +271,31 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
     const double moved = x.row(0).z() - V(0, 2);
     EXPECT_NEAR(moved, kMaxLever * kRise, 1e-3 * kRise) << sweeps;
     EXPECT_TRUE(held.loads().empty());
+  }
+}
+
+TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
+  // The body's vertex has come to be over a held corner of the face; the contact was that of the middle.
+  Positions V(4, 3);
+  V << 0, 2, 0, -2, 0, 0, 2, 0, 0, 2, 0, kThickness / 2;
+  RepulsionContact contact;
+  contact.interaction =
+      make_interaction(PairKind::kVf, {3, 0, 1, 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, std::array<double, 4>{1, 0, 0, 0});
+  contact.x_t0 = gather(contact.interaction, V);
+  contact.normal = Vec3::UnitZ();
+  contact.properties.thickness_m = kThickness;
+  const Ground ground(Faces{{0, 1, 2}}, {1, 0, 0, 0});
+  for (const double load_m_s2 : {0.0, 5.0}) {
+    LaneVectors x, v;
+    x.copy(V.topRows(3));
+    v.resize(3);
+    v.set_zero();
+    v.row(0) = Eigen::RowVector3d(0, 0, 1);
+    x.row(0) += kStep * v.row(0);
+    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(3), V, V, kStep, 1);
+    held.hold({kStep, 1, x, v});
+    EXPECT_EQ(Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(0, 0, 1));
+    EXPECT_EQ(held.count().repulsions, 0);
   }
 }
 
@@ -324,16 +358,10 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
     SCOPED_TRACE(to_x);
     TwoFaces scene;
     OneContact& one = scene.one;
-    one.v.row(0) = Eigen::RowVector3d(to_x, -2.5, 0) / kStep;
     const std::vector<RepulsionContact> contacts{one.contact};
     HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, 3 * kStep, 1);
-    one.x.row(0) += kStep * one.v.row(0);
-    held.hold({kStep, 1.0 / 3, one.x, one.v});
-    for (const double share : {2.0 / 3, 1.0}) {
-      one.v.row(0) = Eigen::RowVector3d(0, 0, -0.5);
-      one.x.row(0) += kStep * one.v.row(0);
-      held.hold({kStep, share, one.x, one.v});
-    }
+    move_and_hold(one, held, {to_x / kStep, -2.5 / kStep, 0}, 1.0 / 3);
+    for (const double share : {2.0 / 3, 1.0}) move_and_hold(one, held, {0, 0, -0.5}, share);
     if (to_x == -2.5) {  // beside both faces: 0.6 m to the border, nothing holds it
       EXPECT_EQ(held.count().repulsions, 0);
       continue;
@@ -368,30 +396,24 @@ TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
 
 TEST(HeldContacts, DoNotGoOnToAFaceThatHoldsTheVertex) {
   // The second face's last corner is the vertex itself.
-  OneContact one = vertex_over_body({0, -2.1 / kStep, 0});
+  OneContact one = vertex_over_body(Vec3::Zero());
   const Ground ground(Faces{{1, 2, 3}, {2, 1, 0}}, {1, 0, 0, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
   HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kStep, 1);
-  one.x.row(0) += kStep * one.v.row(0);
-  held.hold({kStep, 0.5, one.x, one.v});
-  one.v.row(0) = Eigen::RowVector3d(0, 0, -0.5);
-  one.x.row(0) += kStep * one.v.row(0);
-  held.hold({kStep, 1, one.x, one.v});
+  move_and_hold(one, held, {0, -2.1 / kStep, 0}, 0.5);
+  move_and_hold(one, held, {0, 0, -0.5}, 1);
   EXPECT_EQ(held.contacts().front().second, 0);
 }
 
 TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
   // Two steps: to the side, then down. The face ends at y = -2.
   for (const double to_y : {-1.9, -2.5}) {
-    OneContact one = vertex_over_body({0, to_y / kStep, 0});
+    OneContact one = vertex_over_body(Vec3::Zero());
     const std::vector<RepulsionContact> contacts{one.contact};
     const Ground ground = one_face();
     HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kStep, 1);
-    one.x.row(0) += kStep * one.v.row(0);
-    held.hold({kStep, 0.5, one.x, one.v});
-    one.v.row(0) = Eigen::RowVector3d(0, 0, -0.5);
-    one.x.row(0) += kStep * one.v.row(0);
-    held.hold({kStep, 1, one.x, one.v});
+    move_and_hold(one, held, {0, to_y / kStep, 0}, 0.5);
+    move_and_hold(one, held, {0, 0, -0.5}, 1);
     EXPECT_EQ(held.count().repulsions, to_y > -2 ? 1 : 0);
     EXPECT_EQ(one.distance() < kThickness, to_y < -2);
   }
