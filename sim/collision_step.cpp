@@ -11,6 +11,7 @@
 #include "sim/friction.h"
 #include "sim/impact_zone.h"
 #include "sim/impulse.h"
+#include "sim/parallel.h"
 #include "sim/repulsion.h"
 #include "sim/scripted_groups.h"
 #include "sim/start_proximities.h"
@@ -29,9 +30,15 @@ constexpr int kFirstSweeps = 2;
 
 std::vector<RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table,
                                             const Positions& V_t0, std::span<const double> inverse_mass) {
+  std::vector<std::optional<RepulsionContact>> made(pairs.size());
+  parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
+    const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
+    made[static_cast<std::size_t>(i)] =
+        make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
+  });
   std::vector<RepulsionContact> contacts;
-  for (const PairProximity& pair : pairs) {
-    const auto contact = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
+  contacts.reserve(pairs.size());
+  for (const auto& contact : made) {
     if (contact) contacts.push_back(*contact);
   }
   return contacts;

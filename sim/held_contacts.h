@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/contact_groups.h"
 #include "sim/contact_table.h"
 #include "sim/friction.h"
 #include "sim/lane_vectors.h"
@@ -41,6 +42,7 @@ struct HeldSurface {
   const ContactTable& properties;
   std::span<const double> inverse_mass;
   Eigen::Index cloth_count;
+  Vec3 gravity_m_s2;
 };
 
 class HeldContacts {
@@ -61,7 +63,8 @@ class HeldContacts {
   /// at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second. In turn back and forth, but vertices
   /// before edges always: in cloth at rest on a plane they leave nothing for the edges between them to press, while
   /// edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever). Call for the steps of a
-  /// collision step in their order. O(contacts) a sweep, serial: same bits for any number of threads.
+  /// collision step in their order. O(contacts) a sweep, in parallel where contacts share no vertex (contact_groups.h):
+  /// same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
   /// As they were last looked at, measured at V_t0: the collision step repels them where they are at its end.
@@ -77,7 +80,7 @@ class HeldContacts {
   /// A contact, and its distance along its direction as a function of the cloth and the time.
   struct Line {
     RepulsionContact contact;
-    std::array<VertexId, 4> vertices{};       ///< any in place of those that are not cloth
+    std::array<VertexId, 4> vertices{};       ///< one that is, in place of those that are not cloth
     std::array<double, 4> weights{};          ///< 0 for those
     std::array<double, 4> shares{};           ///< that they take of a change of the distance; 0 for those
     double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
@@ -87,23 +90,32 @@ class HeldContacts {
     bool repelled = false, rubbed = false;
   };
 
+  using Reach = ContactGroups::Reach;
+  enum class Answer { kNo, kYes, kOutOfReach };
+
+  [[nodiscard]] bool is_cloth(VertexId vertex) const { return vertex < surface_.cloth_count; }
+  [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
+  void set_lines(PairKind kind, const std::vector<RepulsionContact>& contacts);
   [[nodiscard]] double load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
   void set(Line& line) const;
-  void bear(Line& line, const MidstepMotion& step) const;
-  void hold(Line& line, bool is_last, const MidstepMotion& step) const;
+  /// False where they need what is not in reach: nothing has been done then.
+  [[nodiscard]] bool bear(Line& line, const Reach& reach, const MidstepMotion& step) const;
+  [[nodiscard]] bool hold(Line& line, const Reach& reach, bool is_last, const MidstepMotion& step) const;
   static void push(Line& line, double change, const MidstepMotion& step);
   static void learn(Line& line, const MidstepMotion& step);
   [[nodiscard]] double excess(const Line& line, const MidstepMotion& step) const;
-  [[nodiscard]] bool look_again(Line& line, const MidstepMotion& step) const;
-  bool slides_on(RepulsionContact& contact, QuickProximity& nearest, const MidstepMotion& step) const;
+  [[nodiscard]] Answer look_again(Line& line, const Reach& reach, const MidstepMotion& step) const;
+  Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
+                   const MidstepMotion& step) const;
   void rub(Line& line, const MidstepMotion& step) const;
   /// Of the contact's vertices at the start of the step, and what it moves them by.
   [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const;
   [[nodiscard]] PairVectors displacements(const Line& line, const MidstepMotion& step) const;
 
   std::vector<Line> lines_;
-  std::vector<std::size_t> vf_, ee_;  ///< which of them are of either kind
+  std::size_t vf_count_ = 0;  ///< lines of vf, then ee
+  ContactGroups vf_, ee_;
   HeldSurface surface_;
   const Positions& V_t0_;
   const Positions& V_t1_;

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "sim/local_proximities.h"
+#include "sim/parallel.h"
 #include "sim/repulsion.h"
 
 namespace selvage::sim {
@@ -30,9 +31,16 @@ void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, con
 }
 
 void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
-  for (const RepulsionContact& held : contacts) {
-    for (const std::int32_t second : {held.second_t0, held.second}) {
-      if (const auto place = near_.place(held.kind, held.first, second)) known_.push_back(*place);
+  std::vector<std::array<std::optional<std::size_t>, 2>> places(contacts.size());
+  parallel_each(std::ssize(contacts), [&](Eigen::Index i) {
+    const RepulsionContact& held = contacts[static_cast<std::size_t>(i)];
+    auto& [met, now] = places[static_cast<std::size_t>(i)];
+    met = near_.place(held.kind, held.first, held.second_t0);
+    if (held.second != held.second_t0) now = near_.place(held.kind, held.first, held.second);
+  });
+  for (const auto& of_contact : places) {
+    for (const auto& place : of_contact) {
+      if (place) known_.push_back(*place);
     }
   }
   std::ranges::sort(known_);

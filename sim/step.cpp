@@ -128,8 +128,9 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     std::vector<RepulsionContact> held_to_the_end;
     {
       const PhaseTimer timer(result.phases.dynamics);
-      const HeldSurface surface{world_.mesh, vertex_faces_, collision_step_.contact_table(), inverse_mass_,
-                                world_.cloth_vertex_count};
+      const HeldSurface surface{
+          world_.mesh,        vertex_faces_, collision_step_.contact_table(), inverse_mass_, world_.cloth_vertex_count,
+          scene_.gravity_m_s2};
       HeldContacts contacts(held, loads_, surface, x_, candidate, dt_s, scene_.contact_sweeps);
       result.dynamics = advance_cloth(candidate, tried.end, held.empty() ? nullptr : &contacts);
       tried.held = contacts.count();

@@ -398,7 +398,7 @@ TEST(CollisionStep, SameBitsForAnyThreadCount) {
     StepScene scene;
     std::mt19937_64 engine(9);
     std::uniform_real_distribution<double> unit(-1, 1);
-    for (int layer = 0; layer < 3; ++layer) scene.add(sheet(9), Vec3(0, 0, 2e-3 * layer));
+    for (int layer = 0; layer < 3; ++layer) scene.add(sheet(20), Vec3(0, 0, 2e-3 * layer));  // 2,000 contacts
     scene.V_candidate = scene.V_t0.unaryExpr([&](double x) { return x + 5e-3 * unit(engine); });
     scene.options.friction_static = 0.4;
     scene.options.friction_kinetic = 0.3;

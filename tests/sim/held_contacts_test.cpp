@@ -26,7 +26,7 @@ struct Ground {
     return options;
   }
   [[nodiscard]] HeldSurface surface(Eigen::Index cloth_count) const {
-    return {mesh, faces, properties, inverse_mass, cloth_count};
+    return {mesh, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()};
   }
 };
 

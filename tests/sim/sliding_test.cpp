@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "sim/scene_reader.h"
 #include "sim/step.h"
@@ -96,6 +97,22 @@ TEST(Sliding, OnClothThatLiesOnTheGroundIsAsOnTheGround) {
   EXPECT_LT(slide.largest_error_m_s({1.5, 0, 0}), 0.01);
   EXPECT_GT(slide.x().col(2).minCoeff(), 1.95 * kThickness);
   EXPECT_LT(slide.x().col(2).maxCoeff(), 2.5 * kThickness);
+}
+
+/// More contacts than one group has (contact_groups.h), which go on to faces that are of other groups.
+TEST(Sliding, SameBitsForAnyThreadCount) {
+  std::string scene = start(0, 0.1) + ground() + sheet("name = \"lower\"\nposition_m = [0, 0, 0.0045]") +
+                      sheet("name = \"upper\"\nposition_m = [0.01, 0.02, 0.009]\nvelocity_m_s = [1, 0.3, 0]");
+  const std::string coarse = "nx = 10, ny = 10";
+  for (int sheet = 0; sheet < 2; ++sheet) scene.replace(scene.find(coarse), coarse.size(), "nx = 32, ny = 32");
+  Positions reference;
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Slide slide(scene);
+    slide.run_to(0.1);
+    if (threads == 1) reference = slide.simulation.x();
+    EXPECT_EQ(slide.simulation.x(), reference) << threads << " threads";
+  }
 }
 
 }  // namespace selvage
