@@ -1,11 +1,12 @@
 #include "sim/contact_groups.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 
-#include "kernel/words.h"
 #include "sim/parallel.h"
 
 namespace selvage::sim {
@@ -15,7 +16,7 @@ namespace {
 /// without work (docs/simulator-speed.md).
 constexpr std::size_t kGroupSize = 256;
 
-/// Below this many contacts threads do not pay, and contacts act in the order in which they are given.
+/// Fewer contacts are on one thread, and act in the order in which they are given.
 constexpr std::size_t kLeastParallel = 2 * kGroupSize;
 
 /// The ten bits of a number, each with two empty ones above it.
@@ -27,26 +28,24 @@ std::uint64_t spread(std::uint64_t number) {
 }
 
 /// All members along Morton's curve: those near each other on it are near each other in space. In a cell of it, a
-/// 1024th of all, in their order.
+/// 1024th of the longest side, in their order.
 std::vector<std::size_t> order_by_place(std::span<const ContactGroups::Member> members) {
   constexpr double kCells = 1 << 10;
   Eigen::AlignedBox<double, 3> box;
   for (const ContactGroups::Member& member : members) box.extend(member.at);
   const double side = box.sizes().maxCoeff() * (1 + 1e-9);  // so that no share of it is 1
-  Words words, spare;
-  std::uint64_t* const word = words.room(members.size());
+  std::vector<std::uint64_t> words(members.size());         // the code, then which member it is of
   parallel_each(std::ssize(members), [&](Eigen::Index i) {
     const Vec3& at = members[static_cast<std::size_t>(i)].at;
     std::uint64_t code = 0;
     for (int axis = 0; side > 0 && axis < 3; ++axis) {
       code |= spread(static_cast<std::uint64_t>((at[axis] - box.min()[axis]) / side * kCells)) << axis;
     }
-    word[i] = code << 32 | static_cast<std::uint64_t>(i);
+    words[static_cast<std::size_t>(i)] = code << 32 | static_cast<std::uint64_t>(i);
   });
-  words.keep(members.size());
-  words.sort_by_high_half(spare);
+  std::ranges::sort(words);
   std::vector<std::size_t> order(members.size());
-  std::ranges::transform(words, order.begin(), [](std::uint64_t w) { return w & 0xffffffff; });
+  std::ranges::transform(words, order.begin(), [](std::uint64_t word) { return word & 0xffffffff; });
   return order;
 }
 
@@ -63,8 +62,7 @@ ContactGroups::ContactGroups(std::span<const Member> members, Eigen::Index verte
   std::vector<std::size_t> left =
       members.size() < kLeastParallel ? order_as_given(members.size()) : order_by_place(members);
   // Runs of the curve are groups. A contact that shares a vertex with a group before its own waits for another round.
-  // In a group contacts keep the order in which they are given: along Morton's curve sixteen sheets that drop on a ball
-  // came as near as 1.4 mm of 3, in the order of their vertices 2.5 (tests/sim/physics_test.cpp).
+  // In a group contacts keep the order in which they are given (docs/simulator-speed.md says what another order costs).
   while (left.size() >= kLeastParallel) {
     Round round{{}, std::vector<std::int32_t>(static_cast<std::size_t>(vertex_count), -1)};
     std::vector<std::size_t> kept, waiting;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "kernel/fp_env.h"
 #include "kernel/types.h"
 
 namespace selvage::sim {
@@ -30,19 +32,21 @@ class ContactGroups {
 
    private:
     friend class ContactGroups;
-    Reach() = default;
     Reach(std::span<const std::int32_t> owner, std::size_t group)
         : owner_(owner), group_(static_cast<std::int32_t>(group)) {}
+    [[nodiscard]] static Reach all() { return {{}, 0}; }
 
     std::span<const std::int32_t> owner_;  ///< as in Round; none where all vertices are in reach
-    std::int32_t group_ = 0;
+    std::int32_t group_;
   };
 
   ContactGroups() = default;
-  /// REQUIRES |at| <= kMaxCoordinate, and vertices below `vertex_count`. O(#members).
+  /// REQUIRES vertices below `vertex_count`, and |at| <= 2 kMaxCoordinate. O(n log n), n = #members, and
+  /// O(vertex_count) for each of a few rounds.
   ContactGroups(std::span<const Member> members, Eigen::Index vertex_count);
 
-  /// All members, in the order in which they act: laid out so in memory they are read one after the other.
+  /// All members, in the order in which they act, but for those that leave their group: laid out so in memory they are
+  /// read one after the other.
   [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
 
   /// Calls act(place in order(), reach) for each: rounds of groups that share no vertex, the groups of a round in
@@ -72,6 +76,7 @@ class ContactGroups {
   template <typename Act>
   void act_round(Round& round, bool backwards, const Act& act) {
     tbb::parallel_for(std::size_t{0}, round.groups.size(), [&](std::size_t id) {
+      const FpEnvGuard guard;
       Group& group = round.groups[id];
       const Reach reach(round.owner, id);
       for (std::size_t k = 0; k < group.end - group.begin; ++k) {
@@ -83,14 +88,14 @@ class ContactGroups {
 
   template <typename Act>
   void act_alone(bool backwards, const Act& act) const {
-    for (std::size_t k = 0; k < alone_.size(); ++k) act(alone_[backwards ? alone_.size() - 1 - k : k], Reach());
+    for (std::size_t k = 0; k < alone_.size(); ++k) act(alone_[backwards ? alone_.size() - 1 - k : k], Reach::all());
   }
 
   template <typename Act>
   void act_leaving(Round& round, const Act& act) {
     for (Group& group : round.groups) {
       for (const std::size_t place : group.leaving) {
-        act(place, Reach());
+        act(place, Reach::all());
         has_left_[place] = 1;
       }
       alone_.insert(alone_.end(), group.leaving.begin(), group.leaving.end());

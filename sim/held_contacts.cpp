@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "kernel/assert.h"
 #include "sim/parallel.h"
 #include "sim/quick_proximity.h"
 
@@ -41,14 +42,16 @@ HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const 
     : surface_(surface), V_t0_(V_t0), V_t1_(V_t1), dt_s_(dt_s), sweeps_(sweeps) {
   lines_.resize(contacts.size());
   for (const PairKind kind : {PairKind::kVf, PairKind::kEe}) set_lines(kind, contacts);
+  SELVAGE_ASSERT(vf_count_ + ee_.order().size() == lines_.size());
   parallel_each(static_cast<Eigen::Index>(vf_count_), [&](Eigen::Index at) {
     Line& line = lines_[static_cast<std::size_t>(at)];
     line.load_m_s2 = load_of(line.contact, loads);
   });
 }
 
-/// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on from layer to
-/// layer: as cubes the fifty layers of sim/scenes/stack.toml as a draft lay 0.32 m high on the ground after 0.4 s.
+/// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on through all
+/// layers: as cubes the fifty of sim/scenes/stack.toml as a draft lay 0.45 m high after 0.4 s, in 116 steps, as columns
+/// 0.51 m, in 69.
 void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>& contacts) {
   const Vec3 down = surface_.gravity_m_s2.stableNormalized();
   std::vector<std::size_t> of_kind;
@@ -65,7 +68,7 @@ void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>&
   const bool is_vf = kind == PairKind::kVf;
   if (is_vf) vf_count_ = of_kind.size();
   ContactGroups& groups = is_vf ? vf_ : ee_;
-  groups = {members, surface_.cloth_count};
+  groups = ContactGroups(members, surface_.cloth_count);
   parallel_each(std::ssize(of_kind), [&](Eigen::Index at) {
     Line& line = lines_[static_cast<std::size_t>(at) + (is_vf ? 0 : vf_count_)];
     line.contact = contacts[of_kind[groups.order()[static_cast<std::size_t>(at)]]];
@@ -94,7 +97,9 @@ void HeldContacts::set(Line& line) const {
   const Vec3& normal = line.contact.normal;
   const PairVectors unit = distribute(interaction, normal);
   line.lever_share = lever_share(interaction);
-  line.vertices.fill(*std::ranges::find_if(interaction.vertices, [&](VertexId v) { return is_cloth(v); }));
+  const auto cloth = std::ranges::find_if(interaction.vertices, [&](VertexId v) { return is_cloth(v); });
+  SELVAGE_ASSERT(cloth != interaction.vertices.end());
+  line.vertices.fill(*cloth);
   line.weights = line.shares = {};
   line.scripted_t0 = line.scripted_t1 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -141,7 +146,8 @@ bool HeldContacts::hold(Line& line, const Reach& reach, bool is_last, const Mids
   if (!(line.load_m_s2 > 0 || line.pushed > 0)) {  // else it has been looked at in this step
     if (!(change > 0)) return true;
     const Answer acts = look_again(line, reach, step);
-    if (acts != Answer::kYes) return acts == Answer::kNo;
+    if (acts == Answer::kOutOfReach) return false;
+    if (acts == Answer::kNo) return true;
     change = excess(line, step);
   }
   if (is_last || line.lever_share == 1) {  // else once, or the limit of its lever would not hold

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/contact_groups.h"
+#include "sim/contact_load.h"
 #include "sim/contact_table.h"
 #include "sim/friction.h"
 #include "sim/lane_vectors.h"
@@ -24,16 +25,6 @@ struct MidstepMotion {
   LaneVectors& v;
 };
 
-/// What a vertex bears on a face: the next step of the dynamics begins with it. One sweep passes a weight on by one
-/// contact only, so that ten sheets that lay on one another, held as if the stack were new in every step, lost a third
-/// of their height within a second, in five times as many steps (docs/simulator-speed.md). Edges have none:
-/// where they remembered as well, cloth over the edge of a box crept by 0.7 mm a second (0.02 without; hold() says why
-/// vertices go first).
-struct ContactLoad {
-  std::int32_t vertex, face;
-  double acceleration_m_s2;  ///< of the pair's relative motion, > 0
-};
-
 /// What the contacts are on; all must outlive them. The first `cloth_count` vertices move as the dynamics says, the
 /// others on straight lines.
 struct HeldSurface {
@@ -48,7 +39,7 @@ struct HeldSurface {
 class HeldContacts {
  public:
   /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted. `loads` are those at V_t0, sorted. The
-  /// positions must outlive it. `sweeps` >= 1.
+  /// positions must outlive it. REQUIRES contacts of kVf or kEe of which cloth can move, and sweeps >= 1.
   HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
                const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
@@ -67,7 +58,8 @@ class HeldContacts {
   /// same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
-  /// As they were last looked at, measured at V_t0: the collision step repels them where they are at its end.
+  /// As they were last looked at, measured at V_t0, in the order in which they act: the collision step repels them
+  /// where they are at its end.
   [[nodiscard]] std::vector<RepulsionContact> contacts() const;
 
   /// Those that repelled, and rubbed, in any step.
@@ -106,8 +98,8 @@ class HeldContacts {
   static void learn(Line& line, const MidstepMotion& step);
   [[nodiscard]] double excess(const Line& line, const MidstepMotion& step) const;
   [[nodiscard]] Answer look_again(Line& line, const Reach& reach, const MidstepMotion& step) const;
-  Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
-                   const MidstepMotion& step) const;
+  [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
+                                 const MidstepMotion& step) const;
   void rub(Line& line, const MidstepMotion& step) const;
   /// Of the contact's vertices at the start of the step, and what it moves them by.
   [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const;

@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "kernel/fp_env.h"
+
 namespace selvage::sim {
 
 /// Items are handed out in blocks of this many: a few microseconds of work on vertices or springs, so that small scenes
@@ -18,6 +20,7 @@ template <class Body>
 void parallel_blocks(Eigen::Index count, Body body) {
   const Eigen::Index blocks = (count + kParallelBlock - 1) / kParallelBlock;
   tbb::parallel_for(Eigen::Index{0}, blocks, [&](Eigen::Index block) {
+    const FpEnvGuard guard;
     body(block * kParallelBlock, std::min(count, (block + 1) * kParallelBlock));
   });
 }

@@ -1,8 +1,10 @@
 #include "sim/start_proximities.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <iterator>
+#include <optional>
 
 #include "sim/local_proximities.h"
 #include "sim/parallel.h"

@@ -4,12 +4,14 @@
 #include <memory>
 
 #include "sim/collision_step.h"
+#include "sim/contact_load.h"
 #include "sim/dynamics.h"
-#include "sim/held_contacts.h"
 #include "sim/phase_times.h"
+#include "sim/repulsion_contact.h"
 #include "sim/scene.h"
 #include "sim/step_lengths.h"
 #include "sim/time_step.h"
+#include "sim/vertex_faces.h"
 #include "sim/world.h"
 
 namespace selvage::sim {

@@ -7,8 +7,7 @@
 #include <random>
 #include <span>
 
-#include <tbb/global_control.h>
-
+#include "tests/kernel/with_threads.h"
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 
@@ -52,20 +51,31 @@ struct Numbers {
 
 TEST(ContactGroups, PropActAsOneAfterTheOtherInTheirOrder) {
   selvage::testing::check_property(30, 83, [] {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
     const Heap heap(*rc::gen::arbitrary<std::uint64_t>(), static_cast<std::size_t>(integer_in(0, 6000)));
+    const bool backwards = integer_in(0, 2) == 1;
+    const VertexId needed = integer_in(0, kVertexCount);  // forwards, by a tenth of the contacts
     ContactGroups groups(heap.members, kVertexCount);
     std::vector<std::size_t> order = groups.order();
-    const bool backwards = integer_in(0, 2) == 1;
+    std::vector<std::uint8_t> left(order.size(), 0);
     Numbers together, apart;
-    groups.each(backwards, [&](std::size_t place, const ContactGroups::Reach& reach) {
-      const ContactGroups::Member& member = heap.members[order[place]];
-      for (const VertexId v : member.vertices) RC_ASSERT(v < 0 || reach.has(v));
-      together.act(member, order[place]);
-      return true;
+    selvage::testing::with_threads(4, [&] {
+      groups.each(backwards, [&](std::size_t place, const ContactGroups::Reach& reach) {
+        const ContactGroups::Member& member = heap.members[order[place]];
+        for (const VertexId v : member.vertices) RC_ASSERT(v < 0 || reach.has(v));
+        if (!backwards && order[place] % 10 == 0 && !reach.has(needed)) {
+          left[place] = 1;
+          return false;
+        }
+        together.act(member, order[place]);
+        return true;
+      });
     });
-    if (backwards) std::ranges::reverse(order);
-    for (const std::size_t contact : order) apart.act(heap.members[contact], contact);
+    for (const bool last : {false, true}) {  // those that left their group act after all others
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::size_t place = backwards ? order.size() - 1 - k : k;
+        if ((left[place] != 0) == last) apart.act(heap.members[order[place]], order[place]);
+      }
+    }
     RC_ASSERT(together.at == apart.at);
     std::ranges::sort(order);
     for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(order[i] == i);  // each of them, once
@@ -106,7 +116,6 @@ TEST(ContactGroups, OfOneVertexActAlone) {
 }
 
 TEST(ContactGroups, WhatNeedsMoreThanItsReachActsAfterAllOthersAndThenAlone) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
   const Heap heap(9, 5000);
   ContactGroups groups(heap.members, kVertexCount);
   const auto needs_far_vertex = [&](std::size_t place) { return groups.order()[place] % 7 == 0; };
@@ -114,7 +123,7 @@ TEST(ContactGroups, WhatNeedsMoreThanItsReachActsAfterAllOthersAndThenAlone) {
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<int> refused(heap.members.size(), 0), acted(heap.members.size(), 0);
     std::vector<std::size_t> last;
-    groups.each(pass == 1, [&](std::size_t place, const ContactGroups::Reach& reach) {
+    const auto act = [&](std::size_t place, const ContactGroups::Reach& reach) {
       const std::scoped_lock lock(mutex);
       const bool has_far = reach.has((heap.members[groups.order()[place]].vertices[0] + 1500) % kVertexCount);
       if (needs_far_vertex(place) && !has_far) {
@@ -124,7 +133,8 @@ TEST(ContactGroups, WhatNeedsMoreThanItsReachActsAfterAllOthersAndThenAlone) {
       ++acted[place];
       last.push_back(place);
       return true;
-    });
+    };
+    selvage::testing::with_threads(4, [&] { groups.each(pass == 1, act); });
     EXPECT_EQ(std::ranges::count(acted, 1), std::ssize(acted)) << pass;
     if (pass > 0) {
       EXPECT_EQ(std::ranges::count(refused, 0), std::ssize(refused)) << pass;
@@ -138,7 +148,8 @@ TEST(ContactGroups, WhatNeedsMoreThanItsReachActsAfterAllOthersAndThenAlone) {
   }
 }
 
-TEST(ContactGroups, TakePlacesAtTheEndsOfTheRange) {
+TEST(ContactGroups, TakeAnyPlaces) {
+  // At the ends of the range, and all at one: then the order is the one given.
   std::vector<ContactGroups::Member> members;
   for (VertexId v = 0; v < 1000; ++v) {
     members.push_back({{v, -1, -1, -1}, Vec3::Constant(v % 2 == 0 ? kMaxCoordinate : -kMaxCoordinate)});
@@ -146,6 +157,10 @@ TEST(ContactGroups, TakePlacesAtTheEndsOfTheRange) {
   std::vector<std::size_t> order = ContactGroups(members, 1000).order();
   std::ranges::sort(order);
   EXPECT_EQ(std::ranges::adjacent_find(order), order.end());
+  for (ContactGroups::Member& member : members) member.at = Vec3::Constant(-7);
+  order = ContactGroups(members, 1000).order();
+  EXPECT_TRUE(std::ranges::is_sorted(order));
+  EXPECT_EQ(order.size(), 1000);
 }
 
 }  // namespace

@@ -402,7 +402,8 @@ TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
 }
 
 TEST(Physics, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
-  // The least distance of neighbours, in the middle, where they lie on the ball: 2.0 mm of 3, 0.9 with one sweep.
+  // The least distance of neighbours, in the middle, where they lie on the ball: 2.5 mm of 3, 0.9 with one sweep; 1.4
+  // where contacts do not keep the order of their vertices (sim/contact_groups.cpp).
   constexpr int kLayers = 16, kSide = 8;
   Simulation simulation(
       parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.3\n"
@@ -419,7 +420,7 @@ TEST(Physics, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
     return Vec3((mean(simulation.x(), row, row + 2) + mean(simulation.x(), row + kSide, row + kSide + 2)) / 2);
   };
   for (int layer = 1; layer < kLayers; ++layer) {
-    EXPECT_GT((middle_m(layer) - middle_m(layer - 1)).norm(), 0.0018) << layer;
+    EXPECT_GT((middle_m(layer) - middle_m(layer - 1)).norm(), 0.0022) << layer;
   }
 }
 
