@@ -71,7 +71,8 @@ void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>&
   groups = ContactGroups(members, surface_.cloth_count);
   parallel_each(std::ssize(of_kind), [&](Eigen::Index at) {
     Line& line = lines_[static_cast<std::size_t>(at) + (is_vf ? 0 : vf_count_)];
-    line.contact = contacts[of_kind[groups.order()[static_cast<std::size_t>(at)]]];
+    line.given = of_kind[groups.order()[static_cast<std::size_t>(at)]];
+    line.contact = contacts[line.given];
     set(line);
   });
 }
@@ -282,8 +283,9 @@ PairVectors HeldContacts::displacements(const Line& line, const MidstepMotion& s
 std::vector<RepulsionContact> HeldContacts::contacts() const {
   std::vector<RepulsionContact> result(lines_.size());
   parallel_each(std::ssize(lines_), [&](Eigen::Index i) {
-    RepulsionContact& contact = result[static_cast<std::size_t>(i)];
-    contact = lines_[static_cast<std::size_t>(i)].contact;
+    const Line& line = lines_[static_cast<std::size_t>(i)];
+    RepulsionContact& contact = result[line.given];
+    contact = line.contact;
     contact.x_t0 = gather(contact.interaction, V_t0_);
     contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
     contact.mobility = effective_mobility(contact.interaction);

@@ -72,6 +72,7 @@ class HeldContacts {
   /// A contact, and its distance along its direction as a function of the cloth and the time.
   struct Line {
     RepulsionContact contact;
+    std::size_t given = 0;                    ///< where it stood among the contacts given
     std::array<VertexId, 4> vertices{};       ///< one that is, in place of those that are not cloth
     std::array<double, 4> weights{};          ///< 0 for those
     std::array<double, 4> shares{};           ///< that they take of a change of the distance; 0 for those

