@@ -38,7 +38,9 @@ asan: setup  ## run the tests under AddressSanitizer and UndefinedBehaviorSaniti
 	cmake --build --preset asan-ubsan
 	ctest --preset asan-ubsan
 
-tsan: setup  ## run the tests under ThreadSanitizer
+tsan: setup  ## run the tests under ThreadSanitizer, with oneTBB built for it
+	@cmake/setup packages-tsan.txt
+	cmake/tsan_tbb build/tsan-tbb
 	cmake --preset tsan --log-level=WARNING
 	cmake --build --preset tsan
 	ctest --preset tsan

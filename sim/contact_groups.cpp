@@ -19,6 +19,10 @@ constexpr std::size_t kGroupSize = 256;
 /// Fewer contacts are on one thread, and act in the order in which they are given.
 constexpr std::size_t kLeastParallel = 2 * kGroupSize;
 
+/// A round is not made where more than this many contacts wait for one that acts in it: as in a fan most share
+/// vertices, and act alone. Where layers are pressed about one waits for each (docs/simulator-speed.md).
+constexpr std::size_t kMostWaiting = 4;
+
 /// The ten bits of a number, each with two empty ones above it.
 std::uint64_t spread(std::uint64_t number) {
   number = (number | number << 16) & 0x030000ff;
@@ -86,7 +90,7 @@ ContactGroups::ContactGroups(std::span<const Member> members, Eigen::Index verte
       }
       round.groups.push_back({order_.size() + first, order_.size() + kept.size(), {}});
     }
-    if (kept.size() < waiting.size()) break;  // most share vertices: a fan
+    if (waiting.size() > kMostWaiting * kept.size()) break;
     order_.insert(order_.end(), kept.begin(), kept.end());
     rounds_.push_back(std::move(round));
     left = std::move(waiting);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -54,9 +54,8 @@ PlayerPage player_page(const std::string& title, const io::SequenceReader& seque
   const std::size_t count = sequence.frame_count();
   if (count == 0) throw io::Error(io::ErrorKind::kBadInput, "the sequence has no frames; nothing to show");
   // Of the first and the last frame and some between: the view starts so, and what leaves it is drawn all the same.
-  std::vector<std::size_t> samples = {0, count / 4, count / 2, count * 3 / 4, count - 1};
-  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-  const page::Box stage = stage_of(sequence, samples);
+  const std::set<std::size_t> samples = {0, count / 4, count / 2, count * 3 / 4, count - 1};
+  const page::Box stage = stage_of(sequence, {samples.begin(), samples.end()});
   if (stage.is_empty()) throw io::Error(io::ErrorKind::kBadInput, sequence.frame_name(0) + ": no faces to show");
   std::size_t stride = 1;
   Packed packed = pack(sequence, stage, stride, byte_limit, progress);
