@@ -53,15 +53,18 @@ struct BoxHierarchy::Impl {
       // At V_t0: how far a motion goes says nothing about the tree.
       if (!(surface(*chosen, V_t0, V_t0) > kGrowthMax * surface_when_chosen)) return;
     }
+    chosen = nullptr;  // until its boxes are there: an exception may end this
+    boxes.reset();
     if (kind != HierarchyKind::kTopology) {
       spatial = make_face_clusters(mesh, make_spatial_face_tree(mesh, V_t0, V_t1));
     }
     const bool by_position =
         kind == HierarchyKind::kSpatial ||
         (kind == HierarchyKind::kAutomatic && surface(spatial, V_t0, V_t1) < surface(topology, V_t0, V_t1));
-    chosen = by_position ? &spatial : &topology;
-    surface_when_chosen = surface(*chosen, V_t0, V_t0);
-    boxes.emplace(mesh, *chosen);
+    const FaceClusters& better = by_position ? spatial : topology;
+    surface_when_chosen = surface(better, V_t0, V_t0);
+    boxes.emplace(mesh, better);
+    chosen = &better;
   }
 
   const Mesh& mesh;

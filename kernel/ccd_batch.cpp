@@ -34,7 +34,7 @@ constexpr PairKind kKindOf = std::is_same_v<Pair, VfCandidate> ? PairKind::kVf :
 
 struct CcdBatch::Impl {
   const Mesh& mesh;
-  PositionsRef V_t0, V_t1;
+  Positions V_t0, V_t1;  ///< a Ref of other storage would refer to its argument's temporary
   CcdOptions options;
   std::optional<detail::LaneMotion> lanes;  ///< none: every pair is asked by itself
 

@@ -32,10 +32,11 @@ struct BatchReport {
 /// One motion of a mesh, prepared for any number of lists. Calls may come from several threads.
 class CcdBatch {
  public:
-  /// O(#V), unless `query_count`, the number of queries to come, is so low that it does not pay. The mesh and
-  /// the positions must outlive the batch. Positions outside the domain are answered as by single queries.
+  /// O(#V): copies the positions, and prepares them unless `query_count`, the number of queries to come, is so low that
+  /// it does not pay. The mesh must outlive the batch. Positions outside the domain are answered as by single queries.
   CcdBatch(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
            std::size_t query_count);
+  CcdBatch(const Mesh&&, const PositionsRef&, const PositionsRef&, const CcdOptions&, std::size_t) = delete;
   ~CcdBatch();
 
   /// REQUIRES candidates of the mesh. Fastest where neighbours in the list share their first feature.

@@ -63,16 +63,19 @@ class Splitter {
       });
     }
     std::array<std::int32_t, 2> children{};
-    const auto left = [&] { children[0] = split(begin, middle, first); };
-    const auto right = [&] { children[1] = split(middle, end, first + middle - begin - 1); };
+    const auto left = [&] {
+      const FpEnvGuard guard;  // oneTBB gives the calling thread's tasks its arena's environment, too
+      children[0] = split(begin, middle, first);
+    };
+    const auto right = [&] {
+      const FpEnvGuard guard;
+      children[1] = split(middle, end, first + middle - begin - 1);
+    };
     if (count < kTaskFaces) {
       left();
       right();
     } else {
-      tbb::parallel_invoke(left, [&] {
-        const FpEnvGuard guard;
-        right();
-      });
+      tbb::parallel_invoke(left, right);
     }
     const std::size_t node = first + count - 2;
     tree_.children[node] = children;

@@ -281,6 +281,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   CollisionStepResult result;
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
   if (result.report.input_error == InputError::kNone) result.report.input_error = impl_->contacts.error();
+  if (result.report.input_error == InputError::kNone) result.report.input_error = validate_held(impl_->mesh, held);
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);

@@ -54,6 +54,8 @@ struct CollisionBodies {
   /// #V: body that a scripted vertex belongs to, -1 for cloth. A body moves, or waits, as a whole. Empty: no bodies.
   std::span<const std::int32_t> body;
   SqueezePolicy policy = SqueezePolicy::kStop;
+  /// The bodies from this one on are pins: what they hold is cloth, even a part of the mesh of which they hold all.
+  std::int32_t first_pin = std::numeric_limits<std::int32_t>::max();
 };
 
 /// When to give a step up, because the caller tries a shorter one then (paper, section 5). By default never.
@@ -111,15 +113,17 @@ class CollisionStep {
   /// (combine()), and those of the options are not used; its rest pairs repel below their distances at rest. Surfaces
   /// that do not fit the mesh, or have a value out of its range, are called invalid by every step.
   CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces = {});
+  CollisionStep(const Mesh&&, const CollisionOptions&, ContactSurfaces = {}) = delete;
   ~CollisionStep();
   CollisionStep(CollisionStep&&) noexcept;
 
   /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
-  /// looked at (a part of the mesh in which every vertex has a body is one). V_candidate: any finite positions;
-  /// scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the scripts' too,
-  /// are rounded to it. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is nearer than
-  /// its tolerance is named; scripted vertices are at their (rounded) candidates, or at V_t0 where their body waits;
-  /// all others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations
+  /// looked at (a part of the mesh in which every vertex has a body that is no pin is one). V_candidate: any finite
+  /// positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the
+  /// scripts' too, are rounded to it. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is
+  /// nearer than its tolerance is named; scripted vertices are at their (rounded) candidates, or at V_t0 where their
+  /// body waits; all others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2)
+  /// (impulse_iterations
   /// + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,

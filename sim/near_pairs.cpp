@@ -7,6 +7,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "kernel/fp_env.h"
 #include "kernel/lane_motion.h"
 #include "sim/parallel.h"
 #include "sim/quick_proximity.h"
@@ -72,6 +73,7 @@ Found<Candidate> find_near(const Mesh& mesh, const ContactTable& contacts, const
                            const Positions& V) {
   Found<Candidate> found{std::vector<typename Found<Candidate>::Task>((all.size() + kTaskSize - 1) / kTaskSize)};
   tbb::parallel_for(std::size_t{0}, found.tasks.size(), [&](std::size_t task) {
+    const FpEnvGuard guard;
     QuickProximities quick;
     const std::size_t end = std::min(all.size(), (task + 1) * kTaskSize);
     for (std::size_t first = task * kTaskSize; first < end; first += detail::kPairBlock) {

@@ -24,12 +24,13 @@ void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, con
   known_.clear();
   count_ = 0;
   if (V_t0.rows() > 0 && same_bits(V_t0, V_t0_) && surface == surface_) return;
-  V_t0_ = V_t0;
-  surface_ = surface;
+  V_t0_.resize(0, 3);  // if an exception ends this, what is known is of no positions
   const double reach = kContactReach * contacts_.thickness_upper();
   near_.find(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
   decision_.assign(near_.size(), kUndecided);
   local_.clear();
+  surface_ = surface;
+  V_t0_ = V_t0;
 }
 
 void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
@@ -75,8 +76,10 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
                kContactReach * contacts_.of(pair.kind, pair.first, pair.second).thickness_m);
     });
   }
+  const std::vector<PairProximity> found = local_proximities(mesh_, V_t0_, near, contacts_.thickness_upper());
+  local_.reserve(local_.size() + found.size());  // nothing throws from here on
   for (const std::size_t pair : open) decision_[pair] = kNotLocal;
-  for (const PairProximity& pair : local_proximities(mesh_, V_t0_, near, contacts_.thickness_upper())) {
+  for (const PairProximity& pair : found) {
     const auto place = near_.place(pair.kind, pair.first, pair.second);
     if (!place || !std::ranges::binary_search(open, *place)) continue;  // asked only to compare others with it
     decision_[*place] = static_cast<std::int32_t>(local_.size());

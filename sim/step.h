@@ -65,7 +65,7 @@ class Simulation {
   void follow_script(const Collider& collider, Positions& x) const;
   [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
   DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
-  [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze}; }
+  [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze, world_.body_count}; }
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
   [[nodiscard]] double fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const;
   /// That a step bears in all tries, and that count as none.

@@ -70,4 +70,24 @@ InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options
   return is_on_lattice(V_t0, options.precision) ? InputError::kNone : InputError::kOffLattice;
 }
 
+InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> held) {
+  const auto is_vertex = [&](VertexId v) { return v >= 0 && v < mesh.vertex_count; };
+  for (const RepulsionContact& contact : held) {
+    const std::size_t count = contact.kind == PairKind::kVf ? mesh.faces.size() : mesh.edges.size();
+    const auto is_second = [&](std::int32_t id) { return id >= 0 && static_cast<std::size_t>(id) < count; };
+    const bool is_first = contact.kind == PairKind::kVf ? is_vertex(contact.first) : is_second(contact.first);
+    const bool fits = contact.kind != PairKind::kSelf && is_first && is_second(contact.second) &&
+                      is_second(contact.second_t0) && std::ranges::all_of(contact.interaction.vertices, is_vertex);
+    if (!fits) return InputError::kSizeMismatch;
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    const auto& [vertices, weights, vertex_count, mobility, scale] = contact.interaction;
+    const bool finite = contact.normal.allFinite() && is_finite(contact.distance) && contact.mobility > 0 &&
+                        is_finite(contact.mobility) && is_finite(scale) && is_valid(contact.properties) &&
+                        std::ranges::all_of(weights, is_finite) && std::ranges::all_of(mobility, is_finite) &&
+                        std::ranges::all_of(contact.x_t0, [](const Vec3& x) { return x.allFinite(); });
+    if (!finite) return InputError::kNotFinite;
+  }
+  return InputError::kNone;
+}
+
 }  // namespace selvage::sim

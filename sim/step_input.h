@@ -13,4 +13,7 @@ namespace selvage::sim {
                                              const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                              const CollisionBodies& bodies, double dt_s);
 
+/// Likewise of the contacts given to a step: kSizeMismatch or kNotFinite. O(#contacts).
+[[nodiscard]] InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> held);
+
 }  // namespace selvage::sim

@@ -316,6 +316,26 @@ TEST(CcdBatch, PublicContactsAreFoundAndFewPairsAreSearched) {
   EXPECT_LT(static_cast<double>(ee.searched), 0.0003 * static_cast<double>(candidates.ee.size()));
 }
 
+/// A Ref of column-major positions, or of an expression, refers to a copy that ends with the call.
+TEST(CcdBatch, KeepsPositionsOfAnyStorage) {
+  Faces F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  const Mesh mesh = make_mesh(6, F);
+  Eigen::MatrixXd V_t0(6, 3);
+  V_t0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 1, 0.3, 0.2, 1, 0.2, 0.3, 1;
+  const VfCandidate pair{3, 0};
+  for (const std::size_t query_count : {0, 1'000}) {
+    const Eigen::RowVector3d down(0, 0, -2);
+    Eigen::MatrixXd V_t1 = V_t0;
+    V_t1.bottomRows(3).rowwise() += down;
+    const CcdBatch batch(mesh, V_t0, V_t1, {0, 4096}, query_count);
+    const std::vector<Eigen::MatrixXd> elsewhere(8, Eigen::MatrixXd::Zero(6, 3));  // where the copies were
+    EXPECT_EQ(batch.ask(std::span(&pair, 1)).answers.size(), 1U) << query_count;
+  }
+  static_assert(
+      !std::is_constructible_v<CcdBatch, Mesh, const Positions&, const Positions&, const CcdOptions&, std::size_t>);
+}
+
 TEST(CcdBatch, AMeshWithoutVerticesHasNoAnswers) {
   const Positions V(0, 3);
   const Mesh mesh = make_mesh(0, Faces(0, 3));

@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 #include <tuple>
+#include <type_traits>
 
 #include <Eigen/Geometry>
 #include <oneapi/tbb/global_control.h>
@@ -424,6 +425,53 @@ TEST(CollisionStep, InvalidInputDoesNothing) {
   EXPECT_EQ(result.report.status, StepStatus::kInvalidInput);
   EXPECT_EQ(result.report.input_error, InputError::kNotFinite);
   EXPECT_EQ(result.x.rows(), 0);
+}
+
+TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
+  StepScene scene;
+  scene.add(sheet(3), Vec3::Zero());
+  const auto upper = scene.add(sheet(3), Vec3(1e-3, 2e-3, 5e-4));
+  scene.push(upper, Vec3(0, 0, -2e-4));
+  const Mesh mesh = scene.mesh();
+  CollisionStep step(mesh, scene.options);
+  const std::vector<RepulsionContact> found = step.find_contacts(scene.V_t0, scene.V_candidate, scene.bodies());
+  ASSERT_FALSE(found.empty());
+  const auto error_with = [&](const auto& spoil) {
+    std::vector<RepulsionContact> held = found;
+    spoil(held.back());
+    const auto result = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, {}, held);
+    EXPECT_EQ(result.report.status == StepStatus::kSafe, result.report.input_error == InputError::kNone);
+    return result.report.input_error;
+  };
+  EXPECT_EQ(error_with([](RepulsionContact&) {}), InputError::kNone);
+  EXPECT_EQ(error_with([&](RepulsionContact& c) { c.interaction.vertices[3] = mesh.vertex_count; }),
+            InputError::kSizeMismatch);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.interaction.vertices[0] = -1; }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.second = 1'000; }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = PairKind::kSelf; }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.normal[1] = std::numeric_limits<double>::quiet_NaN(); }),
+            InputError::kNotFinite);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 0; }), InputError::kNotFinite);
+}
+
+TEST(CollisionStep, ClothThatPinsHoldAllOverDoesNotPassThroughABody) {
+  StepScene scene;
+  scene.add(sheet(3), Vec3::Zero(), 0);
+  const auto pinned = scene.add(sheet(3), Vec3(1e-3, 2e-3, 1e-2), 1);
+  scene.push(pinned, Vec3(0, 0, -2e-2));
+  const Mesh mesh = scene.mesh();
+  const auto status_with = [&](std::int32_t first_pin) {
+    CollisionBodies bodies = scene.bodies();
+    bodies.first_pin = first_pin;
+    return CollisionStep(mesh, scene.options)(scene.V_t0, scene.V_candidate, bodies, scene.dt_s).report.status;
+  };
+  EXPECT_EQ(status_with(1), StepStatus::kStopped);
+  EXPECT_EQ(status_with(2), StepStatus::kSafe) << "two bodies may pass through each other";
+}
+
+TEST(CollisionStep, KeepsNoReferenceToATemporaryMesh) {
+  static_assert(!std::is_constructible_v<CollisionStep, Mesh, CollisionOptions>);
+  static_assert(std::is_constructible_v<CollisionStep, const Mesh&, CollisionOptions>);
 }
 
 TEST(CollisionStep, EmptyAndTinyMeshesAreSteps) {

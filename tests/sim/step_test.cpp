@@ -344,6 +344,39 @@ release_s = 0.4
   EXPECT_LT(simulation.x()(22, 2), start(22, 2) - 0.1) << "free fall since the release";
 }
 
+TEST(Simulation, ClothThatIsPinnedAllOverStopsAtABody) {
+  // Nothing of it has mass until its pin lets go, inside the ball if nobody looks.
+  Simulation simulation(parse_scene(R"(
+[time]
+frames_per_s = 30
+frames = 12
+[collision]
+thickness_m = 0.004
+[[cloth]]
+name = "flag"
+sheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}
+position_m = [0, 0, 1]
+density_kg_m2 = 0.2
+stretch_n_m = 60
+shear_n_m = 20
+[[cloth.pin]]
+vertices = [0, 1, 2, 3, 4, 5, 6, 7, 8]
+release_s = 0.3
+key = [{time_s = 0}, {time_s = 0.2, position_m = [0, 0, -1]}]
+[[body]]
+name = "ball"
+sphere = {radius_m = 0.3, subdivisions = 2}
+)",
+                                    "pinned.toml"));
+  StepStatus status = StepStatus::kSafe;
+  for (int step = 0; step < 100 && status == StepStatus::kSafe; ++step) {
+    const Positions before = simulation.x();
+    status = simulation.step().report.status;
+    ASSERT_EQ(violations(simulation.world(), before, simulation.x()), 0) << simulation.clock().time_s();
+  }
+  EXPECT_EQ(status, StepStatus::kStopped);
+}
+
 TEST(World, PartsAreInOrderAndPinsAreColliders) {
   const Scene scene = small_scene(1);
   const World world = build_world(scene);

@@ -15,6 +15,16 @@ TEST(SurfaceParts, PinnedClothIsClothAndABodyIsNot) {
   EXPECT_EQ(flags, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 1, 1, 1}));
 }
 
+TEST(SurfaceParts, ThatPinsHoldAllOverAreCloth) {
+  Faces F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;  // body 0, and cloth that pin 1 holds
+  const Mesh mesh = make_mesh(6, F);
+  const std::vector<double> inverse_mass(6, 0);
+  const std::vector<std::int32_t> body{0, 0, 0, 1, 1, 1};
+  const CollisionBodies bodies{inverse_mass, body, SqueezePolicy::kStop, 1};
+  EXPECT_EQ(SurfaceParts(mesh).cloth_flags(bodies), (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}));
+}
+
 TEST(SurfaceParts, AreConnectedWhateverTheOrderOfEdges) {
   // A strip numbered from both ends to the middle: joins happen out of order.
   constexpr VertexId kCount = 101;
