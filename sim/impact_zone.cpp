@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 namespace selvage::sim {
 namespace {
@@ -34,10 +33,10 @@ std::int32_t ImpactZones::script_of(VertexId vertex) const {
 }
 
 bool ImpactZones::merge(const std::array<VertexId, 4>& pair) {
-  std::int32_t target = zone(pair[0]);
+  std::int32_t target = zone(pair[0]);  // the largest: a vertex changes its zone log2 #V times at most
   std::optional<std::int32_t> script = kNoScript;
   for (const VertexId v : pair) {
-    target = std::min(target, zone(v));
+    if (members(zone(v)).size() > members(target).size()) target = zone(v);
     if (script) script = common_script(*script, script_[static_cast<std::size_t>(zone(v))]);
   }
   const bool is_one = std::ranges::all_of(pair, [&](VertexId v) { return zone(v) == target; });
@@ -47,9 +46,7 @@ bool ImpactZones::merge(const std::array<VertexId, 4>& pair) {
     if (zone(v) == target) continue;
     std::vector<VertexId> from;
     from.swap(members_[static_cast<std::size_t>(zone(v))]);
-    std::vector<VertexId> both;
-    std::ranges::merge(into, from, std::back_inserter(both));
-    into.swap(both);
+    into.insert(into.end(), from.begin(), from.end());
     for (const VertexId member : from) zone_[static_cast<std::size_t>(member)] = target;
   }
   script_[static_cast<std::size_t>(target)] = *script;
@@ -63,6 +60,7 @@ void ImpactZones::move_grown(const Positions& displacement, std::span<const doub
   grown_.erase(std::unique(grown_.begin(), grown_.end()), grown_.end());
   for (const std::int32_t id : grown_) {
     if (members(id).empty()) continue;
+    std::ranges::sort(members_[static_cast<std::size_t>(id)]);  // the order of sums
     const std::int32_t script = script_[static_cast<std::size_t>(id)];
     RigidMotion rigid;
     if (script >= 0) rigid = groups_.rigid_motion(script, motion);

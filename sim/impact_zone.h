@@ -15,10 +15,11 @@ class ImpactZones {
   ImpactZones(VertexId vertex_count, const ScriptedGroups& groups);
 
   /// Merges the zones of a pair's vertices. False, and nothing is done, where they are one zone already, or where they
-  /// follow different scripts: such a zone could not be rigid.
+  /// follow different scripts: such a zone could not be rigid. n merges take O(n log #V).
   bool merge(const std::array<VertexId, 4>& pair);
 
   [[nodiscard]] std::int32_t zone(VertexId vertex) const { return zone_[static_cast<std::size_t>(vertex)]; }
+  /// Ascending after move_grown().
   [[nodiscard]] const std::vector<VertexId>& members(std::int32_t zone) const {
     return members_[static_cast<std::size_t>(zone)];
   }
@@ -33,8 +34,8 @@ class ImpactZones {
   [[nodiscard]] std::int32_t script_of(VertexId vertex) const;
 
   const ScriptedGroups& groups_;
-  std::vector<std::int32_t> zone_;              ///< #V: the smallest vertex of the zone
-  std::vector<std::vector<VertexId>> members_;  ///< by zone; sorted; empty once merged into another
+  std::vector<std::int32_t> zone_;              ///< #V: one of the zone's vertices
+  std::vector<std::vector<VertexId>> members_;  ///< by zone; empty once merged into another
   std::vector<std::int32_t> script_;            ///< by zone
   std::vector<std::int32_t> grown_;
   std::int32_t largest_ = 0;

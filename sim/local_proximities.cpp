@@ -95,10 +95,11 @@ class LocalTest {
       if (nearer(other) && all_corners([&](VertexId v) { return face_holds(other, v); })) return false;
     }
     for (const PairProximity* other : edges_near(vertex)) {
+      if (!nearer(*other)) continue;  // first: over the tip of a cone of n faces 8 n edge pairs are as near, not nearer
       const std::size_t across = other->vertices[0] == vertex || other->vertices[1] == vertex ? 2 : 0;
-      if (distance_along(*other, vertex) > thickness_m_ && stands_higher(pair, *other)) continue;
       const std::array<VertexId, 2> edge{other->vertices[across], other->vertices[across + 1]};
-      if (nearer(*other) && all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) return false;
+      if (!all_corners([&](VertexId v) { return v == edge[0] || v == edge[1]; })) continue;
+      if (distance_along(*other, vertex) <= thickness_m_ || !stands_higher(pair, *other)) return false;
     }
     return true;
   }

@@ -60,24 +60,40 @@ void add(std::vector<RuleTerm>& row, VertexId vertex, double weight) {
   }
 }
 
-// The new point of the edge from an inner vertex to `other`, by that vertex' rule.
-void add_ring_rule(std::vector<RuleTerm>& row, VertexId vertex, const Ring& ring, VertexId other, double share) {
-  const auto n = static_cast<std::int32_t>(ring.neighbours.size());
-  const RingWeights weights = ring_weights(n);
-  const auto at = std::find(ring.neighbours.begin(), ring.neighbours.end(), other) - ring.neighbours.begin();
-  add(row, vertex, share * weights.alpha);
-  for (std::int32_t j = 0; j < n; ++j) {
-    const auto place = static_cast<std::size_t>((static_cast<std::int32_t>(at) + j) % n);
-    add(row, ring.neighbours[place], share * weights.ring[static_cast<std::size_t>(j)]);
+using WeightsByValence = std::map<std::size_t, RingWeights>;
+
+WeightsByValence weights_of(const std::vector<Ring>& rings) {
+  WeightsByValence weights;
+  for (const Ring& ring : rings) {
+    const std::size_t n = ring.neighbours.size();
+    if (ring.kind == Ring::Kind::kInner && !weights.contains(n)) {
+      weights.emplace(n, ring_weights(static_cast<std::int32_t>(n)));
+    }
   }
+  return weights;
 }
 
-std::vector<RuleTerm> vertex_rule(VertexId vertex, const Ring& ring) {
+// The new point of the edge from an inner vertex to `other`, by that vertex' rule. O(n), in a row that is not empty
+// O(n #row).
+void add_ring_rule(std::vector<RuleTerm>& row, VertexId vertex, const Ring& ring, const RingWeights& weights,
+                   VertexId other, double share) {
+  const bool all_are_new = row.empty();
+  const auto put = [&](VertexId at, double weight) {
+    if (!all_are_new) return add(row, at, weight);
+    if (weight != 0) row.push_back({at, weight});
+  };
+  const std::size_t n = ring.neighbours.size();
+  const auto at = static_cast<std::size_t>(std::ranges::find(ring.neighbours, other) - ring.neighbours.begin());
+  put(vertex, share * weights.alpha);
+  for (std::size_t j = 0; j < n; ++j) put(ring.neighbours[(at + j) % n], share * weights.ring[j]);
+}
+
+std::vector<RuleTerm> vertex_rule(VertexId vertex, const Ring& ring, const WeightsByValence& weights) {
   std::vector<RuleTerm> row;
   if (ring.kind == Ring::Kind::kBoundary) {
     row = {{vertex, 0.75}, {ring.neighbours[0], 0.125}, {ring.neighbours[1], 0.125}};
   } else if (ring.kind == Ring::Kind::kInner) {
-    const double beta = ring_weights(static_cast<std::int32_t>(ring.neighbours.size())).beta;
+    const double beta = weights.at(ring.neighbours.size()).beta;
     row.push_back({vertex, 1 - beta});
     for (const VertexId neighbour : ring.neighbours) {
       row.push_back({neighbour, beta / double(ring.neighbours.size())});
@@ -90,7 +106,7 @@ bool is_extraordinary(const Ring& ring) { return ring.kind == Ring::Kind::kInner
 
 // `opposite`: the third vertices of the edge's faces.
 std::vector<RuleTerm> edge_rule(const std::array<VertexId, 2>& edge, const std::vector<VertexId>& opposite,
-                                const std::vector<Ring>& rings) {
+                                const std::vector<Ring>& rings, const WeightsByValence& weights) {
   std::vector<RuleTerm> row;
   if (opposite.size() != 2) return row;  // a boundary: its B-spline has the midpoint
   const double extraordinary = int(is_extraordinary(rings[static_cast<std::size_t>(edge[0])])) +
@@ -100,7 +116,8 @@ std::vector<RuleTerm> edge_rule(const std::array<VertexId, 2>& edge, const std::
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const Ring& ring = rings[static_cast<std::size_t>(edge[k])];
-    if (is_extraordinary(ring)) add_ring_rule(row, edge[k], ring, edge[1 - k], 1 / extraordinary);
+    if (!is_extraordinary(ring)) continue;
+    add_ring_rule(row, edge[k], ring, weights.at(ring.neighbours.size()), edge[1 - k], 1 / extraordinary);
   }
   return row;
 }
@@ -111,8 +128,10 @@ RingWeights ring_weights(std::int32_t n) {
   SELVAGE_ASSERT(n >= 3);
   RingWeights weights;
   std::vector<double> wave(static_cast<std::size_t>(n));
+  constexpr std::int32_t kLastMode = 60;  // all beyond are 2^-59 together, below the rounding of a weight
   for (std::int32_t j = 0; j < n; ++j) {
     for (std::int32_t k = 1; k < n; ++k) {
+      if (k == kLastMode + 1) k = std::max(k, n - kLastMode);
       // j k modulo n first: the cosine of a large multiple would lose digits.
       const double angle = 2 * std::numbers::pi * double((std::int64_t{j} * k) % n) / n;
       wave[static_cast<std::size_t>(j)] += std::ldexp(std::cos(angle), -std::min(k, n - k));
@@ -145,12 +164,13 @@ LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
   const VertexFaces faces(coarse);
   std::vector<Ring> rings;
   for (VertexId v = 0; v < coarse_count_; ++v) rings.push_back(ring_of(v, coarse, faces.of(v)));
+  const WeightsByValence weights = weights_of(rings);
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    rows_.push_back(stays[v] != 0 ? std::vector<RuleTerm>{} : vertex_rule(static_cast<VertexId>(v), rings[v]));
+    rows_.push_back(stays[v] != 0 ? std::vector<RuleTerm>{} : vertex_rule(static_cast<VertexId>(v), rings[v], weights));
   }
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const bool fixed = stays[static_cast<std::size_t>(edges_[e][0])] != 0;
-    rows_.push_back(fixed ? std::vector<RuleTerm>{} : edge_rule(edges_[e], opposite[e], rings));
+    rows_.push_back(fixed ? std::vector<RuleTerm>{} : edge_rule(edges_[e], opposite[e], rings, weights));
   }
   for (const auto& row : rows_) moves_.push_back(row.empty() ? 0 : 1);
 }

@@ -21,7 +21,7 @@ struct RingWeights {
   double beta = 0;           ///< of all neighbours together, in the vertex' own new place
   std::vector<double> ring;  ///< of the neighbour j places on from the edge's other end; sum 1 - alpha, all >= 0
 };
-/// REQUIRES n >= 3.
+/// REQUIRES n >= 3. O(n).
 [[nodiscard]] RingWeights ring_weights(std::int32_t n);
 
 /// A row of a rule: the new point is the sum of weight times old point; weights >= 0 with sum 1.
@@ -36,7 +36,8 @@ class LoopRules {
  public:
   /// Vertices of faces flagged in `rigid` (#F, or empty) stay where they are, and their edges' new points at the
   /// midpoints. At boundaries the surface follows the cubic B-spline of the boundary; vertices that are neither inner
-  /// nor on one boundary (of no face, or where surfaces meet in a point or along an edge) stay.
+  /// nor on one boundary (of no face, or where surfaces meet in a point or along an edge) stay. Time and memory O(n^2)
+  /// at an inner vertex of n edges: the new point of each of them is of all n.
   LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid);
 
   [[nodiscard]] const io::Triangles& triangles() const { return triangles_; }

@@ -329,7 +329,9 @@ TEST(CcdBatch, KeepsPositionsOfAnyStorage) {
     Eigen::MatrixXd V_t1 = V_t0;
     V_t1.bottomRows(3).rowwise() += down;
     const CcdBatch batch(mesh, V_t0, V_t1, {0, 4096}, query_count);
-    const std::vector<Eigen::MatrixXd> elsewhere(8, Eigen::MatrixXd::Zero(6, 3));  // where the copies were
+    Eigen::MatrixXd apart = V_t0;
+    apart.bottomRows(3).rowwise() -= 5 * down;
+    const std::vector<Eigen::MatrixXd> elsewhere(8, apart);  // where the copies were
     EXPECT_EQ(batch.ask(std::span(&pair, 1)).answers.size(), 1U) << query_count;
   }
   static_assert(

@@ -1,5 +1,7 @@
 #include "sim/impact_zone.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace selvage::sim::testing {
@@ -31,8 +33,8 @@ TEST(ImpactZones, MergingIsTransitive) {
   EXPECT_TRUE(zones.merge({0, 1, 2, 2}));
   EXPECT_FALSE(zones.merge({2, 1, 0, 1}));  // one zone already
   EXPECT_TRUE(zones.merge({2, 3, 4, 3}));   // joins both zones and vertex 3
-  EXPECT_EQ(zones.members(0), (std::vector<VertexId>{0, 1, 2, 3, 4, 5}));
-  for (VertexId v = 0; v < 6; ++v) EXPECT_EQ(zones.zone(v), 0);
+  EXPECT_TRUE(std::ranges::is_permutation(zones.members(zones.zone(0)), std::vector<VertexId>{0, 1, 2, 3, 4, 5}));
+  for (VertexId v = 0; v < 6; ++v) EXPECT_EQ(zones.zone(v), zones.zone(0));
   EXPECT_EQ(zones.largest(), 6);
 }
 
