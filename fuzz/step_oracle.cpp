@@ -150,10 +150,25 @@ sim::CollisionStepResult selvage_step(const StepWorld& world, const Positions& x
   return step(x_t0, candidate, world.bodies(), world.dt_s);
 }
 
+namespace {
+
+/// A script is followed exactly, so one beyond the domain, or the largest float32, must be refused.
+bool a_script_leaves_the_domain(const StepWorld& world, const Positions& candidate) {
+  const bool float32 = world.options.precision == sim::CollisionOptions::Precision::kFloat32;
+  const double limit = float32 ? static_cast<double>(std::numeric_limits<float>::max()) : kMaxCoordinate;
+  for (Eigen::Index v = 0; v < candidate.rows(); ++v) {
+    const bool is_scripted = world.inverse_mass[static_cast<std::size_t>(v)] == 0;
+    if (is_scripted && candidate.row(v).cwiseAbs().maxCoeff() > limit) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 StepDefect judge_step(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
                       const sim::CollisionStepResult& result) {
   const sim::CollisionStepReport& report = result.report;
-  if (!candidate.allFinite()) {
+  if (!candidate.allFinite() || a_script_leaves_the_domain(world, candidate)) {
     return report.status == sim::StepStatus::kInvalidInput ? StepDefect::kNone : StepDefect::kNotRefused;
   }
   switch (report.status) {

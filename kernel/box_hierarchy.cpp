@@ -1,5 +1,6 @@
 #include "kernel/box_hierarchy.h"
 
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -87,10 +88,18 @@ void BoxHierarchy::refit(const PositionsRef& V_t0, const PositionsRef& V_t1, con
   impl_->boxes->refit(impl_->mesh, *impl_->chosen, V_t0, V_t1, options);
 }
 
-Candidates BoxHierarchy::candidates() const {
+Candidates BoxHierarchy::candidates() const { return *candidates(std::numeric_limits<std::size_t>::max()); }
+
+std::optional<Candidates> BoxHierarchy::candidates(std::size_t most) const {
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(impl_->boxes);
-  return find_pairs(impl_->mesh, *impl_->chosen, *impl_->boxes);
+  return find_pairs(impl_->mesh, *impl_->chosen, *impl_->boxes, most);
+}
+
+void BoxHierarchy::visit_candidates(const CandidateVisitor& visit) const {
+  const FpEnvGuard guard;
+  SELVAGE_REQUIRE(impl_->boxes);
+  visit_pairs(impl_->mesh, *impl_->chosen, *impl_->boxes, visit);
 }
 
 }  // namespace selvage

@@ -1,7 +1,9 @@
 // The bounding-box hierarchy (paper, section 6): leaves are faces; made once, refit each step.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "kernel/candidates.h"
 
@@ -31,6 +33,11 @@ class BoxHierarchy {
   void refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options);
   /// Equal to find_candidates_brute_force for the last refit (K6), for any thread count (K7).
   [[nodiscard]] Candidates candidates() const;
+  /// Likewise, but nothing where there are more than `most`; takes memory for about so many. A motion that is long
+  /// beside the features has O(#F^2) candidates.
+  [[nodiscard]] std::optional<Candidates> candidates(std::size_t most) const;
+  /// Calls `visit` with all of them, part by part: memory for some thousands a thread, and #E.
+  void visit_candidates(const CandidateVisitor& visit) const;
 
  private:
   struct Impl;

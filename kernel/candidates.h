@@ -5,6 +5,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct Candidates {
   /// Pair by pair.
   friend bool operator==(const Candidates&, const Candidates&) = default;
 };
+
+/// What is called with a part of them. The parts hold every candidate once, in no order; calls come from several
+/// threads at once.
+using CandidateVisitor = std::function<void(const Candidates& part)>;
 
 /// What counts as a candidate.
 struct CandidateOptions {

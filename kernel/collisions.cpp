@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "kernel/assert.h"
@@ -47,37 +48,56 @@ class CollisionFinder {
       : mesh_(mesh), V_t0_(V_t0), V_t1_(V_t1), options_(options), active_(active) {}
 
   CollisionReport find(const Candidates& candidates) {
-    report_.vf_candidates = static_cast<std::int64_t>(candidates.vf.size());
-    report_.ee_candidates = static_cast<std::int64_t>(candidates.ee.size());
     const CcdBatch batch(mesh_, V_t0_, V_t1_, options_, candidates.vf.size() + candidates.ee.size());
-    ask(batch, PairKind::kVf, candidates.vf);
-    ask(batch, PairKind::kEe, candidates.ee);
-    const auto self_begin = static_cast<std::ptrdiff_t>(report_.collisions.size());
-    join(for_each_block<Block>(mesh_.faces.size(), [&](std::size_t f, Block& block) { query_face(f, block); }));
-    std::sort(report_.collisions.begin() + self_begin, report_.collisions.end(),
-              [](const auto& a, const auto& b) { return std::tie(a.first, a.second) < std::tie(b.first, b.second); });
-    return std::move(report_);
+    ask_all(batch, PairKind::kVf, candidates.vf);
+    ask_all(batch, PairKind::kEe, candidates.ee);
+    return take();
+  }
+
+  /// Of `more_than` candidates and more, part by part: answers do not depend on how a list is divided (CcdBatch).
+  CollisionReport find(const BoxHierarchy& hierarchy, std::size_t more_than) {
+    const CcdBatch batch(mesh_, V_t0_, V_t1_, options_, more_than);
+    tbb::enumerable_thread_specific<Block> blocks;
+    hierarchy.visit_candidates([&](const Candidates& part) {
+      ask(batch, PairKind::kVf, std::span(part.vf), blocks.local());
+      ask(batch, PairKind::kEe, std::span(part.ee), blocks.local());
+    });
+    join(blocks);
+    return take();
   }
 
  private:
   struct Block {
     std::vector<Collision> collisions;
-    std::int64_t intervals = 0, self_candidates = 0;
+    std::int64_t vf_candidates = 0, ee_candidates = 0, self_candidates = 0, intervals = 0;
   };
 
+  /// With what faces meet of their own corners.
+  CollisionReport take() {
+    join(for_each_block<Block>(mesh_.faces.size(), [&](std::size_t f, Block& block) { query_face(f, block); }));
+    std::ranges::sort(report_.collisions, {}, [](const Collision& c) { return std::tuple(c.kind, c.first, c.second); });
+    return std::move(report_);
+  }
+
   template <typename Pair>
-  void ask(const CcdBatch& batch, PairKind kind, const std::vector<Pair>& candidates) {
+  void ask_all(const CcdBatch& batch, PairKind kind, const std::vector<Pair>& candidates) {
     std::vector<Block> blocks((candidates.size() + kBatchSize - 1) / kBatchSize);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
       const auto pairs = std::span(candidates).subspan(b * kBatchSize);
-      const BatchReport report = batch.ask(pairs.first(std::min(kBatchSize, pairs.size())));
-      for (const BatchAnswer& answer : report.answers) {
-        const auto [first, second] = pairs[answer.candidate];
-        blocks[b].collisions.push_back({kind, first, second, answer.ccd});
-      }
-      blocks[b].intervals = report.intervals;
+      ask(batch, kind, pairs.first(std::min(kBatchSize, pairs.size())), blocks[b]);
     });
     join(blocks);
+  }
+
+  template <typename Pair>
+  void ask(const CcdBatch& batch, PairKind kind, std::span<const Pair> pairs, Block& block) const {
+    const BatchReport report = batch.ask(pairs);
+    for (const BatchAnswer& answer : report.answers) {
+      const auto [first, second] = pairs[answer.candidate];
+      block.collisions.push_back({kind, first, second, answer.ccd});
+    }
+    block.intervals += report.intervals;
+    (kind == PairKind::kVf ? block.vf_candidates : block.ee_candidates) += std::ssize(pairs);
   }
 
   void query_self(VertexId vertex, FaceId face, Block& block) const {
@@ -101,10 +121,13 @@ class CollisionFinder {
     }
   }
 
-  void join(const std::vector<Block>& blocks) {
+  template <typename Blocks>
+  void join(const Blocks& blocks) {
     for (const Block& block : blocks) {
       report_.collisions.insert(report_.collisions.end(), block.collisions.begin(), block.collisions.end());
       report_.intervals += block.intervals;
+      report_.vf_candidates += block.vf_candidates;
+      report_.ee_candidates += block.ee_candidates;
       report_.self_candidates += block.self_candidates;
       for (const Collision& collision : block.collisions) {
         report_.toi_lower = std::min(report_.toi_lower, collision.ccd.toi_lower);
@@ -133,11 +156,13 @@ std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int3
 
 CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                 const PositionsRef& V_t1, const CcdOptions& options,
-                                std::span<const std::uint8_t> active) {
+                                std::span<const std::uint8_t> active, std::size_t most_listed) {
   SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
   SELVAGE_REQUIRE(validate(options) == InputError::kNone);
   hierarchy.refit(V_t0, V_t1, {options.tolerance, active});
-  return CollisionFinder(mesh, V_t0, V_t1, options, active).find(hierarchy.candidates());
+  CollisionFinder finder(mesh, V_t0, V_t1, options, active);
+  if (const auto candidates = hierarchy.candidates(most_listed)) return finder.find(*candidates);
+  return finder.find(hierarchy, most_listed);
 }
 
 }  // namespace selvage

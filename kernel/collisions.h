@@ -1,6 +1,7 @@
 // Collisions of a whole mesh: broad phase, then the queries, in parallel, in a fixed order (K7).
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "kernel/box_hierarchy.h"
@@ -25,6 +26,9 @@ struct CollisionReport {
   std::int64_t intervals = 0;         ///< time intervals they examined: a deterministic measure of work
 };
 
+/// Candidates that take half a gigabyte: as found, and listed.
+inline constexpr std::size_t kMostListed = std::size_t{1} << 25;
+
 /// The vertices of a pair in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, p} for kSelf.
 [[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
                                                     std::int32_t second);
@@ -37,8 +41,11 @@ struct CollisionReport {
 /// motion (V_t0 = V_t1) is a step: pairs within tolerance are found, touching ones with toi_lower 0. `hierarchy`
 /// belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES validate() == kNone of the positions
 /// and of the options, which it asks. In parallel; results are ordered, and equal bits for any thread count (K7).
+/// Up to `most_listed` candidates are listed before they are asked; more are asked as they are found. So memory is
+/// O(#V + #F + most_listed + #collisions), while a long motion has O(#F^2) candidates, and takes as long.
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                               const PositionsRef& V_t1, const CcdOptions& options,
-                                              std::span<const std::uint8_t> active = {});
+                                              std::span<const std::uint8_t> active = {},
+                                              std::size_t most_listed = kMostListed);
 
 }  // namespace selvage

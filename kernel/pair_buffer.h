@@ -29,6 +29,12 @@ class PairBuffer {
     return kept;
   }
 
+  /// Gives back what was kept last.
+  void give_back(std::span<const std::uint64_t> kept) {
+    next_ -= kept.size();
+    left_ += kept.size();
+  }
+
  private:
   static constexpr std::size_t kChunk = 1 << 16;  ///< 512 KB: few allocations, little left over
   std::vector<std::unique_ptr<std::uint64_t[]>> chunks_;

@@ -1,6 +1,8 @@
 #include "kernel/pair_finder.h"
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -71,21 +73,98 @@ struct Workspace {
   Partners<2> edges;
 };
 
-class PairFinder {
- public:
-  PairFinder(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes)
-      : mesh_(mesh),
-        clusters_(clusters),
-        boxes_(boxes),
-        vf_(static_cast<std::size_t>(mesh.vertex_count)),
-        ee_(mesh.edges.size()) {}
+template <typename Candidate>
+Candidate candidate(std::uint64_t pair) {
+  return {static_cast<std::int32_t>(pair & 0xffffffff), static_cast<std::int32_t>(pair >> 32)};
+}
 
-  Candidates find() {
-    if (!clusters_.nodes.empty()) descend(0, {0});
+/// Where found pairs go: into one list, unless there are too many for one.
+class Listing {
+ public:
+  Listing(const Mesh& mesh, std::size_t most)
+      : vf_(static_cast<std::size_t>(mesh.vertex_count)), ee_(mesh.edges.size()), most_(most) {}
+
+  void add_vf(PairBuffer& /*pairs*/, VertexId first, std::span<const std::uint64_t> found) { add(vf_, first, found); }
+  void add_ee(PairBuffer& /*pairs*/, EdgeId first, std::span<const std::uint64_t> found) { add(ee_, first, found); }
+  [[nodiscard]] bool is_full() const { return count_ > most_; }
+  [[nodiscard]] std::optional<Candidates> take() const {
+    if (is_full()) return std::nullopt;
     Candidates candidates;
     collect(vf_, candidates.vf);
     collect(ee_, candidates.ee);
     return candidates;
+  }
+
+ private:
+  using ByFirst = std::vector<std::span<const std::uint64_t>>;
+
+  void add(ByFirst& pairs, std::int32_t first, std::span<const std::uint64_t> found) {
+    pairs[static_cast<std::size_t>(first)] = found;
+    count_.fetch_add(found.size(), std::memory_order_relaxed);
+  }
+
+  template <typename Candidate>
+  static void collect(const ByFirst& found, std::vector<Candidate>& out) {
+    std::vector<std::size_t> begin(found.size() + 1, 0);
+    for (std::size_t i = 0; i < found.size(); ++i) begin[i + 1] = begin[i] + found[i].size();
+    out.resize(begin.back());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        std::ranges::transform(found[i], out.begin() + static_cast<std::ptrdiff_t>(begin[i]), candidate<Candidate>);
+      }
+    });
+  }
+
+  ByFirst vf_, ee_;
+  std::size_t most_;
+  std::atomic<std::size_t> count_ = 0;
+};
+
+/// Or to a visitor, in lists as long as pay for a call.
+class Visiting {
+ public:
+  explicit Visiting(const CandidateVisitor& visit) : visit_(visit) {}
+
+  void add_vf(PairBuffer& pairs, VertexId /*first*/, std::span<const std::uint64_t> found) {
+    add(lists_.local(), &Candidates::vf, pairs, found);
+  }
+  void add_ee(PairBuffer& pairs, EdgeId /*first*/, std::span<const std::uint64_t> found) {
+    add(lists_.local(), &Candidates::ee, pairs, found);
+  }
+  [[nodiscard]] static bool is_full() { return false; }
+  void finish() {
+    for (Candidates& list : lists_) give(list);
+  }
+
+ private:
+  static constexpr std::size_t kListSize = 4096;
+
+  template <typename Candidate>
+  void add(Candidates& list, std::vector<Candidate> Candidates::*of_kind, PairBuffer& pairs,
+           std::span<const std::uint64_t> found) {
+    std::ranges::transform(found, std::back_inserter(list.*of_kind), candidate<Candidate>);
+    pairs.give_back(found);
+    if (list.vf.size() + list.ee.size() >= kListSize) give(list);
+  }
+  void give(Candidates& list) {
+    visit_(list);
+    list.vf.clear();
+    list.ee.clear();
+  }
+
+  const CandidateVisitor& visit_;
+  tbb::enumerable_thread_specific<Candidates> lists_;
+};
+
+template <typename Sink>
+class PairFinder {
+ public:
+  PairFinder(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes, Sink& sink)
+      : mesh_(mesh), clusters_(clusters), boxes_(boxes), sink_(sink) {}
+
+  /// The sink's pairs are valid as long as the finder.
+  void find() {
+    if (!clusters_.nodes.empty()) descend(0, {0});
   }
 
  private:
@@ -128,6 +207,7 @@ class PairFinder {
   }
 
   void find_in_cluster(std::size_t c, const Box& box, const Words& frontier, bool active_only) {
+    if (sink_.is_full()) return;
     Workspace& work = workspaces_.local();
     work.clusters.assign(frontier);
     const auto is_node = [](std::uint64_t word) { return tree_ref(word) >= 0; };
@@ -206,7 +286,7 @@ class PairFinder {
     find_keys(clusters_.faces, boxes_.faces(), all, 0, work);
     const auto is_active = [&](VertexId v) { return boxes_.is_active(std::array{v}); };
     match(own, is_active, boxes_.faces(), mesh_.faces, work.keys, work.faces, [&](VertexId v) {
-      vf_[static_cast<std::size_t>(v)] = find_partners(work.faces, 0, boxes_.vertex(v), std::array{v}, v, work.pairs);
+      sink_.add_vf(work.pairs, v, find_partners(work.faces, 0, boxes_.vertex(v), std::array{v}, v, work.pairs));
     });
   }
 
@@ -220,38 +300,33 @@ class PairFinder {
     find_keys(clusters_.edges, boxes_.edges(), all, own.front() + 1, work);
     const auto is_active = [&](EdgeId e) { return boxes_.is_active(ends(e)); };
     match(own, is_active, boxes_.edges(), mesh_.edges, work.keys, work.edges, [&](EdgeId e) {
-      ee_[static_cast<std::size_t>(e)] =
-          find_partners(work.edges, first_after(work.edges, e), box(e), ends(e), e, work.pairs);
-    });
-  }
-
-  template <typename Candidate>
-  static void collect(const std::vector<std::span<const std::uint64_t>>& found, std::vector<Candidate>& out) {
-    std::vector<std::size_t> begin(found.size() + 1, 0);
-    for (std::size_t i = 0; i < found.size(); ++i) begin[i + 1] = begin[i] + found[i].size();
-    out.resize(begin.back());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), 1024), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i != range.end(); ++i) {
-        std::transform(
-            found[i].begin(), found[i].end(), out.begin() + static_cast<std::ptrdiff_t>(begin[i]),
-            [](std::uint64_t pair) {
-              return Candidate{static_cast<std::int32_t>(pair & 0xffffffff), static_cast<std::int32_t>(pair >> 32)};
-            });
-      }
+      const std::size_t begin = first_after(work.edges, e);
+      sink_.add_ee(work.pairs, e, find_partners(work.edges, begin, box(e), ends(e), e, work.pairs));
     });
   }
 
   const Mesh& mesh_;
   const FaceClusters& clusters_;
   const FittedBoxes& boxes_;
-  std::vector<std::span<const std::uint64_t>> vf_, ee_;  ///< by the first feature of the pairs
+  Sink& sink_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
 
 }  // namespace
 
-Candidates find_pairs(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes) {
-  return PairFinder(mesh, clusters, boxes).find();
+std::optional<Candidates> find_pairs(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes,
+                                     std::size_t most) {
+  Listing listing(mesh, most);
+  PairFinder finder(mesh, clusters, boxes, listing);
+  finder.find();
+  return listing.take();
+}
+
+void visit_pairs(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes,
+                 const CandidateVisitor& visit) {
+  Visiting visiting(visit);
+  PairFinder(mesh, clusters, boxes, visiting).find();
+  visiting.finish();
 }
 
 }  // namespace selvage

@@ -1,6 +1,9 @@
 // Finds the candidate pairs of a fitted hierarchy.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "kernel/candidates.h"
 #include "kernel/fitted_boxes.h"
 
@@ -13,6 +16,12 @@ namespace selvage {
 /// owned feature of the one is tested against every feature of the other. Nothing is found twice, because a feature
 /// lies in one cluster only: that of its owner. Likewise an active vertex of a feature is a corner of its owner, so a
 /// subtree marked inactive holds no active feature.
-[[nodiscard]] Candidates find_pairs(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes);
+/// Nothing where there are more than `most`, which costs memory for about so many.
+[[nodiscard]] std::optional<Candidates> find_pairs(const Mesh& mesh, const FaceClusters& clusters,
+                                                   const FittedBoxes& boxes, std::size_t most);
+
+/// The same pairs, given to `visit` as they are found (BoxHierarchy::visit_candidates).
+void visit_pairs(const Mesh& mesh, const FaceClusters& clusters, const FittedBoxes& boxes,
+                 const CandidateVisitor& visit);
 
 }  // namespace selvage

@@ -120,10 +120,10 @@ class CollisionStep {
   /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
   /// looked at (a part of the mesh in which every vertex has a body that is no pin is one). V_candidate: any finite
   /// positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the
-  /// scripts' too, are rounded to it. POST (kSafe): the straight motion V_t0 -> x is exactly free of touching; what is
-  /// nearer than its tolerance is named; scripted vertices are at their (rounded) candidates, or at V_t0 where their
-  /// body waits; all others are within kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2)
-  /// (impulse_iterations
+  /// scripts' too, are rounded to it; a script beyond the largest float32 is invalid (kTooLarge). POST (kSafe): the
+  /// straight motion V_t0 -> x is exactly free of touching; what is nearer than its tolerance is named; scripted
+  /// vertices are at their (rounded) candidates, or at V_t0 where their body waits; all others are within
+  /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations
   /// + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,

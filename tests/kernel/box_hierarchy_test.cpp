@@ -1,8 +1,10 @@
 #include "kernel/box_hierarchy.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,20 @@ std::pair<Mesh, Positions> sheet(VertexId n, const Position& position) {
   return {make_mesh(static_cast<VertexId>(V.rows()), F), V};
 }
 
+/// What is visited, put together.
+Candidates visited(const BoxHierarchy& hierarchy) {
+  Candidates all;
+  std::mutex mutex;
+  hierarchy.visit_candidates([&](const Candidates& part) {
+    const std::scoped_lock lock(mutex);
+    all.vf.insert(all.vf.end(), part.vf.begin(), part.vf.end());
+    all.ee.insert(all.ee.end(), part.ee.begin(), part.ee.end());
+  });
+  std::ranges::sort(all.vf);
+  std::ranges::sort(all.ee);
+  return all;
+}
+
 void expect_brute_force(const Mesh& mesh, const Positions& V_t0, const Positions& V_t1,
                         const CandidateOptions& options) {
   const Candidates expected = find_candidates_brute_force(mesh, V_t0, V_t1, options);
@@ -58,6 +74,10 @@ void expect_brute_force(const Mesh& mesh, const Positions& V_t0, const Positions
     BoxHierarchy hierarchy(mesh, kind);
     hierarchy.refit(V_t0, V_t1, options);
     EXPECT_EQ(hierarchy.candidates(), expected);
+    EXPECT_EQ(visited(hierarchy), expected);
+    const std::size_t count = expected.vf.size() + expected.ee.size();
+    EXPECT_EQ(hierarchy.candidates(count), expected);
+    EXPECT_EQ(hierarchy.candidates(count - 1).has_value(), count == 0);  // below 0 is the largest number
   }
 }
 
@@ -79,12 +99,14 @@ TEST(BoxHierarchy, PropEqualsBruteForce) {
       RC_LOG() << motion << '\n';
       const Candidates expected = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t1, motion.options());
       for (BoxHierarchy& hierarchy : hierarchies) {
-        Candidates found;
+        Candidates found, in_parts;
         testing::with_threads(thread_count, [&] {
           hierarchy.refit(motion.V_t0, motion.V_t1, motion.options());
           found = hierarchy.candidates();
+          in_parts = visited(hierarchy);
         });
         RC_ASSERT(found == expected);
+        RC_ASSERT(in_parts == expected);
       }
     }
   });

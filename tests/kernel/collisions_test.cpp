@@ -167,11 +167,21 @@ TEST(FindCollisions, PropEqualsOneQueryAfterAnother) {
     const Reference expected(mesh, motion, options);
     BoxHierarchy hierarchy(mesh);
     CollisionReport report, of_one_thread;
-    const auto find_all = [&] {
-      return find_collisions(mesh, hierarchy, motion.V_t0, motion.V_t1, options, motion.active);
+    CollisionReport in_parts, in_parts_of_one_thread;  // not listed before they are asked
+    const auto find_all = [&](std::size_t most_listed) {
+      return find_collisions(mesh, hierarchy, motion.V_t0, motion.V_t1, options, motion.active, most_listed);
     };
-    testing::with_threads(*rc::gen::element(2, 3, 8), [&] { report = find_all(); });
-    testing::with_threads(1, [&] { of_one_thread = find_all(); });
+    testing::with_threads(*rc::gen::element(2, 3, 8), [&] {
+      report = find_all(kMostListed);
+      in_parts = find_all(1);
+    });
+    testing::with_threads(1, [&] {
+      of_one_thread = find_all(kMostListed);
+      in_parts_of_one_thread = find_all(1);
+    });
+    RC_ASSERT(expected.agrees_with(in_parts));
+    RC_ASSERT(expected.agrees_with(in_parts_of_one_thread));
+    RC_ASSERT(in_parts.intervals == in_parts_of_one_thread.intervals);
     RC_ASSERT(expected.agrees_with(report));
     RC_ASSERT(expected.agrees_with(of_one_thread));
     RC_ASSERT(report.intervals == of_one_thread.intervals);
