@@ -129,7 +129,7 @@ ExitCode recheck(const io::SequenceReader& input, Conversion conversion, const C
   for (std::size_t i = 0; i < written->frame_count(); ++i) context.frame_names.emplace(i, written->frame_name(i));
   fmt::print("as written: ");
   print_report(verify::text_report(report, context, kListed), report.verdict);
-  return exit_code(report.verdict);
+  return exit_code(report);
 }
 
 ExitCode run(const ConvertArguments& arguments) {

@@ -138,6 +138,12 @@ fuzz::DriverOptions driver_options(const Arguments& arguments) {
   return options;
 }
 
+/// A campaign that was stopped has work left, whatever it has found: whoever reads 1 as an answer would not go on.
+ExitCode exit_code(bool finished, bool held) {
+  if (!finished) return ExitCode::kInterrupted;
+  return held ? ExitCode::kClean : ExitCode::kViolation;
+}
+
 /// Someone else's code under the query level.
 ExitCode run_plugin(const Arguments& arguments) {
   if (!arguments.properties.empty()) throw UsageError("--plugin runs the conformance test and nothing else");
@@ -164,8 +170,7 @@ ExitCode run_plugin(const Arguments& arguments) {
   io::write_atomically(plain, text);
   io::write_atomically(html, conformance_page(ledger, *properties.front(), info, page));
   fmt::print("{}", text);
-  if (!ledger.properties.front().findings.empty()) return ExitCode::kViolation;
-  return finished ? ExitCode::kClean : ExitCode::kInterrupted;
+  return exit_code(finished, ledger.properties.front().findings.empty());
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -187,8 +192,7 @@ ExitCode run(const Arguments& arguments) {
   fmt::print("{}{} cases in {:.1f} s, {:.1f} s of processor time: {:.0f} a second\n", table.text, status.cases,
              status.seconds, status.processor_seconds,
              static_cast<double>(status.cases) / std::max(status.seconds, 1e-3));
-  if (!table.held) return ExitCode::kViolation;
-  return finished ? ExitCode::kClean : ExitCode::kInterrupted;
+  return exit_code(finished, table.held);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ ExitCode run(const Arguments& arguments) {
   }
   constexpr std::size_t kListed = 10;  // as selvage verify does on a terminal
   print_report(verify::text_report(merged.report, merged.context, kListed), merged.report.verdict);
-  return merged.report.pairs.disagreed > 0 ? ExitCode::kInternal : exit_code(merged.report.verdict);
+  return exit_code(merged.report);
 }
 
 }  // namespace

@@ -8,14 +8,20 @@
 
 namespace selvage::cli {
 
-ExitCode exit_code(verify::Verdict verdict) {
-  switch (verdict) {
+bool is_complete(const verify::SequenceReport& report) {
+  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
+}
+
+ExitCode exit_code(const verify::SequenceReport& report) {
+  if (interrupted() && !is_complete(report)) return ExitCode::kInterrupted;
+  if (report.pairs.disagreed > 0) return ExitCode::kInternal;
+  switch (report.verdict) {
     case verify::Verdict::kClean:
       return ExitCode::kClean;
     case verify::Verdict::kViolated:
       return ExitCode::kViolation;
     case verify::Verdict::kUnknown:
-      return interrupted() ? ExitCode::kInterrupted : ExitCode::kLimit;
+      return ExitCode::kLimit;
   }
   return ExitCode::kInternal;
 }

@@ -69,7 +69,7 @@ ExitCode run(const VerifyArguments& arguments) {
   }
   if (!arguments.json.empty()) {
     io::write_atomically(arguments.json, verify::json_report(report, context));
-    if (!interrupted()) VerifyProgress(arguments.json, context).remove();
+    if (is_complete(report)) VerifyProgress(arguments.json, context).remove();
   }
   if (!arguments.html.empty()) {
     const ReportPageOptions page{arguments.min_distance.value_or(0),
@@ -78,7 +78,7 @@ ExitCode run(const VerifyArguments& arguments) {
   }
   const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
   print_report(verify::text_report(report, context, max_listed), report.verdict);
-  return report.pairs.disagreed > 0 ? ExitCode::kInternal : exit_code(report.verdict);
+  return exit_code(report);
 }
 
 }  // namespace

@@ -3,17 +3,10 @@
 #include <utility>
 
 #include "cli/exit_code.h"
+#include "cli/verdict.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {
-namespace {
-
-bool is_complete(const verify::SequenceReport& report) {
-  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
-}
-
-}  // namespace
-
 VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
     : report_file_(std::move(report)), context_(context), written_(std::chrono::steady_clock::now()) {
   file_ = report_file_;

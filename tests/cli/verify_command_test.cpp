@@ -282,6 +282,30 @@ TEST(VerifyCommand, InterruptEndsWithUnknownAnd75) {
   EXPECT_EQ(nlohmann::json::parse(testing::slurp(report))["verdict"], "unknown");
 }
 
+TEST(VerifyCommand, AnInterruptThatLeavesWorkIs75WhateverWasFound) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj", p = folder.path() / "p.obj", q = folder.path() / "q.obj",
+             report = folder.path() / "report.json", merged = folder.path() / "merged.json";
+  spit(a, two_faces(0));
+  ASSERT_EQ(mkfifo(p.c_str(), 0600) + mkfifo(q.c_str(), 0600), 0);
+  const pid_t child = testing::start_program(folder.path(), {"verify", "--motion", "--json", report, a, p, q, a});
+  spit(p, two_faces(0));  // Opened, all are read once to compare their faces;
+  spit(q, two_faces(0));  // once q is asked for, p is done with.
+  std::ofstream again(p);
+  kill(child, SIGTERM);  // The first frame has been checked, and the second is waited for.
+  again << two_faces(0);
+  again.close();
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
+  EXPECT_TRUE(result.out.starts_with("violated\n")) << result.out;
+  EXPECT_NE(result.out.find("stopped on request"), std::string::npos) << result.out;
+  EXPECT_EQ(nlohmann::json::parse(testing::slurp(report))["verdict"], "violated");
+
+  const auto whole = run_program(folder, {"merge", report, "-o", merged});
+  EXPECT_EQ(whole.exit_code, 1) << "what was found stands: " << whole.out << whole.err;
+  EXPECT_NE(whole.out.find("stopped on request"), std::string::npos) << whole.out;
+}
+
 TEST(VerifyCommand, HelpStartsWithAnExample) {
   const auto result = run_program({"verify", "--help"});
   EXPECT_EQ(result.exit_code, 0);
