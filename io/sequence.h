@@ -63,7 +63,8 @@ class SequenceWriter {
  public:
   /// Creates the folder. Throws Error if another process writes to it, or if it holds a sequence already, unless
   /// `resume`, which then continues behind the frames it lists, and checks that header and faces are the same and that
-  /// these frames are there with their checksums.
+  /// these frames are there with their checksums; nothing in the folder changes before the first append() or
+  /// truncate().
   SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume = false);
   ~SequenceWriter();
   /// Times increase; all frames have as many vertices as the first. With kFloat32 every value must be a float32.

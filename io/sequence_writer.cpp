@@ -84,7 +84,6 @@ struct SequenceWriter::Impl {
         fewest_vertices = std::max(fewest_vertices, static_cast<std::size_t>(vertex) + 1);
       }
     }
-    remove_temporaries(folder);
     std::error_code status;
     if (!fs::exists(folder / kHeaderFile, status)) {
       begin(header);
@@ -113,7 +112,7 @@ struct SequenceWriter::Impl {
     }
     frames = parse_frame_list(read_file(list_file), list_file.string());
     for (const FrameRecord& frame : frames) check_recorded(frame);
-    rewrite_list();
+    // The list itself is rewritten with the first change: who asked may find another reason not to go on.
   }
 
   /// A run must not be called complete whose earlier frames are gone: every frame on the list is read once.
@@ -133,8 +132,10 @@ struct SequenceWriter::Impl {
     vertex_count = found;
   }
 
-  /// Atomically; drops the torn line that a kill or a failed append has left, and the frames that were truncated.
+  /// The folder's first change, and after failures. Atomically; drops the torn line that a kill or a failed append has
+  /// left, and the frames that were truncated.
   void rewrite_list() {
+    remove_temporaries(folder);
     std::string text;
     for (const FrameRecord& frame : frames) text += to_json(frame);
     write_atomically(folder / kFramesFile, text);
@@ -190,7 +191,7 @@ struct SequenceWriter::Impl {
   std::size_t fewest_vertices = 0;  ///< that the faces need
   std::optional<std::size_t> vertex_count;
   std::vector<FrameRecord> frames;
-  std::optional<PosixFile> list;  ///< open for appending; absent after a failure
+  std::optional<PosixFile> list;  ///< open for appending; absent before the first change, and after a failure
 };
 
 SequenceWriter::SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume)

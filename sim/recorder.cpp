@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
+#include "io/fail.h"
 #include "sim/points.h"
 
 namespace selvage::sim {
@@ -32,8 +33,11 @@ const char* name_of(RunEnd end) {
 }
 
 // What a killed run left of the two files that are written here; the sequence's writer, which holds the lock, removes
-// its own.
-void remove_temporaries(const std::filesystem::path& folder) {
+// its own. And what an earlier run said of its end, which this one would make untrue.
+void remove_leftovers(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::remove(folder / kRunFile, failed);
+  if (failed) io::file_error((folder / kRunFile).string(), "remove", failed.value());
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();
     const bool is_ours = file.starts_with("checkpoint.bin.") || file.starts_with("run.json.");
@@ -52,7 +56,6 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
       kind_(kind),
       writer_(folder_, header_of(simulation, kind, producer_), resume),
       fingerprint_(scene_fingerprint(simulation.scene(), simulation.world())) {
-  if (resume) remove_temporaries(folder_);
   const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / kCheckpointFile) : std::nullopt;
   if (!checkpoint) {
     if (writer_.frame_count() > 1) {
@@ -61,6 +64,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
                                                     "empty folder");
     }
     writer_.truncate(0);  // killed between the first frame and the first checkpoint
+    remove_leftovers(folder_);
     append();
     save_checkpoint();
     return;
@@ -71,6 +75,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
                                 (folder_ / kCheckpointFile).string()));
   }
   writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
+  remove_leftovers(folder_);
   simulation_.restore(checkpoint->state);
   totals_ = checkpoint->totals;
   resumed_ = true;

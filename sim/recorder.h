@@ -22,6 +22,7 @@ class Recorder {
   /// kSteps records the end of every collision step, kFrames the frames alone; both begin with the initial state.
   /// Throws io::Error if the folder holds a sequence already and `resume` is not set. With `resume` the simulation is
   /// put back to the folder's checkpoint and the sequence is cut to it; a folder without one starts from the beginning.
+  /// What is refused leaves the folder as it was; else run.json is gone until finish() writes it.
   /// `producer` is the program and its version, for the files.
   Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
            std::string producer);

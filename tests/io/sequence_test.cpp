@@ -196,6 +196,20 @@ TEST(SequenceFolder, TornLastLineIsNotPartOfTheList) {
   EXPECT_EQ(read_plainly(folder / "frames.jsonl"), list);
 }
 
+TEST(SequenceFolder, ResumingChangesNothingBeforeTheFirstFrame) {
+  const TemporaryFolder folder;
+  { SequenceWriter(folder.path(), square_header()).append(0, square(0)); }
+  const std::string torn = read_plainly(folder / "frames.jsonl") + "{";
+  write_plainly(folder / "frames.jsonl", torn);
+  write_plainly(folder / "frame_000001.npy.tmp-42", "left by a kill");
+  SequenceWriter writer(folder.path(), square_header(), true);
+  EXPECT_EQ(read_plainly(folder / "frames.jsonl"), torn) << "whoever resumes may still be refused";
+  EXPECT_TRUE(fs::exists(folder / "frame_000001.npy.tmp-42"));
+  writer.append(1, square(1));
+  EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 2u);
+  EXPECT_FALSE(fs::exists(folder / "frame_000001.npy.tmp-42"));
+}
+
 TEST(MeshFiles, ChangedFacesAreReported) {
   const TemporaryFolder folder;
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -190,6 +191,55 @@ TEST_F(RecorderTest, RefusesWhatIsNotItsOwn) {
   std::ofstream(file, std::ios::binary) << good;
   EXPECT_TRUE(read_checkpoint(file).has_value());
   EXPECT_EQ(io::open_sequence({output})->frame_count(), 3u) << "nothing was lost by the refusals";
+}
+
+TEST_F(RecorderTest, ARefusedResumptionChangesNothing) {
+  const auto output = folder_.path() / "out";
+  {
+    Simulation simulation(scene_);
+    Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
+    run(simulation, recorder, 2);
+    recorder.finish(RunEnd::kInterrupted);
+  }
+  const auto list = output / "frames.jsonl";
+  std::ofstream(list, std::ios::binary | std::ios::app) << "{\"torn";
+  std::ofstream(output / "frames.jsonl.tmp-1") << "left by a kill";
+  const auto contents = [&] {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(output)) {
+      files[entry.path().filename().string()] = slurp(entry.path());
+    }
+    return files;
+  };
+  const auto before = contents();
+  const auto refuse = [&](const std::string& more, const char* why) {
+    const Scene scene = testing::write_and_read_scene(folder_.path() / "s.toml", small_scene_text(kFrames, more));
+    Simulation simulation(scene);
+    EXPECT_THROW(Recorder(output, simulation, io::SequenceKind::kFrames, true, kProducer), io::Error) << why;
+  };
+  refuse("drag_1_s = 1\n", "the checkpoint of another scene");
+  EXPECT_EQ(contents(), before);
+  std::filesystem::rename(output / "checkpoint.bin", folder_.path() / "checkpoint.bin");
+  refuse("", "frames without a checkpoint");
+  std::filesystem::rename(folder_.path() / "checkpoint.bin", output / "checkpoint.bin");
+  EXPECT_EQ(contents(), before);
+  const std::string text = slurp(list);
+  std::ofstream(list, std::ios::binary) << text.substr(0, text.find('\n') + 1);
+  const auto shorter = contents();
+  refuse("", "fewer frames than the checkpoint needs");
+  EXPECT_EQ(contents(), shorter);
+}
+
+TEST_F(RecorderTest, RunJsonIsGoneWhileARunGoesOn) {
+  const auto output = folder_.path() / "out";
+  for (const bool resume : {false, true}) {
+    Simulation simulation(scene_);
+    Recorder recorder(output, simulation, io::SequenceKind::kFrames, resume, kProducer);
+    EXPECT_FALSE(std::filesystem::exists(output / "run.json")) << "a kill would leave the end of the run before";
+    run(simulation, recorder, resume ? 2 : 1);
+    recorder.finish(RunEnd::kComplete);
+    EXPECT_TRUE(std::filesystem::exists(output / "run.json"));
+  }
 }
 
 TEST_F(RecorderTest, NoFileIsEverHalfWritten) {
