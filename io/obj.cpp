@@ -23,8 +23,12 @@ bool is_one_of(std::string_view keyword, std::span<const std::string_view> keywo
   return std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
 }
 
-/// A backslash ends a comment, a name or a path too, where it must not swallow the vertex on the next line.
-bool continues(std::string_view line) { return line.ends_with('\\') && is_one_of(next_token(line), kOfNumbers); }
+/// A backslash ends a name or a path too, where it must not swallow the vertex on the next line; and a name may hold
+/// '#'.
+bool is_of_numbers(std::string_view line) { return is_one_of(next_token(line), kOfNumbers); }
+
+/// Of a line of numbers. A backslash in the comment is part of it.
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
 class ObjParser {
  public:
@@ -62,15 +66,18 @@ class ObjParser {
     lines_ = LineReader(bytes_, name_);
   }
 
-  /// A line; of numbers, joined with the next while it ends in a backslash.
+  /// A line; of numbers, without its comment and joined with the next while it ends in a backslash.
   std::optional<std::string_view> next_statement() {
     std::optional<std::string_view> line = lines_.next();
-    if (!line || !continues(*line)) return line;
+    if (!line || !is_of_numbers(*line)) return line;
+    line = without_comment(*line);
+    if (!line->ends_with('\\')) return line;
     joined_.clear();
     while (line && line->ends_with('\\')) {
       joined_.append(line->substr(0, line->size() - 1)).push_back(' ');
       if (joined_.size() > kLongestLine) lines_.fail("statement longer than a line may be; split it");
       line = lines_.next();
+      if (line) line = without_comment(*line);
     }
     if (!line) lines_.fail("the file ends behind a backslash; complete the line");
     return joined_.append(*line);

@@ -49,6 +49,16 @@ TEST(Obj, BackslashContinuesNumbersOnly) {
       << "a path must not swallow a vertex";
 }
 
+TEST(Obj, ACommentMayEndALineOfNumbers) {
+  EXPECT_EQ(
+      faces_of("v 0 0 0 # origin\nv 1 0 0#x\nv 1 1 \\\n0 # y \\\nv 0 1 0 # f 1 2 \\\nvt 0 0 # uv\nf 1 2 3 4 # 5\n"),
+      faces_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
+  const MeshData mesh = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\ng part #2\nf 1 2 3 # one\n", "in");
+  ASSERT_EQ(mesh.groups.size(), 1u);
+  EXPECT_EQ(mesh.groups[0].name, "part #2") << "a name keeps its bits";
+  expect_error(ErrorKind::kBadInput, "a vertex has 2 numbers", [] { (void)parse_obj("v 0 0 # 0\n", "in"); });
+}
+
 TEST(Obj, WhatIsNoSurfaceIsSkippedOrRefused) {
   EXPECT_EQ(faces_of("mtllib a.mtl\n" + kSquare + "vt 0 0\nvn 0 0 1\nusemtl red\ns off\nf 1 2 3\n").size(), 1u);
   expect_bad("a.obj:5: 'l' is not part of a surface", kSquare + "l 1 2\nf 1 2 3\n");
