@@ -19,7 +19,8 @@ std::string read_start(const ByteSource& source, std::uint64_t size, const std::
   std::string start = source.read(0, size);
   if (start.size() < size) {
     bad_input_at_byte(name, start.size(),
-                      "the header is cut short: it has " + std::to_string(size) + " bytes; copy the file again");
+                      "the header is cut short: it needs " + std::to_string(size) + " bytes, the file has " +
+                          std::to_string(start.size()) + "; copy the file again");
   }
   return start;
 }

@@ -276,7 +276,8 @@ std::vector<Hostile> hostile_caches() {
   const std::string infinity_big("\xff\x80\0\0", 4);
   return {
       {"pc2_empty", "pc2", "", "in: byte 0: the header is cut short"},
-      {"pc2_header_cut", "pc2", pc2.substr(0, 31), "in: byte 31: the header is cut short"},
+      {"pc2_header_cut", "pc2", pc2.substr(0, 31),
+       "in: byte 31: the header is cut short: it needs 32 bytes, the file has 31;"},
       {"pc2_signature", "pc2", cache_with(pc2, 10, "3"), "in: byte 0: not 'POINTCACHE2'"},
       {"pc2_version", "pc2", cache_with(pc2, 12, "\2"), "in: byte 12: PC2 version 2 is not known"},
       {"pc2_big_endian", "pc2", cache_with(pc2, 12, std::string("\0\0\0\1", 4)), "in: byte 12: PC2 version 16777216"},
