@@ -62,8 +62,17 @@ std::optional<TomlTable::TwoNodes> TomlTable::by_quality(const toml::node& node)
   return TwoNodes(draft, full);
 }
 
+void TomlTable::note_asked(std::string_view key) const {
+  if (std::ranges::find(asked_, key) == asked_.end()) asked_.emplace_back(key);
+}
+
+bool TomlTable::has(std::string_view key) const {
+  note_asked(key);
+  return table_.contains(key);
+}
+
 const toml::node* TomlTable::find(std::string_view key, bool required, std::string_view what) {
-  asked_.emplace_back(key);
+  note_asked(key);
   const toml::node* node = table_.get(key);
   if (node == nullptr && required) fail(fmt::format("{} is missing; add {} = {}", key, key, what));
   return node;

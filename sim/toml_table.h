@@ -39,7 +39,8 @@ class TomlTable {
   TomlTable(const toml::table& table, std::string name, const TomlSource& source)
       : table_(table), name_(std::move(name)), source_(source) {}
 
-  [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+  /// Asks for the key like the functions below: from here on it is known, and errors list it.
+  [[nodiscard]] bool has(std::string_view key) const;
   /// The functions below throw io::Error(kBadInput) if the key is absent, of another type, or outside its range; with
   /// `fallback` an absent key is that.
   double number(std::string_view key, const Range& range, std::optional<double> fallback = std::nullopt);
@@ -65,6 +66,7 @@ class TomlTable {
  private:
   using TwoNodes = std::pair<const toml::node*, const toml::node*>;
 
+  void note_asked(std::string_view key) const;
   const toml::node* find(std::string_view key, bool required, std::string_view what);
   const toml::node* find_for_quality(std::string_view key);
   [[nodiscard]] static std::optional<TwoNodes> by_quality(const toml::node& node);
@@ -76,7 +78,7 @@ class TomlTable {
   const toml::table& table_;
   std::string name_;
   const TomlSource& source_;
-  std::vector<std::string> asked_;
+  mutable std::vector<std::string> asked_;  ///< what errors list as known; the table itself is the file's
 };
 
 }  // namespace selvage::sim
