@@ -55,10 +55,14 @@ std::string case_text(const verify::Violation& violation, double min_distance) {
                                                         : motion_text(violation, min_distance);
 }
 
-void write_cases(const std::filesystem::path& folder, double min_distance, std::vector<verify::Violation>& violations) {
+void create_case_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw io::Error(io::ErrorKind::kFile, folder.string() + ": " + error.message());
+}
+
+void write_cases(const std::filesystem::path& folder, double min_distance, std::vector<verify::Violation>& violations) {
+  create_case_folder(folder);
   for (verify::Violation& violation : violations) {
     const std::filesystem::path file = folder / case_name(violation);
     io::write_atomically(file, case_text(violation, min_distance));

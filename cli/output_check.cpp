@@ -1,9 +1,13 @@
 #include "cli/output_check.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "cli/exit_code.h"
+#include "io/atomic_file.h"
+#include "io/fail.h"
 
 namespace selvage::cli {
 namespace {
@@ -36,6 +40,17 @@ void require_separate_outputs(const std::vector<fs::path>& inputs, const std::ve
       if (outputs[k].empty() || !is_output(outputs[k])) continue;
       throw UsageError(output.string() + " is named for two outputs, and would be overwritten; name another file");
     }
+  }
+}
+
+void require_writable(const std::vector<fs::path>& outputs) {
+  for (const fs::path& output : outputs) {
+    if (output.empty()) continue;
+    std::error_code status;
+    if (fs::is_directory(output, status)) io::file_error(output.string(), "open", EISDIR);
+    if (fs::exists(output, status) && !fs::is_regular_file(output, status)) continue;  // opening a pipe would wait
+    fs::path target = fs::exists(output, status) ? fs::canonical(output, status) : output;
+    const io::AtomicFile trial(std::move(target));
   }
 }
 

@@ -1,4 +1,5 @@
-// No output may take the place of what the same command reads or writes: the damage would show only later.
+// What is known of outputs before the work: none may take the place of what the same command reads or writes, where the
+// damage would show only later, and each can be written.
 #pragma once
 
 #include <filesystem>
@@ -10,5 +11,8 @@ namespace selvage::cli {
 /// followed. Empty outputs were not asked for. Devices and pipes hold nothing that could be lost.
 void require_separate_outputs(const std::vector<std::filesystem::path>& inputs,
                               const std::vector<std::filesystem::path>& outputs);
+
+/// Throws io::Error where one of them could not be written now: better before long work than after it. Leaves nothing.
+void require_writable(const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace selvage::cli

@@ -1,5 +1,6 @@
 #include "cli/verify_command.h"
 
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "cli/case_output.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/output_check.h"
 #include "cli/page/report_page.h"
 #include "cli/terminal.h"
 #include "cli/verdict.h"
@@ -51,16 +53,17 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
   }
 }
 
-ExitCode run(const VerifyArguments& arguments) {
-  std::optional<tbb::global_control> threads;
-  if (arguments.threads > 0) {
-    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
-  }
-  require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
-  const auto sequence = open_sequence(arguments.sequence);
-  const verify::SequenceOptions options = sequence_options(arguments, *sequence);
-  const verify::ReportContext context = report_context(arguments, *sequence, options);
-  verify::SequenceReport report = check(arguments, *sequence, options, context);
+/// Before the check, which may take hours.
+void require_outputs(const VerifyArguments& arguments) {
+  require_writable({arguments.json, arguments.html});
+  if (arguments.cases.empty()) return;
+  create_case_folder(arguments.cases);
+  require_writable({arguments.cases / "a.case"});
+}
+
+/// The cases first: the report names their files.
+void write_outputs(const VerifyArguments& arguments, const io::SequenceReader& sequence,
+                   const verify::ReportContext& context, verify::SequenceReport& report) {
   if (!arguments.cases.empty()) {
     write_cases(arguments.cases, arguments.min_distance.value_or(0), report.violations);
   }
@@ -74,10 +77,33 @@ ExitCode run(const VerifyArguments& arguments) {
   if (!arguments.html.empty()) {
     const ReportPageOptions page{arguments.min_distance.value_or(0),
                                  static_cast<std::size_t>(arguments.html_mb) * 1000 * 1000};
-    io::write_atomically(arguments.html, report_page(report, context, sequence.get(), page));
+    io::write_atomically(arguments.html, report_page(report, context, &sequence, page));
   }
-  const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
-  print_report(verify::text_report(report, context, max_listed), report.verdict);
+}
+
+ExitCode run(const VerifyArguments& arguments) {
+  catch_interrupts();
+  std::optional<tbb::global_control> threads;
+  if (arguments.threads > 0) {
+    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
+  }
+  require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
+  const auto sequence = open_sequence(arguments.sequence);
+  const verify::SequenceOptions options = sequence_options(arguments, *sequence);
+  const verify::ReportContext context = report_context(arguments, *sequence, options);
+  require_outputs(arguments);
+  verify::SequenceReport report = check(arguments, *sequence, options, context);
+  const auto print = [&] {
+    const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
+    print_report(verify::text_report(report, context, max_listed), report.verdict);
+  };
+  try {
+    write_outputs(arguments, *sequence, context, report);
+  } catch (const std::exception&) {
+    print();  // a disk that is full costs the files, not the verdict
+    throw;
+  }
+  print();
   return exit_code(report);
 }
 

@@ -306,6 +306,26 @@ TEST(VerifyCommand, AnInterruptThatLeavesWorkIs75WhateverWasFound) {
   EXPECT_NE(whole.out.find("stopped on request"), std::string::npos) << whole.out;
 }
 
+TEST(VerifyCommand, OutputsThatCannotBeWrittenAreFoundBeforeTheCheck) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", run = folder.path() / "run", none = folder.path() / "no" / "x";
+  spit(mesh, two_faces(1));
+  ASSERT_EQ(run_program(folder, {"convert", mesh, mesh, "-o", run.string() + "/"}).exit_code, 0);
+  std::string frame = testing::slurp(run / "frame_000001.npy");
+  frame.back() ^= 1;
+  spit(run / "frame_000001.npy", frame);
+  ASSERT_EQ(run_program(folder, {"verify", run}).exit_code, 3) << "what the check comes upon";
+  for (const std::vector<std::string>& output :
+       {std::vector<std::string>{"--json", none}, {"--html", none}, {"--html", run}, {"--cases", mesh}}) {
+    const auto result = run_program(folder, {"verify", run, output[0], output[1]});
+    EXPECT_EQ(result.exit_code, 4) << output[0] << ": " << result.err;
+    EXPECT_NE(result.err.find(output[1]), std::string::npos) << result.err;
+  }
+  const auto json = folder.path() / "report.json";
+  EXPECT_EQ(run_program(folder, {"verify", run, "--json", json}).exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(json)) << "trying leaves nothing";
+}
+
 TEST(VerifyCommand, HelpStartsWithAnExample) {
   const auto result = run_program({"verify", "--help"});
   EXPECT_EQ(result.exit_code, 0);
