@@ -39,6 +39,7 @@ ExitCode bench_stability(const StabilityArguments& arguments) {
       fmt::print("{:<22} {}\n{:<22} asked: {}\n", c.name, c.difficulty, "", c.criterion);
     return ExitCode::kClean;
   }
+  catch_interrupts();
   ProgressBar bar("hard cases");
   bench::StabilityOptions options;
   options.quick = arguments.quick;

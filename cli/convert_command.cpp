@@ -133,6 +133,7 @@ ExitCode recheck(const io::SequenceReader& input, Conversion conversion, const C
 }
 
 ExitCode run(const ConvertArguments& arguments) {
+  catch_interrupts();
   const auto input = open_sequence(arguments.sequence);
   if (input->frame_count() == 0) {
     throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame: there is nothing to convert");

@@ -158,6 +158,7 @@ ExitCode run_plugin(const Arguments& arguments) {
   fuzz::DriverOptions options = driver_options(arguments);
   options.target = std::string("plugin ") + info.name;
   fuzz::Driver driver(properties, options);
+  catch_interrupts();
   bool finished = false;
   {
     const StatusLine line(driver);
@@ -182,6 +183,7 @@ ExitCode run(const Arguments& arguments) {
   }
   if (!arguments.only.empty()) return run_only(arguments, properties);
   fuzz::Driver driver(properties, driver_options(arguments));
+  catch_interrupts();
   bool finished = false;
   {
     const StatusLine line(driver);

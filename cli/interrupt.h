@@ -1,10 +1,11 @@
-// SIGINT and SIGTERM ask for a clean stop: the work in hand is finished and written. A second signal kills. A file that
-// would grow beyond `ulimit -f` is an error of the write, which cleans up behind itself, and no signal.
+// SIGINT and SIGTERM ask for a clean stop: the work in hand is finished and written. A second signal kills, and the
+// first does where a command has no work to stop in between. A file that would grow beyond `ulimit -f` is an error of
+// the write, which cleans up behind itself, and no signal.
 #pragma once
 
 namespace selvage::cli {
 
-/// To be called once, before work starts.
+/// To be called once, before work starts, by commands that ask interrupted() in between: others would be deaf.
 void catch_interrupts();
 /// Whether a signal has arrived. Cheap; may be called from any thread.
 [[nodiscard]] bool interrupted() noexcept;

@@ -66,7 +66,6 @@ int main(int argc, char** argv) {
       return chosen();
     };
   }
-  catch_interrupts();
   make_size_limits_errors();
   return static_cast<int>(run_guarded(job));
 }

@@ -29,6 +29,7 @@ struct RenderArguments {
 };
 
 ExitCode render_sequence(const RenderArguments& arguments) {
+  catch_interrupts();
   require_separate_outputs(arguments.sequence, {arguments.picture});
   const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
   SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};

@@ -85,6 +85,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
     bar.update(static_cast<std::size_t>(simulation.clock().state().frame), static_cast<std::size_t>(frame_count));
     if (interrupted()) {
       recorder.finish(sim::RunEnd::kInterrupted);
+      fmt::print(stderr, "selvage: interrupted; go on with --resume\n");
       return ExitCode::kInterrupted;
     }
     const sim::StepResult step = simulation.step();
@@ -106,6 +107,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
 }
 
 ExitCode simulate(const SimArguments& arguments) {
+  catch_interrupts();
   std::optional<tbb::global_control> limit;
   if (arguments.threads) limit.emplace(tbb::global_control::max_allowed_parallelism, *arguments.threads);
   sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);

@@ -108,6 +108,7 @@ FineFrame subdivide(const sim::Subdivision& subdivision, const io::MeshData& mes
 }
 
 ExitCode run(const SubdivideArguments& arguments) {
+  catch_interrupts();
   const auto input = open_sequence(arguments.sequence);
   if (input->frame_count() == 0) throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame");
   if (arguments.frame && *arguments.frame >= input->frame_count()) {

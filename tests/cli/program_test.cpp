@@ -1,4 +1,7 @@
+#include <csignal>
+
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/cli/run_program.h"
 
@@ -108,6 +111,24 @@ TEST(Program, AFileBeyondTheSizeLimitIsAFileErrorAndLeavesNothing) {
     EXPECT_EQ(result.exit_code, 4) << result.err;
     EXPECT_NE(result.err.find("ulimit"), std::string::npos) << result.err;
     EXPECT_TRUE(fs::is_empty(output));
+    EXPECT_EQ(result.out.starts_with("clean\n"), command.starts_with("verify")) << "a verdict is kept: " << result.out;
+  }
+}
+
+TEST(Program, CommandsThatCannotStopInBetweenDieOfTheSignal) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  ASSERT_EQ(mkfifo(mesh.c_str(), 0600), 0);
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"view", mesh, "-o", folder.path() / "a.html"}, {"bench", "ccd", mesh, mesh}}) {
+    for (const int signal : {SIGTERM, SIGINT}) {
+      const pid_t child = testing::start_program(folder.path(), arguments);
+      {
+        const std::ofstream pipe(mesh);  // open when the command reads it
+        kill(child, signal);
+      }
+      EXPECT_EQ(testing::wait_for_program(folder.path(), child).exit_code, -1) << arguments.front();
+    }
   }
 }
 

@@ -166,7 +166,9 @@ TEST_F(SimCommand, AnInterruptedRunExits75AndResumesWithTheSameBits) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   kill(child, SIGTERM);
-  EXPECT_EQ(testing::wait_for_program(folder_.path(), child).exit_code, 75);
+  const auto interrupted = testing::wait_for_program(folder_.path(), child);
+  EXPECT_EQ(interrupted.exit_code, 75);
+  EXPECT_NE(interrupted.err.find("selvage: interrupted; go on with --resume\n"), std::string::npos) << interrupted.err;
   ASSERT_FALSE(std::filesystem::exists(path("out") + "/frame_000040.npy")) << "it was not interrupted";
 
   const auto resumed = run_program(folder_, {"sim", path("scene.toml"), "-o", path("out"), "--resume"});
