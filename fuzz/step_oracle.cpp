@@ -230,6 +230,7 @@ StepObservation run_steps(ChoiceSource& source, const StepWorld& world, const St
     seen.stopped += result.report.status == sim::StepStatus::kStopped;
     seen.defect = judge_step(world, seen.x_t0, seen.x_candidate, result);
     if (seen.defect != StepDefect::kNone) return seen;
+    if (result.report.status == sim::StepStatus::kInvalidInput) continue;  // refused as it must be: nothing moved
     seen.x_t0 = result.x;
   }
   if (source.one_in(8)) {

@@ -86,7 +86,8 @@ class SubdivisionCampaign final : public MeshProperty {
     for (int steps = source.range(0, 2); steps > 0; --steps) {
       std::string_view candidate_class;
       const Positions candidate = choose_candidate(source, world, x, candidate_class);
-      x = selvage_step(world, x, candidate).x;
+      const sim::CollisionStepResult result = selvage_step(world, x, candidate);
+      if (result.report.status != sim::StepStatus::kInvalidInput) x = result.x;
     }
     Surface surface{world.mesh.faces, x, {}};
     for (const double mass : world.inverse_mass) surface.is_scripted.push_back(mass == 0 ? 1 : 0);

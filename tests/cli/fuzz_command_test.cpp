@@ -32,4 +32,15 @@ TEST(FuzzCommand, AnInterruptedCampaignIs75WhateverItHasFound) {
   EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
 }
 
+// Scripts beyond float32 occur in the first cases: they must be refused, and nobody goes on from what is refused.
+TEST(FuzzCommand, TheFirstCasesOfStepsAndSubdivisionHold) {
+  for (const std::string property : {"step", "subdivision"}) {
+    const TemporaryFolder folder;
+    const std::string artifacts = folder.path() / "artifacts";
+    const auto result =
+        testing::run_program({"fuzz", property, "--cases", "60", "--jobs", "2", "--artifacts", artifacts});
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  }
+}
+
 }  // namespace selvage
