@@ -34,4 +34,10 @@ Box vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v, d
   return box;
 }
 
+MovingBox vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v, double reach, MotionBoxes boxes) {
+  if (boxes == MotionBoxes::kMoving) return {vertex_box(V_t0, V_t0, v, reach), vertex_box(V_t1, V_t1, v, reach)};
+  const Box swept = vertex_box(V_t0, V_t1, v, reach);
+  return {swept, swept};
+}
+
 }  // namespace selvage

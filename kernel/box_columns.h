@@ -15,18 +15,31 @@ inline constexpr std::size_t kVectorSlack = 8;
 
 /// A list of boxes, each with a key. A row that has not been set holds nothing and overlaps nothing.
 struct BoxColumns {
-  std::array<std::vector<double>, 3> lower, upper;
+  struct Bounds {
+    std::array<std::vector<double>, 3> lower, upper;
+
+    void set(std::size_t row, const Box& box);
+    [[nodiscard]] Box row(std::size_t row) const;
+    void copy_row(std::size_t row, const Bounds& from, std::size_t from_row);
+  };
+  Bounds t0, t1;  ///< swept boxes are in t0 alone
   std::vector<std::uint64_t> key;
 
+  /// No row is set then, and boxes are swept.
   void resize(std::size_t row_count);
-  /// As resize, but what the rows hold is unspecified and memory is never given back.
-  void reuse(std::size_t row_count);
-  void set(std::size_t row, const Box& box);
-  [[nodiscard]] Box row(std::size_t row) const;
+  /// As resize and hold, but what the rows hold is unspecified and memory is never given back.
+  void reuse(std::size_t row_count, MotionBoxes boxes);
+  /// What kind of boxes the rows are set to from now on.
+  void hold(MotionBoxes boxes);
+  [[nodiscard]] MotionBoxes boxes() const { return boxes_; }
+  /// Of `from`, which holds the same kind.
+  void copy_row(std::size_t row, const BoxColumns& from, std::size_t from_row);
+  [[nodiscard]] MovingBox row(std::size_t row) const;
   [[nodiscard]] std::size_t row_count() const { return row_count_; }
 
  private:
   std::size_t row_count_ = 0;
+  MotionBoxes boxes_ = MotionBoxes::kSwept;
 };
 
 struct RowRange {
@@ -35,7 +48,7 @@ struct RowRange {
 
 /// Writes the keys of the rows in `ranges` whose box overlaps `box` and whose key is at least `first_key`, in the order
 /// of the ranges; returns their number. REQUIRES keys below 2^63.
-std::size_t find_overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const Box& box,
+std::size_t find_overlaps(const BoxColumns& boxes, std::span<const RowRange> ranges, const MovingBox& box,
                           std::uint64_t first_key, std::uint64_t* out);
 
 /// The vertices of the rows' features; kCorners is 2 for edges and 3 for faces.
@@ -44,9 +57,11 @@ using CornerColumns = std::array<std::vector<std::uint64_t>, kCorners>;
 
 /// The same for the rows from `begin` on, with the corner columns beside them: rows that share one of `own_corners` are
 /// left out, and every key is joined with `own_key` by OR.
-std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<3>& corners, std::size_t begin, const Box& box,
-                       const std::array<VertexId, 1>& own_corners, std::uint64_t own_key, std::uint64_t* out);
-std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<2>& corners, std::size_t begin, const Box& box,
-                       const std::array<VertexId, 2>& own_corners, std::uint64_t own_key, std::uint64_t* out);
+std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<3>& corners, std::size_t begin,
+                       const MovingBox& box, const std::array<VertexId, 1>& own_corners, std::uint64_t own_key,
+                       std::uint64_t* out);
+std::size_t find_pairs(const BoxColumns& boxes, const CornerColumns<2>& corners, std::size_t begin,
+                       const MovingBox& box, const std::array<VertexId, 2>& own_corners, std::uint64_t own_key,
+                       std::uint64_t* out);
 
 }  // namespace selvage

@@ -8,7 +8,7 @@ namespace selvage {
 namespace {
 
 struct Feature {
-  Box box;
+  MovingBox box;
   bool active = false;
 };
 
@@ -43,7 +43,7 @@ Candidates find_candidates_brute_force(const Mesh& mesh, const PositionsRef& V_t
 
   std::vector<Feature> of_vertex(vertex_count), of_edge, of_face;
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    of_vertex[v] = {vertex_box(V_t0, V_t1, static_cast<VertexId>(v), options.reach),
+    of_vertex[v] = {vertex_box(V_t0, V_t1, static_cast<VertexId>(v), options.reach, options.boxes),
                     options.active.empty() || options.active[v] != 0};
   }
   for (const auto& edge : mesh.edges) of_edge.push_back(unite(of_vertex, edge));

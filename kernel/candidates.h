@@ -1,5 +1,5 @@
-// Which pairs to test: features whose swept, enlarged boxes overlap. Sorted and without repeats, so results compare
-// with ==.
+// Which pairs to test: features whose enlarged boxes overlap in a motion. Sorted and without repeats, so results
+// compare with ==.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/box.h"
 #include "kernel/mesh.h"
 
 namespace selvage {
@@ -47,6 +48,9 @@ struct CandidateOptions {
   /// #V flags, or empty for "all": a pair counts only if one of its vertices is active. Scripted bodies against
   /// each other, and pairs that a response did not touch, cost nothing.
   std::span<const std::uint8_t> active;
+  /// kMoving finds fewer, the more the longer the motion is that features share, and leaves out none that come nearer
+  /// than `reach`.
+  MotionBoxes boxes = MotionBoxes::kSwept;
 };
 
 /// The vertices of a pair in query order: {p, a, b, c}.

@@ -93,11 +93,22 @@ class CollisionFinder {
   void ask(const CcdBatch& batch, PairKind kind, std::span<const Pair> pairs, Block& block) const {
     const BatchReport report = batch.ask(pairs);
     for (const BatchAnswer& answer : report.answers) {
-      const auto [first, second] = pairs[answer.candidate];
+      const auto& pair = pairs[answer.candidate];
+      if (!moves_near(kind, pair_vertices(mesh_, pair))) continue;
+      const auto [first, second] = pair;
       block.collisions.push_back({kind, first, second, answer.ccd});
     }
     block.intervals += report.intervals;
     (kind == PairKind::kVf ? block.vf_candidates : block.ee_candidates) += std::ssize(pairs);
+  }
+
+  /// Asked of what was found, too: else what is found would depend on which boxes the candidates come from.
+  [[nodiscard]] bool moves_near(PairKind kind, const std::array<VertexId, 4>& vertices) const {
+    const auto box = [&](std::size_t k) {
+      return vertex_box(V_t0_, V_t1_, vertices[k], options_.tolerance, MotionBoxes::kMoving);
+    };
+    if (kind == PairKind::kVf) return overlap(box(0), united(united(box(1), box(2)), box(3)));
+    return overlap(united(box(0), box(1)), united(box(2), box(3)));
   }
 
   void query_self(VertexId vertex, FaceId face, Block& block) const {
@@ -154,14 +165,25 @@ std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int3
   return {first, corners[(own + 1) % 3], corners[(own + 2) % 3], first};
 }
 
+// Of 32 for each vertex and edge a list takes a few times as long as the search in a step in which little moves. Moving
+// boxes take 1.5 times as long there, and are as fast where there are 10 (docs/broad-phase.md).
+std::size_t few_candidates(const Mesh& mesh) {
+  return 32 * (static_cast<std::size_t>(mesh.vertex_count) + mesh.edges.size());
+}
+
 CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                 const PositionsRef& V_t1, const CcdOptions& options,
                                 std::span<const std::uint8_t> active, std::size_t most_listed) {
   SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
   SELVAGE_REQUIRE(validate(options) == InputError::kNone);
-  hierarchy.refit(V_t0, V_t1, {options.tolerance, active});
   CollisionFinder finder(mesh, V_t0, V_t1, options, active);
-  if (const auto candidates = hierarchy.candidates(most_listed)) return finder.find(*candidates);
+  const auto list = [&](MotionBoxes boxes, std::size_t most) {
+    hierarchy.refit(V_t0, V_t1, {options.tolerance, active, boxes});
+    return hierarchy.candidates(most);
+  };
+  const std::size_t few = std::min(few_candidates(mesh), most_listed);
+  if (const auto candidates = list(MotionBoxes::kSwept, few)) return finder.find(*candidates);
+  if (const auto candidates = list(MotionBoxes::kMoving, most_listed)) return finder.find(*candidates);
   return finder.find(hierarchy, most_listed);
 }
 

@@ -31,8 +31,7 @@ void set_keys(const std::vector<Id>& items, BoxColumns& boxes) {
 }  // namespace
 
 FittedBoxes::FittedBoxes(const Mesh& mesh, const FaceClusters& clusters)
-    : vertices_(static_cast<std::size_t>(mesh.vertex_count)),
-      clusters_(clusters.cluster_count()),
+    : vertex_active_(static_cast<std::size_t>(mesh.vertex_count)),
       cluster_active_(clusters.cluster_count()),
       node_active_(clusters.nodes.size()) {
   set_keys(clusters.faces.items, faces_);
@@ -47,58 +46,80 @@ FittedBoxes::FittedBoxes(const Mesh& mesh, const FaceClusters& clusters)
 void FittedBoxes::refit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_t0,
                         const PositionsRef& V_t1, const CandidateOptions& options) {
   SELVAGE_ASSERT(V_t0.rows() == mesh.vertex_count && V_t1.rows() == mesh.vertex_count);
-  SELVAGE_ASSERT(options.active.empty() || options.active.size() == vertices_.size());
+  SELVAGE_ASSERT(options.active.empty() || options.active.size() == vertex_active_.size());
   SELVAGE_ASSERT(options.reach >= 0);
-  vertex_active_.assign(vertices_.size(), 1);
-  std::copy(options.active.begin(), options.active.end(), vertex_active_.begin());
-  parallel_range(0, vertices_.size(), kGrainVertices, [&](std::size_t v) {
-    vertices_[v] = vertex_box(V_t0, V_t1, static_cast<VertexId>(v), options.reach);
-  });
-  parallel_range(0, clusters_.size(), kGrainClusters,
-                 [&](std::size_t c) { clusters_[c] = fit_cluster(mesh, clusters, c); });
-  for (std::size_t level = clusters.level_begin.size(); level-- > 1;) {
-    parallel_range(clusters.level_begin[level - 1], clusters.level_begin[level], kGrainNodes,
-                   [&](std::size_t n) { fit_node(clusters, n); });
+  mark_active(mesh, clusters, options.active);
+  for (BoxColumns* columns : {&faces_, &edges_, &children_}) columns->hold(options.boxes);
+  if (options.boxes == MotionBoxes::kSwept) {
+    fit(mesh, clusters, V_t0, V_t1, options.reach, t0_, &BoxColumns::t0);
+  } else {
+    fit(mesh, clusters, V_t0, V_t0, options.reach, t0_, &BoxColumns::t0);
+    fit(mesh, clusters, V_t1, V_t1, options.reach, t1_, &BoxColumns::t1);
   }
 }
 
-Box FittedBoxes::fit_cluster(const Mesh& mesh, const FaceClusters& clusters, std::size_t c) {
+void FittedBoxes::fit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_a, const PositionsRef& V_b,
+                      double reach, Boxes& boxes, End end) {
+  boxes.vertices.resize(static_cast<std::size_t>(mesh.vertex_count));
+  boxes.clusters.resize(clusters.cluster_count());
+  parallel_range(0, boxes.vertices.size(), kGrainVertices,
+                 [&](std::size_t v) { boxes.vertices[v] = vertex_box(V_a, V_b, static_cast<VertexId>(v), reach); });
+  parallel_range(0, boxes.clusters.size(), kGrainClusters,
+                 [&](std::size_t c) { boxes.clusters[c] = fit_cluster(mesh, clusters, c, boxes, end); });
+  for (std::size_t level = clusters.level_begin.size(); level-- > 1;) {
+    parallel_range(clusters.level_begin[level - 1], clusters.level_begin[level], kGrainNodes, [&](std::size_t n) {
+      const FaceClusters::Node& node = clusters.nodes[n];
+      for (std::size_t k = 0; k < node.child_count; ++k) {
+        const TreeRef ref = node.child[k];
+        const Box box = ref < 0 ? boxes.clusters[static_cast<std::size_t>(~ref)]
+                                : node_box(clusters, static_cast<std::size_t>(ref), end);
+        (children_.*end).set(FaceClusters::kFanOut * n + k, box);
+      }
+    });
+  }
+}
+
+Box FittedBoxes::fit_cluster(const Mesh& mesh, const FaceClusters& clusters, std::size_t c, const Boxes& boxes,
+                             End end) {
+  const auto of_vertex = [&](VertexId v) -> const Box& { return boxes.vertices[static_cast<std::size_t>(v)]; };
   Box all;
-  bool active = false;
   std::size_t row = clusters.faces.begin[c];
   for (const FaceId f : clusters.faces.of(c)) {
     const auto& corners = mesh.faces[static_cast<std::size_t>(f)];
-    const Box box = united(united(vertex(corners[0]), vertex(corners[1])), vertex(corners[2]));
-    faces_.set(row++, box);
+    const Box box = united(united(of_vertex(corners[0]), of_vertex(corners[1])), of_vertex(corners[2]));
+    (faces_.*end).set(row++, box);
     all.merge(box);
-    active = active || is_active(corners);
   }
-  cluster_active_[c] = active ? 1 : 0;
   row = clusters.edges.begin[c];
   for (const EdgeId e : clusters.edges.of(c)) {
     const auto& ends = mesh.edges[static_cast<std::size_t>(e)];
-    edges_.set(row++, united(vertex(ends[0]), vertex(ends[1])));
+    (edges_.*end).set(row++, united(of_vertex(ends[0]), of_vertex(ends[1])));
   }
   return all;
 }
 
-Box FittedBoxes::node_box(const FaceClusters& clusters, std::size_t n) const {
+Box FittedBoxes::node_box(const FaceClusters& clusters, std::size_t n, End end) const {
   Box all;
   for (std::size_t k = 0; k < clusters.nodes[n].child_count; ++k)
-    all.merge(children_.row(FaceClusters::kFanOut * n + k));
+    all.merge((children_.*end).row(FaceClusters::kFanOut * n + k));
   return all;
 }
 
-void FittedBoxes::fit_node(const FaceClusters& clusters, std::size_t n) {
-  const FaceClusters::Node& node = clusters.nodes[n];
-  bool active = false;
-  for (std::size_t k = 0; k < node.child_count; ++k) {
-    const TreeRef ref = node.child[k];
-    children_.set(FaceClusters::kFanOut * n + k, ref < 0 ? clusters_[static_cast<std::size_t>(~ref)]
-                                                         : node_box(clusters, static_cast<std::size_t>(ref)));
-    active = active || is_active(ref);
+void FittedBoxes::mark_active(const Mesh& mesh, const FaceClusters& clusters, std::span<const std::uint8_t> active) {
+  if (active.empty()) {
+    for (auto* flags : {&vertex_active_, &cluster_active_, &node_active_}) std::ranges::fill(*flags, 1);
+    return;
   }
-  node_active_[n] = active ? 1 : 0;
+  std::ranges::copy(active, vertex_active_.begin());
+  parallel_range(0, cluster_active_.size(), kGrainClusters, [&](std::size_t c) {
+    const auto holds_one = [&](FaceId f) { return is_active(mesh.faces[static_cast<std::size_t>(f)]); };
+    cluster_active_[c] = std::ranges::any_of(clusters.faces.of(c), holds_one) ? 1 : 0;
+  });
+  for (std::size_t n = node_active_.size(); n-- > 0;) {  // parents stand before their children
+    const FaceClusters::Node& node = clusters.nodes[n];
+    const auto holds_one = [&](TreeRef ref) { return is_active(ref); };
+    node_active_[n] = std::any_of(node.child.begin(), node.child.begin() + node.child_count, holds_one) ? 1 : 0;
+  }
 }
 
 }  // namespace selvage

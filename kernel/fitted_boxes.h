@@ -19,8 +19,12 @@ class FittedBoxes {
   void refit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_t0, const PositionsRef& V_t1,
              const CandidateOptions& options);
 
-  [[nodiscard]] const Box& vertex(VertexId v) const { return vertices_[static_cast<std::size_t>(v)]; }
-  [[nodiscard]] const Box& cluster(TreeRef ref) const { return clusters_[static_cast<std::size_t>(~ref)]; }
+  [[nodiscard]] MovingBox vertex(VertexId v) const {
+    return {t0_.vertices[static_cast<std::size_t>(v)], last().vertices[static_cast<std::size_t>(v)]};
+  }
+  [[nodiscard]] MovingBox cluster(TreeRef ref) const {
+    return {t0_.clusters[static_cast<std::size_t>(~ref)], last().clusters[static_cast<std::size_t>(~ref)]};
+  }
   /// Rows as in FaceClusters::faces and ::edges; the key is feature * 2^32 + row.
   [[nodiscard]] const BoxColumns& faces() const { return faces_; }
   [[nodiscard]] const BoxColumns& edges() const { return edges_; }
@@ -39,12 +43,22 @@ class FittedBoxes {
   }
 
  private:
-  /// Fits the cluster's features and returns the box of the cluster.
-  Box fit_cluster(const Mesh& mesh, const FaceClusters& clusters, std::size_t c);
-  Box node_box(const FaceClusters& clusters, std::size_t n) const;
-  void fit_node(const FaceClusters& clusters, std::size_t n);
+  /// The boxes of one end; swept ones are in t0_ alone.
+  struct Boxes {
+    std::vector<Box> vertices, clusters;
+  };
+  using End = BoxColumns::Bounds BoxColumns::*;
 
-  std::vector<Box> vertices_, clusters_;
+  [[nodiscard]] const Boxes& last() const { return faces_.boxes() == MotionBoxes::kMoving ? t1_ : t0_; }
+  /// All boxes of one end, of the motion from V_a to V_b.
+  void fit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_a, const PositionsRef& V_b,
+           double reach, Boxes& boxes, End end);
+  /// Fits the cluster's features and returns the box of the cluster.
+  Box fit_cluster(const Mesh& mesh, const FaceClusters& clusters, std::size_t c, const Boxes& boxes, End end);
+  [[nodiscard]] Box node_box(const FaceClusters& clusters, std::size_t n, End end) const;
+  void mark_active(const Mesh& mesh, const FaceClusters& clusters, std::span<const std::uint8_t> active);
+
+  Boxes t0_, t1_;
   BoxColumns faces_, edges_, children_;
   std::vector<std::uint8_t> vertex_active_, cluster_active_, node_active_;
 };

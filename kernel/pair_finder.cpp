@@ -33,7 +33,7 @@ class RowRanges {
       ranges_.push_back({begin, end});
     }
   }
-  void append_overlaps(const BoxColumns& boxes, const Box& box, std::uint64_t first_key, Words& words) const {
+  void append_overlaps(const BoxColumns& boxes, const MovingBox& box, std::uint64_t first_key, Words& words) const {
     words.keep(find_overlaps(boxes, ranges_, box, first_key, words.room(row_count_ + kVectorSlack)));
   }
 
@@ -48,18 +48,15 @@ struct Partners {
   BoxColumns boxes;
   CornerColumns<kCorners> corners;
 
-  void reuse(std::size_t count) {
-    boxes.reuse(count);
+  void reuse(std::size_t count, MotionBoxes kind) {
+    boxes.reuse(count, kind);
     for (auto& column : corners) {
       if (column.size() < boxes.key.size()) column.resize(boxes.key.size());
     }
   }
   void set(std::size_t row, const BoxColumns& from, std::size_t from_row, std::uint64_t feature,
            const std::array<VertexId, kCorners>& vertices) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      boxes.lower[axis][row] = from.lower[axis][from_row];
-      boxes.upper[axis][row] = from.upper[axis][from_row];
-    }
+    boxes.copy_row(row, from, from_row);
     boxes.key[row] = feature << 32;
     for (std::size_t k = 0; k < kCorners; ++k) corners[k][row] = static_cast<std::uint64_t>(vertices[k]);
   }
@@ -170,7 +167,7 @@ class PairFinder {
  private:
   /// One level down: the nodes in `frontier` are replaced by their children. Keeps what overlaps `box`, and only what
   /// may be active where `active_only` is set.
-  void expand(const Words& frontier, const Box& box, bool active_only, RowRanges& ranges, Words& out) const {
+  void expand(const Words& frontier, const MovingBox& box, bool active_only, RowRanges& ranges, Words& out) const {
     out.clear();
     ranges.clear();
     for (const std::uint64_t word : frontier) {
@@ -191,7 +188,7 @@ class PairFinder {
     const FaceClusters::Node& node = clusters_.nodes[n];
     tbb::parallel_for(std::size_t{0}, node.child_count, [&](std::size_t k) {
       const FpEnvGuard guard;
-      const Box box = boxes_.children().row(FaceClusters::kFanOut * n + k);
+      const MovingBox box = boxes_.children().row(FaceClusters::kFanOut * n + k);
       const TreeRef child = node.child[k];
       const bool active_only = !boxes_.is_active(child);
       Words below;
@@ -206,7 +203,7 @@ class PairFinder {
     });
   }
 
-  void find_in_cluster(std::size_t c, const Box& box, const Words& frontier, bool active_only) {
+  void find_in_cluster(std::size_t c, const MovingBox& box, const Words& frontier, bool active_only) {
     if (sink_.is_full()) return;
     Workspace& work = workspaces_.local();
     work.clusters.assign(frontier);
@@ -221,8 +218,8 @@ class PairFinder {
 
   /// Ascending keys of the rows of work.clusters that overlap `box` and stand for first_feature or a later one.
   template <typename Id>
-  static void find_keys(const PerCluster<Id>& rows, const BoxColumns& boxes, const Box& box, std::int32_t first_feature,
-                        Workspace& work) {
+  static void find_keys(const PerCluster<Id>& rows, const BoxColumns& boxes, const MovingBox& box,
+                        std::int32_t first_feature, Workspace& work) {
     work.ranges.clear();
     for (const std::uint64_t word : work.clusters) {
       const auto c = static_cast<std::size_t>(~tree_ref(word));
@@ -239,7 +236,7 @@ class PairFinder {
              const std::vector<std::array<VertexId, kCorners>>& corners, Words& keys, Partners<kCorners>& partners,
              const Find& find) const {
     const auto list_partners = [&] {
-      partners.reuse(keys.size());
+      partners.reuse(keys.size(), boxes.boxes());
       std::size_t row = 0;
       for (const std::uint64_t key : keys) {
         partners.set(row++, boxes, static_cast<std::size_t>(key & 0xffffffff), key >> 32, corners[key >> 32]);
@@ -270,7 +267,7 @@ class PairFinder {
 
   template <std::size_t kCorners, std::size_t kOwnCorners>
   static std::span<const std::uint64_t> find_partners(const Partners<kCorners>& partners, std::size_t begin,
-                                                      const Box& box,
+                                                      const MovingBox& box,
                                                       const std::array<VertexId, kOwnCorners>& own_corners,
                                                       std::int32_t feature, PairBuffer& pairs) {
     std::uint64_t* room = pairs.room(partners.boxes.row_count() - begin + kVectorSlack);
@@ -281,7 +278,7 @@ class PairFinder {
   void find_vf(std::size_t c, Workspace& work) {
     const auto own = clusters_.vertices.of(c);
     if (own.empty()) return;
-    Box all;
+    MovingBox all;
     for (const VertexId v : own) all.merge(boxes_.vertex(v));
     find_keys(clusters_.faces, boxes_.faces(), all, 0, work);
     const auto is_active = [&](VertexId v) { return boxes_.is_active(std::array{v}); };
@@ -295,7 +292,7 @@ class PairFinder {
     if (own.empty()) return;
     const auto ends = [&](EdgeId e) { return mesh_.edges[static_cast<std::size_t>(e)]; };
     const auto box = [&](EdgeId e) { return united(boxes_.vertex(ends(e)[0]), boxes_.vertex(ends(e)[1])); };
-    Box all;
+    MovingBox all;
     for (const EdgeId e : own) all.merge(box(e));
     find_keys(clusters_.edges, boxes_.edges(), all, own.front() + 1, work);
     const auto is_active = [&](EdgeId e) { return boxes_.is_active(ends(e)); };

@@ -17,10 +17,11 @@ struct PairProximity {
   Proximity proximity;               ///< the query's answer
 };
 
-/// All vf and ee pairs that are nearer than `reach` at V; pairs proved to be at least that far apart are left out
-/// (kept are candidates with distance_lower < reach). Sorted by (kind, first, second). `hierarchy` belongs to `mesh`
-/// and is refit here; `active` as in CandidateOptions. REQUIRES validate() == kNone and a finite reach >= 0. In
-/// parallel; equal bits for any thread count (K7). The same as the two halves that follow, one after the other.
+/// All vf and ee pairs that are nearer than `reach` at V; pairs proved to be at least that far apart are left out (kept
+/// are candidates with distance_lower < reach, unless find_near_candidates() has proved more). Sorted by (kind, first,
+/// second). `hierarchy` belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES validate() ==
+/// kNone and a finite reach >= 0. In parallel; equal bits for any thread count (K7). The same as the two halves that
+/// follow, one after the other.
 [[nodiscard]] std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hierarchy,
                                                           const PositionsRef& V, double reach,
                                                           std::span<const std::uint8_t> active = {});

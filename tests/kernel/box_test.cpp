@@ -89,4 +89,55 @@ TEST(Box, OverlapIsClosed) {
   }
 }
 
+TEST(MovingBox, IsApartFromWhatItIsAboveAtBothEnds) {
+  const MovingBox box{box_of(0, 1, 0), box_of(10, 11, 0)};
+  const double above = std::nextafter(1.0, 2.0), below = std::nextafter(10.0, 0.0);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto other = [&](double lower_t0, double upper_t0, double lower_t1, double upper_t1) {
+      MovingBox result = box;
+      result.t0.lower[axis] = lower_t0;
+      result.t0.upper[axis] = upper_t0;
+      result.t1.lower[axis] = lower_t1;
+      result.t1.upper[axis] = upper_t1;
+      return result;
+    };
+    const auto meet = [&](const MovingBox& b) {
+      EXPECT_EQ(overlap(box, b), overlap(b, box));
+      return overlap(box, b);
+    };
+    EXPECT_TRUE(meet(other(1, 2, 12, 13))) << axis;  // touch at one end
+    EXPECT_TRUE(meet(other(5, 6, 11, 12))) << axis;
+    EXPECT_TRUE(meet(other(5, 6, 5, 6))) << axis;         // from above to below
+    EXPECT_FALSE(meet(other(above, 2, 12, 13))) << axis;  // where swept boxes overlap
+    EXPECT_FALSE(meet(other(-2, -1, 5, below))) << axis;
+  }
+}
+
+/// What box.h says of pairs left out, for points on a lattice, at sixteenths of the way: their coordinates are exact.
+TEST(MovingBox, PropPairsApartAreNowhereNear) {
+  testing::check_property(20000, 10, [] {
+    const int extent = *rc::gen::element(3, 30, 300);
+    const auto coordinates = *rc::gen::container<std::array<int, 12>>(rc::gen::inRange(-extent, extent + 1));
+    Positions V_t0(2, 3), V_t1(2, 3);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      V_t0(i / 3, i % 3) = coordinates[static_cast<std::size_t>(i)];
+      V_t1(i / 3, i % 3) = coordinates[static_cast<std::size_t>(6 + i)];
+    }
+    const double reach = *rc::gen::element(0.0, 1.0, 2.5, 0x1p-1074);
+    const auto meet = [&](MotionBoxes boxes) {
+      return overlap(vertex_box(V_t0, V_t1, 0, reach, boxes), vertex_box(V_t0, V_t1, 1, reach, boxes));
+    };
+    RC_ASSERT(meet(MotionBoxes::kSwept) == overlap(vertex_box(V_t0, V_t1, 0, reach), vertex_box(V_t0, V_t1, 1, reach)));
+    if (meet(MotionBoxes::kMoving)) {
+      RC_ASSERT(meet(MotionBoxes::kSwept));
+      return;
+    }
+    for (int i = 0; i <= 16; ++i) {
+      const double t = i / 16.0;
+      const Eigen::RowVector3d apart = (1 - t) * (V_t0.row(1) - V_t0.row(0)) + t * (V_t1.row(1) - V_t1.row(0));
+      RC_ASSERT(apart.cwiseAbs().maxCoeff() > reach);
+    }
+  });
+}
+
 }  // namespace selvage

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/kernel/left_out.h"
 #include "tests/kernel/random_motion.h"
 #include "tests/kernel/with_threads.h"
 #include "tests/property.h"
@@ -29,29 +30,27 @@ bool same(const CcdResult& a, const CcdResult& b) {
   return equal;
 }
 
-/// What a batch may leave out although the single query does not call it separated: a pair on which that one gives up,
-/// or cannot tell the distance at the end from the tolerance. Without the limit it says so itself.
-bool may_be_left_out(const Collision& pair, const CcdResult& without_limit, double tolerance) {
-  if (pair.kind == PairKind::kSelf) return false;
-  if (without_limit.verdict == CcdVerdict::kSeparated) return pair.ccd.verdict == CcdVerdict::kUnresolved;
-  return without_limit.cause == CcdCause::kEnd && without_limit.gap_bound > tolerance;
-}
-
 /// What find_collisions promises, one pair after another.
 class Reference {
  public:
-  Reference(const Mesh& mesh, const testing::RandomMotion& motion, const CcdOptions& options)
+  Reference(const Mesh& mesh, const testing::RandomMotion& motion, const CcdOptions& options, MotionBoxes boxes)
       : mesh_(mesh), motion_(motion), options_(options) {
-    CandidateOptions candidate_options = motion.options();
-    candidate_options.reach = options.tolerance;
+    const CandidateOptions candidate_options{options.tolerance, motion.active, boxes};
     const Candidates candidates = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t1, candidate_options);
     report_.vf_candidates = static_cast<std::int64_t>(candidates.vf.size());
     report_.ee_candidates = static_cast<std::int64_t>(candidates.ee.size());
-    for (const auto& [v, f] : candidates.vf) query(PairKind::kVf, v, f);
-    for (const auto& [a, b] : candidates.ee) query(PairKind::kEe, a, b);
+    const CandidateOptions moving{options.tolerance, motion.active, MotionBoxes::kMoving};
+    const Candidates near = find_candidates_brute_force(mesh, motion.V_t0, motion.V_t1, moving);
+    for (const auto& pair : candidates.vf) query(PairKind::kVf, pair.vertex, pair.face, is_in(near.vf, pair));
+    for (const auto& pair : candidates.ee) query(PairKind::kEe, pair.a, pair.b, is_in(near.ee, pair));
     for (VertexId v = 0; v < mesh.vertex_count; ++v) {
       for (std::size_t f = 0; f < mesh.faces.size(); ++f) query_self(v, static_cast<FaceId>(f));
     }
+  }
+  /// Whether swept boxes find nothing that moving ones do not.
+  [[nodiscard]] bool loses_none() const { return loses_none_; }
+  [[nodiscard]] std::size_t candidate_count() const {
+    return static_cast<std::size_t>(report_.vf_candidates + report_.ee_candidates);
   }
   /// The same pairs in the same order with the same bits, but for those that may be left out.
   [[nodiscard]] bool agrees_with(const CollisionReport& found) const {
@@ -63,7 +62,7 @@ class Reference {
                            found.collisions[next].first == all[i].first &&
                            found.collisions[next].second == all[i].second;
       if (!is_next) {
-        if (!may_be_left_out(all[i], without_limit_[i], options_.tolerance)) return false;
+        if (!may_be_left_out(all[i])) return false;
         continue;
       }
       if (!same(found.collisions[next++].ccd, all[i].ccd)) return false;
@@ -77,12 +76,14 @@ class Reference {
   }
 
  private:
-  [[nodiscard]] CcdResult ask_without_limit(PairKind kind, const std::array<VertexId, 4>& vertices) const {
-    return (kind == PairKind::kVf ? vf_ccd : ee_ccd)(points<4>(motion_.V_t0, vertices),
-                                                     points<4>(motion_.V_t1, vertices),
-                                                     {options_.tolerance, CcdOptions{}.max_intervals});
+  [[nodiscard]] bool may_be_left_out(const Collision& pair) const {
+    return testing::may_be_left_out(mesh_, motion_.V_t0, motion_.V_t1, pair, options_.tolerance);
   }
-  void query(PairKind kind, std::int32_t first, std::int32_t second) {
+  template <typename Pair>
+  static bool is_in(const std::vector<Pair>& sorted, const Pair& pair) {
+    return std::binary_search(sorted.begin(), sorted.end(), pair);
+  }
+  void query(PairKind kind, std::int32_t first, std::int32_t second, bool is_near = true) {
     const auto vertices = pair_vertices(mesh_, kind, first, second);
     const auto ask = [&](auto function, auto n) {
       constexpr std::size_t kCount = decltype(n)::value;
@@ -95,8 +96,12 @@ class Reference {
                                                   : ask(ee_ccd, Four());
     report_.intervals += ccd.intervals;
     if (ccd.verdict == CcdVerdict::kSeparated) return;
-    report_.collisions.push_back({kind, first, second, ccd});
-    without_limit_.push_back(kind == PairKind::kSelf ? ccd : ask_without_limit(kind, vertices));
+    const Collision pair{kind, first, second, ccd};
+    if (is_near) {
+      report_.collisions.push_back(pair);
+    } else {
+      loses_none_ = loses_none_ && may_be_left_out(pair);
+    }
   }
   /// The vertex and its opposite edge as a mesh of their own: a face and a copy of the vertex that is no corner of it.
   /// Their boxes overlap if and only if that of the copy overlaps the opposite edge's, which ee_candidates would say.
@@ -134,7 +139,7 @@ class Reference {
   const testing::RandomMotion& motion_;
   CcdOptions options_;
   CollisionReport report_;
-  std::vector<CcdResult> without_limit_;  // of report_.collisions
+  bool loses_none_ = true;
 };
 
 CollisionReport find(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options) {
@@ -164,7 +169,8 @@ TEST(FindCollisions, PropEqualsOneQueryAfterAnother) {
     RC_LOG() << shape << '\n' << motion << '\n';
     const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
     const CcdOptions options = {motion.reach, 8};  // few intervals: what is compared is the order, not the depth
-    const Reference expected(mesh, motion, options);
+    const Reference swept(mesh, motion, options, MotionBoxes::kSwept);
+    const Reference moving(mesh, motion, options, MotionBoxes::kMoving);
     BoxHierarchy hierarchy(mesh);
     CollisionReport report, of_one_thread;
     CollisionReport in_parts, in_parts_of_one_thread;  // not listed before they are asked
@@ -179,11 +185,14 @@ TEST(FindCollisions, PropEqualsOneQueryAfterAnother) {
       of_one_thread = find_all(kMostListed);
       in_parts_of_one_thread = find_all(1);
     });
-    RC_ASSERT(expected.agrees_with(in_parts));
-    RC_ASSERT(expected.agrees_with(in_parts_of_one_thread));
-    RC_ASSERT(in_parts.intervals == in_parts_of_one_thread.intervals);
+    RC_ASSERT(swept.loses_none());
+    const Reference& expected = swept.candidate_count() > few_candidates(mesh) ? moving : swept;
     RC_ASSERT(expected.agrees_with(report));
     RC_ASSERT(expected.agrees_with(of_one_thread));
+    const Reference& expected_in_parts = swept.candidate_count() > 1 ? moving : swept;
+    RC_ASSERT(expected_in_parts.agrees_with(in_parts));
+    RC_ASSERT(expected_in_parts.agrees_with(in_parts_of_one_thread));
+    RC_ASSERT(in_parts.intervals == in_parts_of_one_thread.intervals);
     RC_ASSERT(report.intervals == of_one_thread.intervals);
     RC_ASSERT(report.collisions.size() == of_one_thread.collisions.size());
   });

@@ -87,6 +87,10 @@ RandomMotion random_motion(VertexId vertex_count) {
   }
   motion.reach = *rc::gen::element(0.0, 1.0, 0.5, 3.0, 0x1p-52) * scale;
   if (*rc::gen::inRange(0, 4) == 0) motion.reach = *rc::gen::element(0x1p-1074, 0x3p-1074, 0x1p+1000);
+  motion.boxes = *rc::gen::element(MotionBoxes::kSwept, MotionBoxes::kMoving);
+  if (*rc::gen::inRange(0, 4) == 0) {  // far, and together: moving boxes tell apart what swept ones do not
+    motion.V_t1.rowwise() += Eigen::RowVector3d(1, -1, 1) * (2.0 * extent * scale);
+  }
   const auto flags = static_cast<std::size_t>(vertex_count);
   switch (*rc::gen::inRange(0, 4)) {
     case 0:
@@ -109,7 +113,8 @@ std::ostream& operator<<(std::ostream& out, const RandomShape& shape) {
 }
 
 std::ostream& operator<<(std::ostream& out, const RandomMotion& motion) {
-  out << std::hexfloat << "reach " << motion.reach << ", V_t0\n";
+  out << (motion.boxes == MotionBoxes::kMoving ? "moving" : "swept") << " boxes, reach " << std::hexfloat
+      << motion.reach << ", V_t0\n";
   for (const Positions* V : {&motion.V_t0, &motion.V_t1}) {
     for (Eigen::Index v = 0; v < V->rows(); ++v) out << (*V)(v, 0) << ' ' << (*V)(v, 1) << ' ' << (*V)(v, 2) << '\n';
     if (V == &motion.V_t0) out << "V_t1\n";

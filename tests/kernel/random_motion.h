@@ -20,8 +20,9 @@ struct RandomMotion {
   Positions V_t0, V_t1;
   double reach = 0;
   std::vector<std::uint8_t> active;
+  MotionBoxes boxes = MotionBoxes::kSwept;
 
-  [[nodiscard]] CandidateOptions options() const { return {reach, active}; }
+  [[nodiscard]] CandidateOptions options() const { return {reach, active, boxes}; }
 };
 
 /// To be called inside a RapidCheck property. Small cases come first and failures shrink.

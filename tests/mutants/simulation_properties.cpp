@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-/// A sheet that falls onto a turning ball, with random sizes, in steps that must be halved now and then.
+/// A sheet that falls onto a turning ball, with random sizes, in steps that must be halved now and then. In half of the
+/// scenes a step is one of the dynamics at most, which then holds no contacts.
 std::string scene_text(std::uint64_t seed) {
   fuzz::ChoiceSource source = fuzz::ChoiceSource::from_seed(seed);
   const auto number = [&](int first, int last, double unit) {
@@ -26,13 +27,16 @@ std::string scene_text(std::uint64_t seed) {
   };
   const std::string side = std::to_string(source.range(4, 7));
   std::string text = "gravity_m_s2 = [0, 0, -9.81]\nstrain_limit = 0\nstrain_rate_limit = 0\n";
-  text += "[time]\nframes_per_s = 30\nmin_step_s = 0.004\nframes = 8\n[collision]\nthickness_m = 0.005\n";
+  text += "[time]\nframes_per_s = 30\nframes = 8\n";
+  text +=
+      source.coin() ? "min_step_s = 0.004\n" : "min_step_s = 0.001\nmax_step_s = 0.0084\ndynamics_step_s = 0.0084\n";
+  text += "[collision]\nthickness_m = 0.005\n";
   text += "friction_static = " + number(0, 5, 0.1) + "\n";
   if (source.coin()) text += "precision = \"float32\"\n";
   text += "[[cloth]]\nsheet = {nx = " + side + ", ny = " + side + ", width_m = 0.4, height_m = 0.4}\n";
   text += "position_m = [" + number(0, 8, 0.01) + ", " + number(0, 8, 0.01) + ", " + number(31, 36, 0.01) + "]\n";
   text += "rotation_deg = [0, 0, " + number(0, 45, 1.0) + "]\nvelocity_m_s = [0, 0, " + number(-5, -1, 1.0) + "]\n";
-  text += "density_kg_m2 = 0.3\nstretch_n_m = 40\nshear_n_m = 20\ndamping_ratio = 0.1\n";
+  text += "density_kg_m2 = 2\nstretch_n_m = 15\nshear_n_m = 5\ndamping_ratio = 0.1\n";
   text += "[[body]]\nname = \"ball\"\nsphere = {radius_m = 0.15, subdivisions = 1}\n";
   text +=
       "[[body.key]]\ntime_s = 0\nposition_m = [0, 0, 0.15]\n[[body.key]]\ntime_s = 1\nposition_m = [0.3, 0, 0.15]\n";
@@ -81,14 +85,17 @@ std::string judge_step(const sim::Simulation& simulation, const sim::SimulationS
   Positions scripted = simulation.x();
   for (const sim::Collider& body : world.colliders) body.place_at(simulation.clock().time_s(), float32, scripted);
   if (scripted != simulation.x()) return "off script";
-  // Springs keep the cloth's momentum: beyond the mean velocity of the step there is half a step of gravity (7.6).
+  // Springs keep the cloth's momentum: but for contacts that act within it, the end of the step is half a step of
+  // gravity faster than its mean (7.6).
   const Positions moved = simulation.x() - before.x;
   const double mass = weighed(world, Positions::Ones(moved.rows(), 3)).x();
   const Vec3 mean = weighed(world, moved) / step.dt_s;
   const Vec3 half_gravity(0, 0, -kGravity * step.dt_s / 2 * mass);
   const Vec3 off = weighed(world, simulation.state().v) - mean - half_gravity;
   const double rounding = float32 ? 1e-6 * mass / step.dt_s : 1e-6 * half_gravity.norm();
-  if (off.norm() > rounding) return "velocities are not those of the motion";
+  const bool holds = simulation.scene().time.dynamics_step_s.value_or(0) < step.dt_s;
+  const bool touches = step.report.repulsions + step.report.frictions + step.report.first_collisions > 0;
+  if (!(holds && touches) && off.norm() > rounding) return "velocities are not those of the motion";
   return simulation.state().clock.frame == 0 && simulation.state().clock.tick == 0 ? "the clock stands" : "";
 }
 

@@ -88,6 +88,8 @@ void add_mesh_answers(Hash& hash) {
         add(hash, hierarchy.candidates());
         hierarchy.refit(V_t0, V_t1, {reach, active});
         add(hash, hierarchy.candidates());
+        hierarchy.refit(V_t0, V_t1, {reach, active, MotionBoxes::kMoving});
+        add(hash, hierarchy.candidates());
       }
       const CcdOptions options = {0.001 * size, 64};
       hierarchy.refit(V_t0, V_t1, {options.tolerance, {}});
