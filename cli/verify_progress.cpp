@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 
 namespace selvage::cli {
+
 VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
     : report_file_(std::move(report)), context_(context), written_(std::chrono::steady_clock::now()) {
   file_ = report_file_;

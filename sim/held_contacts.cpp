@@ -81,7 +81,8 @@ void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>&
 /// any of the faces there, and another may have been found than the one that bore it. Several may begin with one load:
 /// what is too much they take back.
 double HeldContacts::load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const {
-  const auto [begin, end] = std::ranges::equal_range(loads, contact.first, {}, &ContactLoad::vertex);
+  const auto begin = std::ranges::lower_bound(loads, contact.first, {}, &ContactLoad::vertex);
+  const auto end = std::ranges::upper_bound(loads, contact.first, {}, &ContactLoad::vertex);
   auto load = std::find_if(begin, end, [&](const ContactLoad& l) { return l.face == contact.second; });
   if (load == end) load = std::find_if(begin, end, [&](const ContactLoad& l) { return touch(l.face, contact.second); });
   return load == end ? 0 : load->acceleration_m_s2;
@@ -220,12 +221,12 @@ HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickPro
   if (corner == kCorners.end() || std::ranges::all_of(kCorners, on_corner)) return Answer::kNo;
   Answer slides = Answer::kNo;
   for (const FaceId id : surface_.faces.of(from[*corner])) {
-    const auto& [a, b, c] = surface_.mesh.faces[static_cast<std::size_t>(id)];
-    const auto holds = [&](VertexId v) { return v == a || v == b || v == c; };
+    const std::array<VertexId, 3>& face = surface_.mesh.faces[static_cast<std::size_t>(id)];
+    const auto holds = [&](VertexId v) { return std::ranges::find(face, v) != face.end(); };
     const auto is_beside = [&](std::size_t k) { return !on_corner(k) || holds(from[k]); };
     if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
-    if (!is_within(reach, {a, b, c})) return Answer::kOutOfReach;
-    const std::array<VertexId, 4> pair{from[0], a, b, c};
+    if (!is_within(reach, face)) return Answer::kOutOfReach;
+    const std::array<VertexId, 4> pair{from[0], face[0], face[1], face[2]};
     const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, step));
     if (!(other.distance < kNearer * nearest.distance)) continue;
     nearest = other;
@@ -306,7 +307,7 @@ std::vector<ContactLoad> HeldContacts::loads() const {
   // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
   std::ranges::stable_sort(result, {}, pair_of);
   const auto same = [](const ContactLoad& a, const ContactLoad& b) { return pair_of(a) == pair_of(b); };
-  result.erase(std::ranges::unique(result, same).begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end(), same), result.end());
   return result;
 }
 

@@ -47,7 +47,7 @@ void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
     }
   }
   std::ranges::sort(known_);
-  known_.erase(std::ranges::unique(known_).begin(), known_.end());
+  known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
 }
 
 std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const Vec3& fall) {

@@ -15,8 +15,7 @@ class SurfaceParts {
   explicit SurfaceParts(const Mesh& mesh);
   /// The smallest vertex of the vertex' part.
   [[nodiscard]] VertexId part(VertexId vertex) const { return part_[static_cast<std::size_t>(vertex)]; }
-  /// #V: 1 where the vertex' part holds a vertex with mass, or one without a body, or with a pin.
-  /// O(#V).
+  /// #V: 1 where the vertex' part holds a vertex with mass, or one without a body, or with a pin. O(#V).
   [[nodiscard]] std::vector<std::uint8_t> cloth_flags(const CollisionBodies& bodies) const;
 
  private:
