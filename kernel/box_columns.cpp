@@ -156,12 +156,11 @@ void BoxColumns::reuse(std::size_t row_count, MotionBoxes boxes) {
 }
 
 void BoxColumns::hold(MotionBoxes boxes) {
-  boxes_ = boxes;
-  if (boxes_ == MotionBoxes::kSwept) return;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; boxes == MotionBoxes::kMoving && axis < 3; ++axis) {
     t1.lower[axis].resize(key.size(), Box::kInfinity);
     t1.upper[axis].resize(key.size(), -Box::kInfinity);
   }
+  boxes_ = boxes;
 }
 
 void BoxColumns::copy_row(std::size_t row, const BoxColumns& from, std::size_t from_row) {

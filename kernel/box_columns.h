@@ -29,7 +29,7 @@ struct BoxColumns {
   void resize(std::size_t row_count);
   /// As resize and hold, but what the rows hold is unspecified and memory is never given back.
   void reuse(std::size_t row_count, MotionBoxes boxes);
-  /// What kind of boxes the rows are set to from now on.
+  /// What kind of boxes the rows hold from now on; t1 is to be set anew where they move.
   void hold(MotionBoxes boxes);
   [[nodiscard]] MotionBoxes boxes() const { return boxes_; }
   /// Of `from`, which holds the same kind.

@@ -42,8 +42,7 @@ using CandidateVisitor = std::function<void(const Candidates& part)>;
 
 /// What counts as a candidate.
 struct CandidateOptions {
-  /// Each feature's box is grown by half of this, rounded outward: pairs nearer than `reach` at any common box are
-  /// found.
+  /// Each feature's box is grown by half of this, rounded outward: pairs that come nearer than `reach` are found.
   double reach = 0;
   /// #V flags, or empty for "all": a pair counts only if one of its vertices is active. Scripted bodies against
   /// each other, and pairs that a response did not touch, cost nothing.

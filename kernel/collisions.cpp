@@ -91,6 +91,7 @@ class CollisionFinder {
 
   template <typename Pair>
   void ask(const CcdBatch& batch, PairKind kind, std::span<const Pair> pairs, Block& block) const {
+    const FpEnvGuard guard;  // for moves_near()
     const BatchReport report = batch.ask(pairs);
     for (const BatchAnswer& answer : report.answers) {
       const auto& pair = pairs[answer.candidate];
@@ -165,7 +166,7 @@ std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int3
   return {first, corners[(own + 1) % 3], corners[(own + 2) % 3], first};
 }
 
-// Of 32 for each vertex and edge a list takes a few times as long as the search in a step in which little moves. Moving
+// A list of 32 for each vertex and edge takes a few times as long as the search in a step in which little moves. Moving
 // boxes take 1.5 times as long there, and are as fast where there are 10 (docs/broad-phase.md).
 std::size_t few_candidates(const Mesh& mesh) {
   return 32 * (static_cast<std::size_t>(mesh.vertex_count) + mesh.edges.size());
@@ -174,6 +175,7 @@ std::size_t few_candidates(const Mesh& mesh) {
 CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                 const PositionsRef& V_t1, const CcdOptions& options,
                                 std::span<const std::uint8_t> active, std::size_t most_listed) {
+  const FpEnvGuard guard;
   SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
   SELVAGE_REQUIRE(validate(options) == InputError::kNone);
   CollisionFinder finder(mesh, V_t0, V_t1, options, active);

@@ -33,21 +33,22 @@ inline constexpr std::size_t kMostListed = std::size_t{1} << 25;
 [[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
                                                     std::int32_t second);
 
-/// Of swept boxes, for all of a mesh: where there are more, the motion is long beside the features.
+/// How many candidates of swept boxes find_collisions() lists before it tries moving boxes: where there are more, the
+/// motion is long beside the features, or much is near.
 [[nodiscard]] std::size_t few_candidates(const Mesh& mesh);
 
 /// All pairs that are not proved separated over the step: vf, ee, and each vertex against the opposite edge of each
 /// face that holds it (kSelf: touching in [0,1], or within tolerance at t = 1, like any other pair). Pairs without an
 /// active vertex are left out. Queries are spent on pairs whose boxes, grown by half the tolerance, overlap
-/// (candidates.h): swept over the step, or, where that leaves more than few_candidates(), moving with it; the boxes of
-/// all other pairs are proof enough. vf and ee pairs are answered as by
-/// CcdBatch. toi_lower covers every vf, ee and kSelf pair with an active vertex, candidate or not. A step without
-/// motion (V_t0 = V_t1) is a step: pairs within tolerance are found, touching ones with toi_lower 0. `hierarchy`
-/// belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES validate() == kNone of the positions
-/// and of the options, which it asks. In parallel; results are ordered, and equal bits for any thread count (K7).
-/// Up to `most_listed` candidates are listed before they are asked; more are asked as they are found. So memory is
-/// O(#V + #F + most_listed + #collisions), also where features cross in the step so far that there are O(#F^2)
-/// candidates, and it takes as long.
+/// (candidates.h); the boxes of all other pairs are proof enough. They are swept over the step for kSelf. For vf and ee
+/// they are, too, up to few_candidates(), and moving boxes beyond; what is not separated has passed moving boxes in
+/// either case, and is answered as by CcdBatch. toi_lower covers every vf, ee and kSelf pair with an active vertex,
+/// candidate or not. A step without motion (V_t0 = V_t1) is a step: pairs within tolerance are found, touching ones
+/// with toi_lower 0. `hierarchy` belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES
+/// validate() == kNone of the positions and of the options, which it asks. In parallel; results are ordered, and equal
+/// bits for any thread count (K7). Up to `most_listed` candidates are listed before they are asked; more are asked as
+/// they are found. So memory is O(#V + #F + most_listed + #collisions), also where features cross in the step so far
+/// that there are O(#F^2) candidates, and it takes as long.
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                               const PositionsRef& V_t1, const CcdOptions& options,
                                               std::span<const std::uint8_t> active = {},

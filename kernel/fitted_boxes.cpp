@@ -34,6 +34,7 @@ FittedBoxes::FittedBoxes(const Mesh& mesh, const FaceClusters& clusters)
     : vertex_active_(static_cast<std::size_t>(mesh.vertex_count)),
       cluster_active_(clusters.cluster_count()),
       node_active_(clusters.nodes.size()) {
+  t0_.resize(vertex_active_.size(), cluster_active_.size());
   set_keys(clusters.faces.items, faces_);
   set_keys(clusters.edges.items, edges_);
   children_.resize(FaceClusters::kFanOut * clusters.nodes.size());
@@ -49,6 +50,8 @@ void FittedBoxes::refit(const Mesh& mesh, const FaceClusters& clusters, const Po
   SELVAGE_ASSERT(options.active.empty() || options.active.size() == vertex_active_.size());
   SELVAGE_ASSERT(options.reach >= 0);
   mark_active(mesh, clusters, options.active);
+  // Whatever an exception leaves of these, what is read has its size.
+  if (options.boxes == MotionBoxes::kMoving) t1_.resize(vertex_active_.size(), cluster_active_.size());
   for (BoxColumns* columns : {&faces_, &edges_, &children_}) columns->hold(options.boxes);
   if (options.boxes == MotionBoxes::kSwept) {
     fit(mesh, clusters, V_t0, V_t1, options.reach, t0_, &BoxColumns::t0);
@@ -60,8 +63,6 @@ void FittedBoxes::refit(const Mesh& mesh, const FaceClusters& clusters, const Po
 
 void FittedBoxes::fit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_a, const PositionsRef& V_b,
                       double reach, Boxes& boxes, End end) {
-  boxes.vertices.resize(static_cast<std::size_t>(mesh.vertex_count));
-  boxes.clusters.resize(clusters.cluster_count());
   parallel_range(0, boxes.vertices.size(), kGrainVertices,
                  [&](std::size_t v) { boxes.vertices[v] = vertex_box(V_a, V_b, static_cast<VertexId>(v), reach); });
   parallel_range(0, boxes.clusters.size(), kGrainClusters,

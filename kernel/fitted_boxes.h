@@ -46,6 +46,10 @@ class FittedBoxes {
   /// The boxes of one end; swept ones are in t0_ alone.
   struct Boxes {
     std::vector<Box> vertices, clusters;
+    void resize(std::size_t vertex_count, std::size_t cluster_count) {
+      vertices.resize(vertex_count);
+      clusters.resize(cluster_count);
+    }
   };
   using End = BoxColumns::Bounds BoxColumns::*;
 

@@ -42,8 +42,8 @@ class ContactGroups {
 
   ContactGroups() = default;
   /// REQUIRES vertices below `vertex_count`, and |at| <= 2 kMaxCoordinate. O(n log n), n = #members, and
-  /// O(vertex_count) time and memory for each round: each takes a fifth of what is left or more (contact_groups.cpp), so
-  /// there are 1 + 4.5 ln(n / 512) at most, and eight where 20,000 contacts press in a heap.
+  /// O(vertex_count) time and memory for each round: each takes a fifth of what is left or more (contact_groups.cpp),
+  /// so there are 1 + 4.5 ln(n / 512) at most, and eight where 20,000 contacts press in a heap.
   ContactGroups(std::span<const Member> members, Eigen::Index vertex_count);
 
   /// All members, in the order in which they act, but for those that leave their group: laid out so in memory they are

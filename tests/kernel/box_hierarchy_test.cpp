@@ -121,6 +121,8 @@ TEST(BoxHierarchy, EveryVectorUnitFindsTheSamePairs) {
     SCOPED_TRACE(unit);
     expect_brute_force(mesh, V, -V, {});
     expect_brute_force(mesh, V, V, {0.5, active});
+    expect_brute_force(mesh, V, V * 2, {0.5, {}, MotionBoxes::kMoving});
+    expect_brute_force(mesh, V, -V, {0.5, active, MotionBoxes::kMoving});
   });
 }
 

@@ -1,8 +1,17 @@
 #include "kernel/collisions.h"
 
+#include <cfenv>
 #include <cstring>
+#include <limits>
+#include <thread>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "tests/kernel/left_out.h"
 #include "tests/kernel/random_motion.h"
@@ -221,6 +230,78 @@ TEST(FindCollisions, AStepWithoutMotionFindsWhatIsNear) {
   EXPECT_EQ(near.toi_lower, 1);
   scene.V(3, 2) = 0;
   EXPECT_EQ(find(scene.mesh, scene.V, scene.V, {0, 4096}).toi_lower, 0);
+}
+
+/// A strip of 2 x 200 faces that flies by 40 m, and crosses a face far away half-way.
+TEST(FindCollisions, WhatFliesTogetherIsNoCandidateAndWhatItCrossesIs) {
+  constexpr VertexId kSide = 201;
+  Faces F(2 * (kSide - 1) + 1, 3);
+  Positions V_t0(2 * kSide + 3, 3);
+  for (VertexId i = 0; i < kSide; ++i) {
+    V_t0.row(2 * i) << 0.1 * i, 0, 0;
+    V_t0.row(2 * i + 1) << 0.1 * i, 0.1, 0;
+    if (i + 1 == kSide) continue;
+    F.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 1;
+    F.row(2 * i + 1) << 2 * i + 2, 2 * i + 3, 2 * i + 1;
+  }
+  const VertexId wall = 2 * kSide;
+  F.row(2 * (kSide - 1)) << wall, wall + 1, wall + 2;
+  Positions V_t1 = V_t0;
+  V_t1.rowwise() += Eigen::RowVector3d(40, 40, 40);
+  V_t0.bottomRows(3) << 29, 19, 20, 31, 19, 20, 30, 22, 20.1;
+  V_t1.bottomRows(3) = V_t0.bottomRows(3);
+  const Mesh mesh = make_mesh(static_cast<VertexId>(V_t0.rows()), F);
+  const Candidates swept = find_candidates_brute_force(mesh, V_t0, V_t1, {1e-6, {}});
+  const Candidates moving = find_candidates_brute_force(mesh, V_t0, V_t1, {1e-6, {}, MotionBoxes::kMoving});
+  ASSERT_GT(swept.vf.size() + swept.ee.size(), few_candidates(mesh));
+  ASSERT_LT(4 * (moving.vf.size() + moving.ee.size()), few_candidates(mesh));
+  const CollisionReport report = find(mesh, V_t0, V_t1, {1e-6, 4096});
+  EXPECT_EQ(report.vf_candidates, std::ssize(moving.vf));
+  EXPECT_EQ(report.ee_candidates, std::ssize(moving.ee));
+  EXPECT_FALSE(report.collisions.empty());
+  EXPECT_GT(report.toi_lower, 0.49);
+  EXPECT_LT(report.toi_lower, 0.51);
+}
+
+/// In a thread whose arena hands that environment to its tasks.
+TEST(FindCollisions, TheHostsFloatingPointEnvironmentHidesNone) {
+  const auto found = [](const Mesh& mesh, const Positions& V_t0, const Positions& V_t1, double tolerance,
+                        std::size_t most_listed, auto set_environment) {
+    CollisionReport report;
+    std::thread([&] {
+      set_environment();
+      oneapi::tbb::task_arena arena(2);
+      arena.execute([&] {
+        oneapi::tbb::parallel_for(0, 4, [](int) {});
+        BoxHierarchy hierarchy(mesh);
+        report = find_collisions(mesh, hierarchy, V_t0, V_t1, {tolerance, 4096}, {}, most_listed);
+      });
+    }).join();
+    return report;
+  };
+  FaceAndVertex falls, rests;
+  falls.V << -50, -50, -10, 50, -50, -10, 0, 90, -10, 0, 0, -1, -1, 0, 90, 1, 0, 90;
+  Positions falls_t1 = falls.V;
+  falls_t1(3, 2) = -20;
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  const double near = std::numeric_limits<double>::min();
+  rests.V << -1, -1, near, 1, -1, near, 0, 1, near, 0, 0, near + kLeast, -1, 0, 9, 1, 0, 9;
+  for (const std::size_t most_listed : {kMostListed, std::size_t{0}}) {
+    const auto count = [&](auto set_environment) {
+      const CollisionReport fall = found(falls.mesh, falls.V, falls_t1, 2, most_listed, set_environment);
+      EXPECT_LT(fall.toi_lower, 0.5);
+      const CollisionReport rest = found(rests.mesh, rests.V, rests.V, 2 * kLeast, most_listed, set_environment);
+      return std::pair(fall.collisions.size(), rest.collisions.size());
+    };
+    const auto plain = count([] {});
+    EXPECT_GT(plain.first, 0U);
+    EXPECT_GT(plain.second, 0U);
+    EXPECT_EQ(count([] { std::fesetround(FE_DOWNWARD); }), plain);
+    EXPECT_EQ(count([] { std::fesetround(FE_UPWARD); }), plain);
+#if defined(__SSE2__)
+    EXPECT_EQ(count([] { _mm_setcsr(_mm_getcsr() | 0x8040); }), plain);  // flush to zero, denormals are zero
+#endif
+  }
 }
 
 TEST(FindCollisions, AVertexThroughItsOppositeEdgeIsASelfCollision) {
