@@ -3,16 +3,14 @@
 #include <cfenv>
 #include <cstring>
 #include <limits>
-#include <thread>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
+#include "tests/host_environment.h"
 #include "tests/kernel/left_out.h"
 #include "tests/kernel/random_motion.h"
 #include "tests/kernel/with_threads.h"
@@ -263,20 +261,14 @@ TEST(FindCollisions, WhatFliesTogetherIsNoCandidateAndWhatItCrossesIs) {
   EXPECT_LT(report.toi_lower, 0.51);
 }
 
-/// In a thread whose arena hands that environment to its tasks.
 TEST(FindCollisions, TheHostsFloatingPointEnvironmentHidesNone) {
   const auto found = [](const Mesh& mesh, const Positions& V_t0, const Positions& V_t1, double tolerance,
                         std::size_t most_listed, auto set_environment) {
     CollisionReport report;
-    std::thread([&] {
-      set_environment();
-      oneapi::tbb::task_arena arena(2);
-      arena.execute([&] {
-        oneapi::tbb::parallel_for(0, 4, [](int) {});
-        BoxHierarchy hierarchy(mesh);
-        report = find_collisions(mesh, hierarchy, V_t0, V_t1, {tolerance, 4096}, {}, most_listed);
-      });
-    }).join();
+    testing::in_host_environment(set_environment, [&] {
+      BoxHierarchy hierarchy(mesh);
+      report = find_collisions(mesh, hierarchy, V_t0, V_t1, {tolerance, 4096}, {}, most_listed);
+    });
     return report;
   };
   FaceAndVertex falls, rests;

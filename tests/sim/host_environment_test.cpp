@@ -1,9 +1,7 @@
 // A host's floating-point environment stays out of a step, also where oneTBB hands it to tasks.
-#include <cfenv>
-#include <thread>
+#include "tests/host_environment.h"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include <cfenv>
 
 #include "tests/sim/step_scene.h"
 
@@ -19,19 +17,12 @@ StepScene two_sheets() {
   return scene;
 }
 
-/// The result of its step on a thread of its own, in an arena whose tasks begin in the environment that `set` leaves.
+/// The result of its step.
 template <typename Set>
 CollisionStepResult step_in(const Set& set) {
   const StepScene scene = two_sheets();
   CollisionStepResult result;
-  std::thread([&] {
-    set();
-    oneapi::tbb::task_arena arena(2);
-    arena.execute([&] {
-      oneapi::tbb::parallel_for(0, 4, [](int) {});
-      result = scene.step();
-    });
-  }).join();
+  selvage::testing::in_host_environment(set, [&] { result = scene.step(); });
   return result;
 }
 
