@@ -8,12 +8,12 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "cli/choice.h"
 #include "cli/interrupt.h"
 #include "cli/start_check.h"
 #include "cli/terminal.h"
+#include "cli/thread_limit.h"
 #include "sim/recorder.h"
 #include "sim/scene_reader.h"
 #include "sim/step.h"
@@ -24,7 +24,7 @@ namespace {
 struct SimArguments {
   std::filesystem::path scene, output;
   std::optional<std::int64_t> frames;
-  std::optional<std::size_t> threads;
+  ThreadLimit threads;
   io::SequenceKind record = io::SequenceKind::kFrames;
   sim::Quality quality = sim::Quality::kDraft;
   bool resume = false, strict = false, repair = false;
@@ -108,8 +108,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
 
 ExitCode simulate(const SimArguments& arguments) {
   catch_interrupts();
-  std::optional<tbb::global_control> limit;
-  if (arguments.threads) limit.emplace(tbb::global_control::max_allowed_parallelism, *arguments.threads);
+  const auto limit = arguments.threads.hold();
   sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);
   if (arguments.frames) scene.time.frame_count = *arguments.frames;
   sim::Simulation simulation(scene);
@@ -136,8 +135,7 @@ void add_sim_command(CLI::App& program, Job& job) {
   command.add_option("-o,--output", arguments->output, "The sequence folder to write")->required();
   command.add_option("--frames", arguments->frames, "Frames to simulate, instead of what the scene says")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{999'999}));
-  command.add_option("--threads", arguments->threads, "Threads; the results do not depend on it")
-      ->check(CLI::Range(1, 1024));
+  add_threads(command, arguments->threads);
   add_choice(command, "--record", arguments->record,
              {{"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}},
              "frames, or steps: all that was certified");

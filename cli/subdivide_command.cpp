@@ -17,6 +17,7 @@
 #include "cli/number_check.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
+#include "cli/thread_limit.h"
 #include "io/sequence_outputs.h"
 #include "kernel/types.h"
 #include "sim/points.h"
@@ -31,6 +32,7 @@ struct SubdivideArguments {
   std::filesystem::path output;
   std::int32_t levels = 1;
   std::optional<std::size_t> frame;
+  ThreadLimit threads;
 };
 
 // 4^6 times the faces; a scene's draft has 10^7 then.
@@ -109,6 +111,7 @@ FineFrame subdivide(const sim::Subdivision& subdivision, const io::MeshData& mes
 
 ExitCode run(const SubdivideArguments& arguments) {
   catch_interrupts();
+  const auto threads = arguments.threads.hold();
   const auto input = open_sequence(arguments.sequence);
   if (input->frame_count() == 0) throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame");
   if (arguments.frame && *arguments.frame >= input->frame_count()) {
@@ -178,6 +181,7 @@ void add_subdivide_command(CLI::App& program, Job& job) {
       ->check(CLI::Range(1, kMaxLevels))
       ->capture_default_str();
   command.add_option("--frame", arguments->frame, "This frame alone; from 0")->check(whole_number());
+  add_threads(command, arguments->threads);
   command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }
 

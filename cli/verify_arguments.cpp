@@ -115,9 +115,7 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
                               kViolationsInJson, kViolationsInText))
       ->check(number_from(0));  // as a signed number: an unsigned one would wrap "-3" around
   add_long_runs(command, arguments);
-  command.add_option("--threads", arguments.threads, "Number of threads; 0: one a core")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_threads(command, arguments.threads);
 }
 
 verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const io::SequenceReader& sequence) {

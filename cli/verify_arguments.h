@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/sequence_argument.h"
+#include "cli/thread_limit.h"
 #include "verify/check.h"
 
 namespace selvage::cli {
@@ -25,7 +26,7 @@ struct VerifyArguments {
   std::int64_t html_mb = 20;
   std::filesystem::path cases;
   std::optional<std::int64_t> max_violations;
-  std::int64_t threads = 0;
+  ThreadLimit threads;
 };
 
 void add_verify_arguments(CLI::App& command, VerifyArguments& arguments);

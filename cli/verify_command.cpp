@@ -5,14 +5,13 @@
 #include <optional>
 #include <string>
 
-#include <tbb/global_control.h>
-
 #include "cli/case_output.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/output_check.h"
 #include "cli/page/report_page.h"
 #include "cli/terminal.h"
+#include "cli/thread_limit.h"
 #include "cli/verdict.h"
 #include "cli/verify_arguments.h"
 #include "cli/verify_progress.h"
@@ -83,10 +82,7 @@ void write_outputs(const VerifyArguments& arguments, const io::SequenceReader& s
 
 ExitCode run(const VerifyArguments& arguments) {
   catch_interrupts();
-  std::optional<tbb::global_control> threads;
-  if (arguments.threads > 0) {
-    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
-  }
+  const auto threads = arguments.threads.hold();
   require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
   const auto sequence = open_sequence(arguments.sequence);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);

@@ -49,8 +49,8 @@ TEST(SubdivideCommand, WritesFinerFramesThatVerifyFindsClean) {
   EXPECT_EQ(fine->time(1), 0.5);
   EXPECT_EQ(run_program(folder, {"verify", folder.path() / "fine"}).exit_code, 0);
 
-  const auto one =
-      run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "one", "--frame", "1"});
+  const auto one = run_program(
+      folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "one", "--frame", "1", "--threads", "1"});
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(io::open_sequence({folder.path() / "one"})->frame_count(), 1U);
   EXPECT_EQ(
