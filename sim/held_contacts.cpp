@@ -188,15 +188,17 @@ double HeldContacts::excess(const Line& line, const MidstepMotion& step) const {
   return std::min(overlap, approach);
 }
 
-/// The pair's nearest points now; features that have passed through each other are left to the collision step. Whether
-/// the line can act: not where the points are all on vertices that cannot move.
+/// The pair's nearest points now, seen from the side on which they are while they are farther apart than the thickness;
+/// what has passed through nearer than that is held on the side it came from. Whether the line can act: not where the
+/// points are all on vertices that cannot move.
 HeldContacts::Answer HeldContacts::look_again(Line& line, const Reach& reach, const MidstepMotion& step) const {
   RepulsionContact now = line.contact;
   QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
   Answer slides = Answer::kYes;
   while (slides == Answer::kYes) slides = slides_on(now, nearest, reach, step);
   if (slides == Answer::kOutOfReach) return slides;
-  if (!(nearest.direction.dot(line.contact.normal) > 0)) return Answer::kYes;
+  const bool is_near = !(nearest.distance > now.properties.thickness_m);
+  if (is_near && !(nearest.direction.dot(line.contact.normal) > 0)) return Answer::kYes;
   if (now.second != line.contact.second) {
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.properties = surface_.properties.of(now.kind, now.first, now.second);

@@ -39,6 +39,11 @@ constexpr std::int64_t kVerticesACollision = 400;
 constexpr std::int64_t kImpulseRounds = 4;
 constexpr std::int64_t kGoodShare = 8;
 
+// Half the step bears twice as much, up to this: what an impulse or a contact moves is less by as much, and to halve
+// the step again spares little. At 3 m/s contact overstrains 121 springs in 2.1 ms, and 36 in each half of them
+// (sim/scenes/curtain.toml, 2.84 s). docs/simulator-speed.md says what it is worth.
+constexpr std::int64_t kMostBorne = 4;
+
 // How often the dynamics runs again with the contacts that the collision step met. Two sheets that meet at 12 m/s leave
 // 214 collisions, 31, 12; folds of sim/scenes/curtain.toml at full quality in steps of 1/60 s some 1,000, 50, 2.
 constexpr int kHoldingRounds = 3;
@@ -112,7 +117,7 @@ bool Simulation::others_wait(Try& tried) {
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are
-// few, or strains springs, the dynamics runs again and holds what it met as well.
+// borne, or strains springs, the dynamics runs again and holds what it met as well.
 Simulation::Try Simulation::try_step(StepResult& result) {
   Try tried;
   const double dt_s = clock_.dt_s();
@@ -148,7 +153,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
       };
       // Given up early where a shorter step may be tried. How short it may be, what meets will say.
       const Patience in_last = clock_.can_halve() ? patience_ : Patience{};
-      resolve(is_last ? in_last : Patience{few_collisions(), kImpulseRounds});
+      resolve(is_last ? in_last : Patience{borne() * few_collisions(), kImpulseRounds});
       const double fastest_m_s =
           std::max(fastest_contact(held_to_the_end, candidate), fastest_contact(tried.safe.met, candidate));
       shortest_s_ = lengths_.shortest_s(fastest_m_s);
@@ -234,12 +239,14 @@ double Simulation::fastest_contact(const std::vector<RepulsionContact>& contacts
 
 std::int64_t Simulation::few_collisions() const { return patience_.collisions / kGoodShare; }
 
+std::int64_t Simulation::borne() const { return std::min(std::int64_t{1} << clock_.halvings(), kMostBorne); }
+
 // Without, a sheet of 16 x 16 vertices that falls on its edge has springs of a sixtieth of their length, and
 // sim/scenes/table-legs.toml at full quality springs of 86 times their length.
 bool Simulation::overstrains(const Try& tried, const Positions& candidate) const {
   return tried.safe.report.status == StepStatus::kSafe && (touched(tried.safe.report) || tried.held.repulsions > 0) &&
          springs_overstrained(world_.springs, scene_.strain.strain, {x_, candidate, tried.safe.x}) >
-             patience_.collisions;
+             borne() * patience_.collisions;
 }
 
 void Simulation::commit(const CollisionStepResult& safe, Motion end) {

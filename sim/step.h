@@ -68,8 +68,10 @@ class Simulation {
   [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze, world_.body_count}; }
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
   [[nodiscard]] double fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const;
-  /// That a step bears in all tries, and that count as none.
+  /// That the longest step bears in all tries, and that count as none.
   [[nodiscard]] std::int64_t few_collisions() const;
+  /// How much more than the longest step this one bears.
+  [[nodiscard]] std::int64_t borne() const;
   /// Whether contact presses more springs than are borne.
   [[nodiscard]] bool overstrains(const Try& tried, const Positions& candidate) const;
   void commit(const CollisionStepResult& safe, Motion end);

@@ -35,6 +35,8 @@ class StepClock {
   [[nodiscard]] double time_s() const { return time_at(state_.tick); }
   [[nodiscard]] double end_s() const { return time_at(state_.tick + step_ticks()); }
   [[nodiscard]] double dt_s() const;
+  /// The longest step is dt_s() times two to this.
+  [[nodiscard]] std::int32_t halvings() const { return state_.level - min_level_; }
   [[nodiscard]] bool at_frame() const { return state_.tick == 0; }
   /// Whether half the step is no shorter than `shortest_s`, and than the constructor's.
   [[nodiscard]] bool can_halve(double shortest_s = 0) const;

@@ -405,6 +405,22 @@ TEST(HeldContacts, DoNotGoOnToAFaceThatHoldsTheVertex) {
   EXPECT_EQ(held.contacts().front().second, 0);
 }
 
+TEST(HeldContacts, TakeTheSideOnWhichFarFeaturesAre) {
+  // From above, as if the vertex had come from below. Ten thicknesses away it is free to leave; as near as that it has
+  // passed through, and may not go farther.
+  for (const double thicknesses : {10.0, 0.5}) {
+    OneContact one = vertex_over_body(Vec3::Zero());
+    one.x.row(0).z() = one.V_t0(0, 2) = thicknesses * kThickness;
+    one.contact.normal = -Vec3::UnitZ();
+    const std::vector<RepulsionContact> contacts{one.contact};
+    const Ground ground = one_face();
+    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, kStep, 1);
+    move_and_hold(one, held, {0, 0, 1}, 1);
+    EXPECT_EQ(one.v.row(0), Eigen::RowVector3d(0, 0, thicknesses > 1 ? 1 : 0));
+    EXPECT_EQ(held.contacts().front().normal, Vec3(0, 0, thicknesses > 1 ? 1 : -1));
+  }
+}
+
 TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
   // Two steps: to the side, then down. The face ends at y = -2.
   for (const double to_y : {-1.9, -2.5}) {

@@ -20,6 +20,7 @@ TEST(StepClock, HalvesDownToTheShortest) {
   int halvings = 0;
   for (; clock.can_halve(); ++halvings) clock.halve();
   EXPECT_EQ(halvings, 4);
+  EXPECT_EQ(clock.halvings(), 4);
   EXPECT_EQ(clock.dt_s(), 0.04 / 16);
 }
 
