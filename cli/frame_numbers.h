@@ -1,5 +1,5 @@
-// Mesh files of a sequence are named one by one, mostly by a pattern of the shell: a file that is missing is not
-// missed.
+// Mesh files of a sequence are named one by one, mostly by a pattern of the shell, and those of a folder in its list: a
+// file that is missing is not missed.
 #pragma once
 
 #include <filesystem>

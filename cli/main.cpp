@@ -51,7 +51,8 @@ int main(int argc, char** argv) {
     const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
     if (!is_extra || !program.get_subcommands().empty()) {
       // CLI11 numbers its errors from 100 up; --help and --version arrive here with 0.
-      return static_cast<int>(program.exit(error) == 0 ? ExitCode::kClean : ExitCode::kUsage);
+      const ExitCode code = program.exit(error) == 0 ? ExitCode::kClean : ExitCode::kUsage;
+      return static_cast<int>(run_guarded([code] { return code; }));
     }
     job = [name = std::string(argv[1])]() -> ExitCode {
       throw UsageError("no subcommand '" + name + "'; run with --help for the list");

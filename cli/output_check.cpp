@@ -1,12 +1,14 @@
 #include "cli/output_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "cli/exit_code.h"
 #include "io/atomic_file.h"
+#include "io/extension.h"
 #include "io/fail.h"
 
 namespace selvage::cli {
@@ -24,12 +26,27 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(fs::absolute(a, absent), absent) == fs::weakly_canonical(fs::absolute(b, absent), absent);
 }
 
+void require_no_dash(const fs::path& output) {
+  if (output != "-") return;
+  throw UsageError("-: results are not written to standard output; name a file, /dev/stdout, or ./- for that name");
+}
+
 }  // namespace
+
+void require_folder_name(const fs::path& output) {
+  require_no_dash(output);
+  constexpr auto kFiles = std::to_array({".npz", ".npy", ".obj", ".ply", ".pc2", ".mdd", ".pvd"});
+  const auto names_one = [&](const char* extension) { return io::has_extension(output, extension); };
+  if (!output.has_filename() || std::ranges::none_of(kFiles, names_one)) return;
+  throw UsageError(output.string() + " would be a folder; name one without that extension, and write the file with " +
+                   "`selvage convert FOLDER -o FILE`");
+}
 
 void require_separate_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const fs::path& output = outputs[i];
     if (output.empty()) continue;
+    require_no_dash(output);
     const auto is_output = [&](const fs::path& other) { return is_one_file(other, output); };
     std::error_code absent;
     // What is not there is not read, however many frames there are to compare with.

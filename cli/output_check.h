@@ -8,9 +8,13 @@
 namespace selvage::cli {
 
 /// Throws UsageError where an output is one of the inputs, or two outputs are one file, whatever their names: links are
-/// followed. Empty outputs were not asked for. Devices and pipes hold nothing that could be lost.
+/// followed. Empty outputs were not asked for. Devices and pipes hold nothing that could be lost. Nor is one "-", which
+/// elsewhere is standard output.
 void require_separate_outputs(const std::vector<std::filesystem::path>& inputs,
                               const std::vector<std::filesystem::path>& outputs);
+
+/// Throws UsageError where `output` is the name of what is no folder: "-", or a file of a sequence.
+void require_folder_name(const std::filesystem::path& output);
 
 /// Throws io::Error where one of them could not be written now: better before long work than after it. Leaves nothing.
 void require_writable(const std::vector<std::filesystem::path>& outputs);

@@ -1,6 +1,7 @@
 #include "cli/sequence_argument.h"
 
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -23,12 +24,26 @@ void add_sequence_argument(CLI::App& command, SequenceArgument& argument) {
       ->type_name("MESH");
 }
 
+namespace {
+
+/// Of the frames, where each has its own.
+std::vector<std::filesystem::path> files_of(const SequenceArgument& argument, const io::SequenceReader& sequence) {
+  std::error_code status;
+  if (!std::filesystem::is_directory(argument.sources.front(), status)) return argument.sources;
+  std::vector<std::filesystem::path> files(sequence.frame_count());
+  for (std::size_t frame = 0; frame < files.size(); ++frame) files[frame] = sequence.frame_name(frame);
+  return files;
+}
+
+}  // namespace
+
 std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argument) {
   if (!argument.base.empty() && !io::is_point_cache(argument.sources.front())) {
     throw UsageError("--base is for a .pc2 or .mdd; " + argument.sources.front().string() + " has faces of its own");
   }
   auto sequence = io::open_sequence(argument.sources, argument.base);
-  if (const auto jump = jump_in_numbers(argument.sources)) fmt::print(stderr, "selvage: note: {}\n", *jump);
+  if (const auto jump = jump_in_numbers(files_of(argument, *sequence)))
+    fmt::print(stderr, "selvage: note: {}\n", *jump);
   if (const std::string remark = sequence->remark(); !remark.empty()) {
     fmt::print(stderr, "selvage: note: {}\n", remark);
   }

@@ -11,6 +11,7 @@
 
 #include "cli/choice.h"
 #include "cli/interrupt.h"
+#include "cli/output_check.h"
 #include "cli/start_check.h"
 #include "cli/terminal.h"
 #include "cli/thread_limit.h"
@@ -109,6 +110,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
 ExitCode simulate(const SimArguments& arguments) {
   catch_interrupts();
   const auto limit = arguments.threads.hold();
+  require_folder_name(arguments.output);
   sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);
   if (arguments.frames) scene.time.frame_count = *arguments.frames;
   sim::Simulation simulation(scene);

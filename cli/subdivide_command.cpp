@@ -15,6 +15,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/number_check.h"
+#include "cli/output_check.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
 #include "cli/thread_limit.h"
@@ -112,8 +113,8 @@ FineFrame subdivide(const sim::Subdivision& subdivision, const io::MeshData& mes
 ExitCode run(const SubdivideArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
+  require_folder_name(arguments.output);
   const auto input = open_sequence(arguments.sequence);
-  if (input->frame_count() == 0) throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame");
   if (arguments.frame && *arguments.frame >= input->frame_count()) {
     throw UsageError(fmt::format("--frame {}: there is no such frame; the last one is {}", *arguments.frame,
                                  input->frame_count() - 1));

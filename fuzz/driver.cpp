@@ -86,7 +86,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
   if (std::filesystem::exists(file)) {
     if (!options_.resume) {
       throw io::Error(
-          io::ErrorKind::kBadInput,
+          io::ErrorKind::kFile,
           file.string() + ": there is a campaign already; continue it with --resume or name another folder");
     }
     Ledger known = parse_ledger(io::read_file(file), file.string());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -14,7 +15,7 @@
 #include <unistd.h>
 
 #include "fuzz/wire.h"
-#include "io/error.h"
+#include "io/fail.h"
 #include "io/text.h"
 #include "kernel/fp_env.h"
 
@@ -191,6 +192,7 @@ PluginInfo probe_plugin(const std::filesystem::path& library) {
     PluginInfo info;
     char error[256] = {};
   };
+  if (access(library.c_str(), R_OK) != 0) io::file_error(library.string(), "open", errno);
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   const pid_t child = fork();

@@ -44,6 +44,9 @@ class SequenceReader {
 [[nodiscard]] std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources,
                                                             const std::filesystem::path& base = {});
 
+/// Whether the times are more than the numbers of the frames.
+[[nodiscard]] bool has_times(const SequenceReader& sequence);
+
 /// The files that open_sequence() reads. Throws Error where a header cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> sequence_files(const std::vector<std::filesystem::path>& sources,
                                                                 const std::filesystem::path& base = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -64,6 +65,7 @@ std::optional<io::Picture> render_sheet(const io::SequenceReader& sequence, cons
   for (const std::size_t frame : options.frames) stage.add_cloth(make_render_surface(sequence.frame(frame)));
   if (stage.points.empty()) throw io::Error(io::ErrorKind::kBadInput, sequence.frame_name(0) + ": no faces to draw");
 
+  const bool is_timed = io::has_times(sequence);
   sheet.rgb.resize(3 * pixels);
   for (std::size_t i = 0; i < sheet.rgb.size(); ++i) sheet.rgb[i] = kPaper[i % 3];
   for (std::size_t n = 0; n < options.frames.size(); ++n) {
@@ -72,7 +74,8 @@ std::optional<io::Picture> render_sheet(const io::SequenceReader& sequence, cons
         render(make_render_surface(sequence.frame(frame)), options.view, stage, tile_width, tile_height,
                [&] { return progress(n, options.frames.size()); });
     if (!tile) return std::nullopt;
-    draw_text(*tile, 10, 8, kTextScale, fmt::format("frame {}   {:.2f} s", frame, sequence.time(frame)), kInk);
+    const std::string time = is_timed ? fmt::format("   {:.2f} s", sequence.time(frame)) : "";
+    draw_text(*tile, 10, 8, kTextScale, fmt::format("frame {}{}", frame, time), kInk);
     const int column = static_cast<int>(n) % columns, row = static_cast<int>(n) / columns;
     paste(*tile, kGap + column * (tile_width + kGap), kGap + row * (tile_height + kGap), sheet);
   }

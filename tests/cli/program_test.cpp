@@ -19,6 +19,19 @@ TEST(Program, HelpStartsWithAnExample) {
   EXPECT_EQ(result.err, "");
 }
 
+TEST(Program, HelpThatNobodyReceivesIsAFileError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  for (const char* option : {"--help", "--version"}) {
+    const TemporaryFolder folder;
+    fs::create_symlink("/dev/full", folder.path() / "stdout.txt");
+    const pid_t child = testing::start_program(folder.path(), {option});
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(WEXITSTATUS(status), 4) << option;
+    EXPECT_NE(testing::slurp(folder.path() / "stderr.txt").find("standard output"), std::string::npos) << option;
+  }
+}
+
 TEST(Program, VersionNamesTheExactLibraries) {
   const auto result = run_program({"--version"});
   EXPECT_EQ(result.exit_code, 0);
@@ -117,14 +130,20 @@ TEST(Program, AFileBeyondTheSizeLimitIsAFileErrorAndLeavesNothing) {
 
 TEST(Program, CommandsThatCannotStopInBetweenDieOfTheSignal) {
   const TemporaryFolder folder;
-  const auto mesh = folder.path() / "a.obj";
-  ASSERT_EQ(mkfifo(mesh.c_str(), 0600), 0);
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"view", mesh, "-o", folder.path() / "a.html"}, {"bench", "ccd", mesh, mesh}}) {
+  const auto mesh = folder.path() / "a.obj", run = folder.path() / "run", frame = run / "frame_000000.npy";
+  spit(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  ASSERT_EQ(run_program(folder, {"convert", mesh, "-o", run}).exit_code, 0);
+  for (const fs::path& file : {mesh, frame}) {
+    fs::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  }
+  for (const auto& [file, arguments] :
+       {std::pair{frame, std::vector<std::string>{"view", run, "-o", folder.path() / "a.html"}},
+        {mesh, {"bench", "ccd", mesh, mesh}}}) {
     for (const int signal : {SIGTERM, SIGINT}) {
       const pid_t child = testing::start_program(folder.path(), arguments);
       {
-        const std::ofstream pipe(mesh);  // open when the command reads it
+        const std::ofstream pipe(file);  // open when the command reads it
         kill(child, signal);
       }
       EXPECT_EQ(testing::wait_for_program(folder.path(), child).exit_code, -1) << arguments.front();

@@ -1,6 +1,7 @@
 #include <map>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/cli/run_program.h"
 #include "tests/io/point_cache_builder.h"
@@ -9,6 +10,7 @@ namespace selvage {
 namespace {
 
 using testing::run_program;
+using testing::slurp;
 using testing::spit;
 using testing::TemporaryFolder;
 
@@ -196,6 +198,57 @@ TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {
                                                {"take1_end.obj", "take3.obj", "take4.obj"}}) {
     EXPECT_EQ(verify(even), "") << even[0];
   }
+}
+
+TEST(SequenceArgument, AFrameThatIsMissingInTheListOfAFolderIsSaid) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"convert"};
+  for (int i = 0; i < 4; ++i) {
+    arguments.push_back(folder.path() / ("f_" + std::to_string(i) + ".obj"));
+    spit(arguments.back(), kTwoFaces);
+  }
+  arguments.insert(arguments.end(), {"-o", folder.path() / "run/"});
+  ASSERT_EQ(run_program(folder, arguments).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).err, "");
+  const auto list = folder.path() / "run" / "frames.jsonl";
+  std::string lines = slurp(list);
+  const std::size_t begin = lines.find('\n', lines.find("frame_000001")) + 1;
+  spit(list, lines.erase(begin, lines.find('\n', begin) + 1 - begin));
+  const auto result = run_program(folder, {"verify", folder.path() / "run"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("frame_000003.npy comes right after "), std::string::npos) << result.err;
+}
+
+TEST(SequenceArgument, WhatCanBeReadOnceOnlyIsRefused) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "a.obj", cache = folder.path() / "a.pc2";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  spit(cache, "POINTCACHE2");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", pipe},
+                                                    {"verify", cache, "--base", pipe},
+                                                    {"render", pipe, "-o", folder.path() / "a.png"},
+                                                    {"subdivide", pipe, "-o", folder.path() / "fine"}}) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 3) << arguments[0];
+    EXPECT_NE(result.err.find("write it to a file first"), std::string::npos) << result.err;
+  }
+}
+
+TEST(SequenceArgument, AnOutputThatIsNotWhatItsNameSaysIsUsage) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh, kTwoFaces);
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", mesh, "--json", "-"},
+                                                    {"view", mesh, "-o", "-"},
+                                                    {"subdivide", mesh, "-o", "-"},
+                                                    {"subdivide", mesh, "-o", folder.path() / "fine.npz"},
+                                                    {"sim", mesh, "-o", folder.path() / "run.OBJ"}}) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0] << result.err;
+    EXPECT_NE(result.err.find("; name "), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run_program(folder, {"subdivide", mesh, "-o", folder.path() / "fine.npz/"}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"subdivide", mesh, "-o", folder.path() / "v1.2"}).exit_code, 0);
 }
 
 TEST(SequenceArgument, AFolderOfMeshesIsNotTakenForASequence) {

@@ -284,17 +284,18 @@ TEST(VerifyCommand, InterruptEndsWithUnknownAnd75) {
 
 TEST(VerifyCommand, AnInterruptThatLeavesWorkIs75WhateverWasFound) {
   const TemporaryFolder folder;
-  const auto a = folder.path() / "a.obj", p = folder.path() / "p.obj", q = folder.path() / "q.obj",
+  const auto a = folder.path() / "a.obj", run = folder.path() / "run", second = run / "frame_000001.npy",
              report = folder.path() / "report.json", merged = folder.path() / "merged.json";
   spit(a, two_faces(0));
-  ASSERT_EQ(mkfifo(p.c_str(), 0600) + mkfifo(q.c_str(), 0600), 0);
-  const pid_t child = testing::start_program(folder.path(), {"verify", "--motion", "--json", report, a, p, q, a});
-  spit(p, two_faces(0));  // Opened, all are read once to compare their faces;
-  spit(q, two_faces(0));  // once q is asked for, p is done with.
-  std::ofstream again(p);
+  ASSERT_EQ(run_program(folder, {"convert", a, a, a, "-o", run}).exit_code, 0);
+  const std::string bytes = testing::slurp(second);
+  std::filesystem::remove(second);
+  ASSERT_EQ(mkfifo(second.c_str(), 0600), 0);
+  const pid_t child = testing::start_program(folder.path(), {"verify", "--motion", "--json", report, run});
+  std::ofstream pipe(second);
   kill(child, SIGTERM);  // The first frame has been checked, and the second is waited for.
-  again << two_faces(0);
-  again.close();
+  pipe << bytes;
+  pipe.close();
   const auto result = testing::wait_for_program(folder.path(), child);
   EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
   EXPECT_TRUE(result.out.starts_with("violated\n")) << result.out;

@@ -210,7 +210,12 @@ TEST(Driver, RefusesAnotherCampaignsFolder) {
   const TemporaryFolder folder;
   Properties properties = one_property();
   run_all(properties, options_for(folder.path(), 100));
-  EXPECT_THROW(Driver(properties, options_for(folder.path(), 100)), io::Error);
+  try {
+    const Driver again(properties, options_for(folder.path(), 100));
+    ADD_FAILURE() << "a campaign is there already";
+  } catch (const io::Error& error) {
+    EXPECT_EQ(error.kind(), io::ErrorKind::kFile);
+  }
   DriverOptions other = options_for(folder.path(), 100);
   other.resume = true;
   other.seed = 2;

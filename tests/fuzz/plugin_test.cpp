@@ -132,6 +132,7 @@ TEST(Plugin, WhatIsNoPluginIsRefused) {
   const auto run = run_program(folder, {"fuzz", "--plugin", SELVAGE_PROGRAM});
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("cannot be loaded"), std::string::npos) << run.err;
+  EXPECT_EQ(run_program(folder, {"fuzz", "--plugin", (folder.path() / "absent.so").string()}).exit_code, 4);
 }
 
 }  // namespace

@@ -243,6 +243,15 @@ TEST(SequenceFolder, FacesThatAreNoneAreNamedWithTheirFile) {
                [&] { (void)open_sequence({folder.path()}); });
 }
 
+TEST(OpenSequence, TimesAreMoreThanTheNumbersOfFrames) {
+  const TemporaryFolder folder;
+  SequenceWriter writer(folder.path(), square_header());
+  writer.append(0, square(0));
+  EXPECT_FALSE(has_times(*open_sequence({folder.path()})));
+  writer.append(0.5, square(1));
+  EXPECT_TRUE(has_times(*open_sequence({folder.path()})));
+}
+
 TEST(OpenSequence, WrongSourcesAreNamed) {
   const TemporaryFolder folder;
   expect_error(ErrorKind::kBadInput, "no file", [] { (void)open_sequence({}); });
