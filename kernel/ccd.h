@@ -18,7 +18,8 @@ struct CcdOptions {
 enum class CcdVerdict : std::uint8_t {
   kSeparated,   ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
   kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]: 2^-39 of their size, or tolerance
-  kUnresolved,  ///< the limit was reached: to be treated as a collision at toi_lower
+  kUnresolved,  ///< the limit, or that of double-double arithmetic (K8), was reached: a collision at toi_lower to
+                ///< whoever must be safe
 };
 
 /// What kept the query from `separated`.

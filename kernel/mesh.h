@@ -46,8 +46,8 @@ enum class InputError : std::uint8_t {
 /// Whether F (#F by 3) indexes vertices 0 .. vertex_count-1, no face repeats a vertex, and edge numbers fit. O(#F).
 [[nodiscard]] InputError validate_faces(std::int32_t vertex_count, const FacesRef& F);
 
-/// Builds edges and ownership; depends on indices alone. O(#F log #F). REQUIRES validate_faces() == kNone.
-/// Non-manifold edges, duplicate faces, holes and loose vertices are valid.
+/// Builds edges and ownership; depends on indices alone. O(#F log #F). REQUIRES vertex_count >= 0 and
+/// validate_faces() == kNone. Non-manifold edges, duplicate faces, holes and loose vertices are valid.
 [[nodiscard]] Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F);
 
 /// First thing wrong with the positions of a step, V_t0 before V_t1, or kNone. O(#V). Zero-area faces and coincident

@@ -66,6 +66,7 @@ std::vector<PairProximity> ask(const Mesh& mesh, const PositionsRef& V, double r
 
 Candidates find_near_candidates(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V, double reach,
                                 std::span<const std::uint8_t> active) {
+  const FpEnvGuard guard;  // the rows of the lanes are rounded to float32 here
   SELVAGE_REQUIRE(validate(mesh, V, V) == InputError::kNone);
   SELVAGE_REQUIRE(reach >= 0 && std::isfinite(reach));
   hierarchy.refit(V, V, {reach, active});

@@ -17,10 +17,11 @@ struct Proximity {
   /// vf: of p, a, b, c with weights[0] = 1 and the others >= 0, sum 1. ee: of a, b (first edge), c, d (second edge),
   /// each pair >= 0 with sum 1. Up to rounding; point_error_bound says how good they are.
   std::array<double, 4> weights = {};
-  /// Unit vector from the second feature (face; second edge) to the first, up to rounding. Zero where distance_upper is
-  /// 0.
+  /// Unit vector from the second feature (face; second edge) to the first, up to rounding. Zero only where
+  /// distance_lower is 0.
   Vec3 normal = Vec3::Zero();
-  /// PROVED: |(x - y) - (x* - y*)| <= this, with x, y the points of `weights` and x*, y* the exact closest points:
+  /// PROVED: |(x - y) - (x* - y*)| <= this, with x, y the points of `weights`, those of each feature divided by their
+  /// exact sum, and x*, y* the exact closest points. Far from the origin take differences first: sum w_j (x_j - x_0).
   /// sqrt(upper^2 - lower^2) by the projection theorem. Bounds the normal too: sin(angle) <= point_error_bound / upper.
   double point_error_bound = 0;
 };

@@ -52,7 +52,7 @@ struct CollisionBodies {
   /// #V: inverse masses in 1/kg; 0 for scripted vertices, which follow their candidate positions exactly.
   std::span<const double> inverse_mass;
   /// #V: body that a scripted vertex belongs to, -1 for cloth. A body moves, or waits, as a whole. Empty: no bodies.
-  std::span<const std::int32_t> body;
+  std::span<const std::int32_t> body = {};
   SqueezePolicy policy = SqueezePolicy::kStop;
   /// The bodies from this one on are pins: what they hold is cloth, even a part of the mesh of which they hold all.
   std::int32_t first_pin = std::numeric_limits<std::int32_t>::max();

@@ -3,6 +3,18 @@
 
 #include <selvage/kernel/kernel.h>
 
+const char* name_of(selvage::PairKind kind) {
+  switch (kind) {
+    case selvage::PairKind::kVf:
+      return "vertex, face";
+    case selvage::PairKind::kEe:
+      return "edge, edge";
+    case selvage::PairKind::kSelf:
+      return "vertex, its own face";
+  }
+  return "";
+}
+
 int main() {
   selvage::Faces F(2, 3);
   F << 0, 1, 2, 3, 4, 5;
@@ -21,8 +33,7 @@ int main() {
   selvage::BoxHierarchy hierarchy(mesh);
   const auto report = selvage::find_collisions(mesh, hierarchy, V_t0, V_t1, {.tolerance = 1e-6});
   for (const auto& hit : report.collisions) {
-    std::printf("%s %d %d collide at t >= %.17g\n", hit.kind == selvage::PairKind::kVf ? "vertex, face" : "edge, edge",
-                hit.first, hit.second, hit.ccd.toi_lower);
+    std::printf("%s %d %d collide at t >= %.17g\n", name_of(hit.kind), hit.first, hit.second, hit.ccd.toi_lower);
   }
   std::printf("no touch before t = %.17g\n", report.toi_lower);
   return report.collisions.empty() ? 1 : 0;

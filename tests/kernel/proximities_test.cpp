@@ -1,11 +1,15 @@
 #include "kernel/proximities.h"
 
 #include <algorithm>
+#include <cfenv>
+#include <random>
 #include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "kernel/collisions.h"
+#include "tests/host_environment.h"
 #include "tests/kernel/random_motion.h"
 #include "tests/kernel/with_threads.h"
 #include "tests/property.h"
@@ -63,6 +67,34 @@ TEST(FindProximities, PropFindsEveryPairNearerThanReach) {
       RC_ASSERT(is_left);
     }
   });
+}
+
+TEST(FindProximities, TheHostsFloatingPointEnvironmentChangesNothing) {
+  constexpr std::int32_t kFaceCount = 20;
+  Faces F(kFaceCount, 3);
+  for (std::int32_t f = 0; f < kFaceCount; ++f) F.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+  const Mesh mesh = make_mesh(3 * kFaceCount, F);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    Positions V(3 * kFaceCount, 3);
+    for (double& x : V.reshaped()) x = coordinate(random);
+    BoxHierarchy hierarchy(mesh);
+    const auto all = find_proximities(mesh, hierarchy, V, 1);
+    ASSERT_FALSE(all.empty());
+    // So near the distance of a pair that the last bit of a float32 decides.
+    const double reach = all[all.size() / 2].proximity.distance * (1 - 6e-7);
+    const auto found = [&](auto set_environment) {
+      std::pair<Candidates, std::size_t> result;
+      testing::in_host_environment(set_environment, [&] {
+        result = {find_near_candidates(mesh, hierarchy, V, reach), find_proximities(mesh, hierarchy, V, reach).size()};
+      });
+      return result;
+    };
+    const auto plain = found([] {});
+    EXPECT_EQ(found([] { std::fesetround(FE_DOWNWARD); }), plain);
+    EXPECT_EQ(found([] { std::fesetround(FE_UPWARD); }), plain);
+  }
 }
 
 /// More candidates than one task takes: nothing is lost or doubled where one ends and the next begins.
