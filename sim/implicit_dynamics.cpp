@@ -67,7 +67,11 @@ void ImplicitDynamics::step(Motion& motion, std::span<const double> inverse_mass
     for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
       if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) = origin.row(i) + stage_s * v.row(i);
     }
-    add_stage(stage_.solve({origin, v, inverse_mass, stage_s}, motion.x, acceleration_), report);
+    const StageReport stage = stage_.solve({origin, v, inverse_mass, stage_s}, motion.x, acceleration_);
+    add_stage(stage, report);
+    // Where the forces put them, which are opposite in pairs: the residual has a momentum of its own, and contact and
+    // strain limits take velocities from positions.
+    if (stage.residual_m <= ImplicitStage::kResidual_m) motion.x = origin + stage_s * (v + stage_s * acceleration_);
   };
   solve_stage();
   origin += rest_s * (v + stage_s * acceleration_);

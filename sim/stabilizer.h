@@ -24,8 +24,9 @@ struct Stabilizer {
 };
 
 /// The sum of all stabilisers, as constant coefficients c_ij of pairs: the force on i is sum_j c_ij (x_i - x_j) with
-/// c_ij = c_ji to the bit. Each pair's forces are opposite and along the line between its vertices, so linear and
-/// angular momentum are kept to rounding. Deterministic for any thread count.
+/// c_ij = c_ji to the bit. Each pair's forces are opposite, so linear momentum is kept to rounding, and angular
+/// momentum by the elastic part, which acts along the line between the vertices. Damping does not: where its vector is
+/// not 0 a stabiliser is damped in a rigid rotation as well (docs/numerics.md). Deterministic for any thread count.
 class StabilizerSystem {
  public:
   StabilizerSystem() = default;
