@@ -1,5 +1,6 @@
 #include "cli/frame_numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 
@@ -8,22 +9,43 @@
 namespace selvage::cli {
 namespace {
 
+bool is_digit(char c) { return '0' <= c && c <= '9'; }
+
+/// A name whose numbers are taken out of the part before the extension.
 struct NumberedName {
-  std::string before, after;  ///< with the folder and the extension
-  std::int64_t number = 0;
+  std::string text;  ///< with the folder, and a digit in place of each number
+  std::vector<std::int64_t> numbers;
 };
 
 std::optional<NumberedName> numbered(const std::filesystem::path& file) {
-  constexpr const char* kDigits = "0123456789";
-  const std::string name = file.string(), stem = file.stem().string();
-  const std::size_t last = stem.find_last_of(kDigits);
-  if (last == stem.npos) return std::nullopt;
-  const std::size_t before = stem.find_last_not_of(kDigits, last), first = before == stem.npos ? 0 : before + 1;
-  const std::size_t folder = name.size() - file.filename().string().size();
-  NumberedName result{name.substr(0, folder + first), name.substr(folder + last + 1)};
-  const auto [end, error] = std::from_chars(stem.data() + first, stem.data() + last + 1, result.number);
-  if (error != std::errc() || end != stem.data() + last + 1) return std::nullopt;
+  const std::string stem = file.stem().string();
+  NumberedName result{(file.parent_path() / "").string(), {}};
+  for (const char *at = stem.data(), *const end = at + stem.size(); at != end;) {
+    if (!is_digit(*at)) {
+      result.text += *at++;
+      continue;
+    }
+    const auto [behind, error] = std::from_chars(at, end, result.numbers.emplace_back());
+    if (error != std::errc()) return std::nullopt;
+    result.text += '0';
+    at = behind;
+  }
+  result.text += file.extension().string();
   return result;
+}
+
+/// Which of the numbers is the frame's: the only one that changes, or the last.
+std::optional<std::size_t> frame_number(const std::vector<NumberedName>& names) {
+  const std::vector<std::int64_t>& first = names.front().numbers;
+  std::optional<std::size_t> found;
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    const auto is_first = [&](const NumberedName& name) { return name.numbers[n] == first[n]; };
+    if (std::ranges::all_of(names, is_first)) continue;
+    if (found) return std::nullopt;
+    found = n;
+  }
+  if (!found && !first.empty()) found = first.size() - 1;
+  return found;
 }
 
 }  // namespace
@@ -34,13 +56,17 @@ std::optional<std::string> jump_in_numbers(const std::vector<std::filesystem::pa
     const auto name = numbered(file);
     if (!name) return std::nullopt;
     names.push_back(*name);
-    if (names.front().before != name->before || names.front().after != name->after) return std::nullopt;
+    if (name->text != names.front().text) return std::nullopt;
   }
-  std::int64_t step = 1;
+  const std::optional<std::size_t> number = names.empty() ? std::nullopt : frame_number(names);
+  if (!number) return std::nullopt;
+  const auto difference = [&](std::size_t i) { return names[i].numbers[*number] - names[i - 1].numbers[*number]; };
+  std::int64_t step = 0;
   for (std::size_t i = 1; i < names.size(); ++i) {
-    const std::int64_t difference = names[i].number - names[i - 1].number;
-    if (i == 1 && difference > 0) step = difference;
-    if (difference == step) continue;
+    if (difference(i) > 0 && (step == 0 || difference(i) < step)) step = difference(i);
+  }
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    if (difference(i) == step && step > 0) continue;
     return fmt::format("{} comes right after {}; what is missing between is not checked", files[i].string(),
                        files[i - 1].string());
   }

@@ -9,8 +9,8 @@
 
 namespace selvage::cli {
 
-/// Where the numbers in the names do not go up in equal steps: one line that names the first place. Nothing where they
-/// do, or where the names are not one pattern with one number (the last digits before the extension).
+/// Where the numbers in the names do not go up by the smallest of their steps: one line that names the first place.
+/// Nothing where they do, or where the names are not one pattern in which one number changes.
 [[nodiscard]] std::optional<std::string> jump_in_numbers(const std::vector<std::filesystem::path>& files);
 
 }  // namespace selvage::cli

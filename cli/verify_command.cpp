@@ -42,13 +42,18 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
     bar.update(done, total);
     return !interrupted();
   };
+  options.check.stop = interrupted;
   if (!arguments.json.empty()) options.checkpoint = [&](const auto& report) { progress.note(report); };
   try {
     verify::SequenceReport report = verify::check_sequence(sequence, options);
-    if (interrupted()) progress.flush();
+    if (interrupted()) (void)progress.flush();
     return report;
   } catch (const verify::GroupRuleError& error) {
     throw UsageError(error.what());
+  } catch (const io::Error& error) {
+    if (!progress.flush()) throw;
+    throw io::Error(error.kind(), std::string(error.what()) + " (what was checked before it is kept in " +
+                                      progress.file().string() + "; --resume goes on from there)");
   }
 }
 

@@ -30,14 +30,16 @@ std::optional<verify::SequenceReport> VerifyProgress::load() const {
 void VerifyProgress::note(const verify::SequenceReport& report) {
   constexpr std::chrono::seconds kInterval{1};
   unwritten_ = report;
-  if (std::chrono::steady_clock::now() - written_ >= kInterval) flush();
+  has_noted_ = true;
+  if (std::chrono::steady_clock::now() - written_ >= kInterval) (void)flush();
 }
 
-void VerifyProgress::flush() {
-  if (!unwritten_) return;
+bool VerifyProgress::flush() {
+  if (!unwritten_) return has_noted_;
   io::write_atomically(file_, verify::json_report(*unwritten_, context_));
   unwritten_.reset();
   written_ = std::chrono::steady_clock::now();
+  return true;
 }
 
 void VerifyProgress::remove() const {

@@ -19,8 +19,9 @@ class VerifyProgress {
   [[nodiscard]] std::optional<verify::SequenceReport> load() const;
   /// Keeps the report; writes it at most once a second.
   void note(const verify::SequenceReport& report);
-  /// Writes what was noted last.
-  void flush();
+  /// Writes what was noted last. Whether anything was noted in this run.
+  [[nodiscard]] bool flush();
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   /// The run is complete: there is nothing to continue.
   void remove() const;
 
@@ -28,6 +29,7 @@ class VerifyProgress {
   std::filesystem::path report_file_, file_;
   const verify::ReportContext& context_;
   std::optional<verify::SequenceReport> unwritten_;
+  bool has_noted_ = false;
   std::chrono::steady_clock::time_point written_;
 };
 

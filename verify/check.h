@@ -66,6 +66,11 @@ struct CheckResult {
       {};  ///< pairs left out, by exemption of the surface; trailing zeros may be missing
 };
 
+/// Asked between blocks of pairs, from several threads: whether to give the check up.
+using Stop = std::function<bool()>;
+/// What a check throws that was given up.
+struct Stopped {};
+
 struct CheckOptions {
   std::size_t max_violations = 100;
   /// Frames: every vertex at least this far from every face that does not hold it, every edge from every edge with no
@@ -74,10 +79,11 @@ struct CheckOptions {
   SecondOpinionScope second_opinion = SecondOpinionScope::kNone;
   SecondDeciders second_deciders = {};
   bool check_bodies = false;  ///< also what concerns bodies alone: pairs of body features, zero-area body faces
+  Stop stop = {};             ///< a frame that collapsed to a point has as many pairs as there are
 };
 
 /// One instant: all triangle pairs, shared vertices and edges included, and zero-area faces. In parallel,
-/// deterministic. Throws std::invalid_argument where V does not fit the surface or is not finite.
+/// deterministic. Throws std::invalid_argument where V does not fit the surface or is not finite, and Stopped.
 [[nodiscard]] CheckResult check_frame(const Topology& topology, std::span<const Point> V, const CheckOptions& options);
 [[nodiscard]] CheckResult check_frame(const Surface& surface, std::span<const Point> V, const CheckOptions& options);
 /// The straight motion over closed [0,1]: vertex-face, edge-edge, and each vertex against its own opposite edge. From a
@@ -106,7 +112,8 @@ struct SequenceReport;
 struct SequenceOptions {
   CheckOptions check;
   bool frames = true, motions = true;
-  /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown.
+  /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown. So
+  /// does check.stop, within a unit, which then counts as not checked.
   std::function<bool(std::size_t, std::size_t)> progress;
   GroupRules rules = {};
   bool gap = false;   ///< find the smallest gap of all frames that are checked

@@ -35,7 +35,7 @@ std::vector<Violation> near_pairs(const Topology& topology, std::span<const Poin
   require_positions(topology, V);
   CheckOptions options;
   options.max_violations = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  Tally tally(options.max_violations);
+  Tally tally(options.max_violations, options.stop);
   check_distances(topology, V, distance, options, tally);
   std::vector<Violation> near;
   for (const Hit& hit : tally.first_hits()) {

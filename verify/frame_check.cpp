@@ -16,7 +16,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 class FrameCheck {
  public:
   FrameCheck(const Topology& topology, std::span<const Point> V, const CheckOptions& options)
-      : topology_(topology), V_(V), options_(options), tally_(options.max_violations) {}
+      : topology_(topology), V_(V), options_(options), tally_(options.max_violations, options.stop) {}
 
   CheckResult run() {
     if (!V_.empty()) {

@@ -15,7 +15,11 @@ class MotionCheck {
  public:
   MotionCheck(const Topology& topology, std::span<const Point> V_t0, std::span<const Point> V_t1,
               const CheckOptions& options)
-      : topology_(topology), V_t0_(V_t0), V_t1_(V_t1), options_(options), tally_(options.max_violations) {}
+      : topology_(topology),
+        V_t0_(V_t0),
+        V_t1_(V_t1),
+        options_(options),
+        tally_(options.max_violations, options.stop) {}
 
   CheckResult run() {
     if (!V_t0_.empty()) check_pairs();

@@ -31,7 +31,11 @@ class SequenceCheck {
     if (first > 0) read_before(first);
     if (options_.resume_from == nullptr || resume(*options_.resume_from, first)) {
       std::size_t next = first + report_.frame_crc32.size();
-      while (next < end && step(next)) ++next;
+      try {
+        while (next < end && step(next)) ++next;
+      } catch (const Stopped&) {
+        note_stop();
+      }
     }
     report_.verdict = verdict_of(report_);
     report_.seconds = seconds();
@@ -63,6 +67,12 @@ class SequenceCheck {
     if (earlier.sequence != report_.sequence || earlier.first_frame != report_.first_frame ||
         earlier.end_frame != report_.end_frame) {
       throw io::Error(io::ErrorKind::kBadInput, "the run to be resumed was on another sequence; start anew");
+    }
+    if (earlier.max_violations != report_.max_violations) {
+      throw io::Error(io::ErrorKind::kBadInput,
+                      "the run to be resumed lists " + std::to_string(earlier.max_violations) +
+                          " violations at most (--max-violations), not " + std::to_string(report_.max_violations) +
+                          "; resume it with that, or start anew");
     }
     const std::size_t done = earlier.frame_crc32.size();
     if (done > 0 && first > 0) require_same(previous_, earlier.crc32_before, earlier.surface_crc32_before);
@@ -167,7 +177,7 @@ class SequenceCheck {
     if (options_.check.check_bodies) add_collapsed(source_->collapsed_bodies(), frame, result);
     count(std::move(result), i, false);
     if (!options_.gap) return;
-    std::optional<Gap> gap = smallest_gap(source_->topology(), frame.points, options_.check.check_bodies);
+    std::optional<Gap> gap = smallest_gap(source_->topology(), frame.points, options_.check);
     if (gap) gap->frame = static_cast<std::int64_t>(i);
     if (gap && (!report_.gap || is_smaller(*gap, *report_.gap))) report_.gap = gap;
   }
@@ -231,11 +241,18 @@ class SequenceCheck {
   }
 
   bool report_progress() {
-    const auto total = static_cast<std::size_t>(report_.frames_expected + report_.motions_expected);
-    if (!options_.progress || options_.progress(units_done_, total)) return true;
-    report_.unchecked.push_back("stopped on request after " + std::to_string(units_done_) + " of " +
-                                std::to_string(total) + " frames and motions");
+    if (!options_.progress || options_.progress(units_done_, unit_count())) return true;
+    note_stop();
     return false;
+  }
+
+  void note_stop() {
+    report_.unchecked.push_back("stopped on request after " + std::to_string(units_done_) + " of " +
+                                std::to_string(unit_count()) + " frames and motions");
+  }
+
+  std::size_t unit_count() const {
+    return static_cast<std::size_t>(report_.frames_expected + report_.motions_expected);
   }
 
   double seconds() const {

@@ -75,11 +75,11 @@ double distance_upper(const Candidate& pair) {
 /// The least of `start` and the pairs within `reach`, with the distance that rate(pair, least so far) gives: nothing
 /// where it need not be looked at.
 template <class Rate, class Less>
-Candidate least(const Topology& topology, std::span<const Point> V, double reach, bool check_bodies, Candidate start,
-                const Rate& rate, const Less& less) {
+Candidate least(const Topology& topology, std::span<const Point> V, double reach, const CheckOptions& options,
+                Candidate start, const Rate& rate, const Less& less) {
   tbb::enumerable_thread_specific<Candidate> bests(start);
-  Tally no_tally(0);
-  visit_near_pairs(topology, V, reach, check_bodies, 0, no_tally,
+  Tally no_tally(0, options.stop);
+  visit_near_pairs(topology, V, reach, options.check_bodies, 0, no_tally,
                    [&](EventKind event, std::int32_t i, std::int32_t j, const std::array<Point, 4>& x, Tally&) {
                      Candidate& best = bests.local();
                      Candidate pair{kInfinity, event, {i, j}, x};
@@ -96,7 +96,7 @@ Candidate least(const Topology& topology, std::span<const Point> V, double reach
 
 /// Some pair that is near, by estimates: among those whose boxes overlap, and where there are none, at growing
 /// distance.
-std::optional<Candidate> near_pair(const Topology& topology, std::span<const Point> V, bool check_bodies) {
+std::optional<Candidate> near_pair(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
   const Box bounds = bounding_box(V);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, 0.5 * bounds.max[k] - 0.5 * bounds.min[k]);
@@ -106,7 +106,7 @@ std::optional<Candidate> near_pair(const Topology& topology, std::span<const Poi
   // From boxes that overlap to the whole bounding box: it is twice `extent` wide.
   for (const double share : {0.0, 0x1p-20, 0x1p-15, 0x1p-10, 0x1p-5, 0x1p+2}) {
     const double reach = std::min(extent * share, std::numeric_limits<double>::max());
-    const Candidate nearest = least(topology, V, reach, check_bodies, {}, estimate, is_less_by_estimate);
+    const Candidate nearest = least(topology, V, reach, options, {}, estimate, is_less_by_estimate);
     if (nearest.distance < kInfinity) return nearest;
   }
   return std::nullopt;
@@ -114,11 +114,11 @@ std::optional<Candidate> near_pair(const Topology& topology, std::span<const Poi
 
 }  // namespace
 
-std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V, bool check_bodies) {
+std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
   const FpGuard guard;
   require_positions(topology, V);
   if (V.empty()) return std::nullopt;
-  std::optional<Candidate> best = near_pair(topology, V, check_bodies);
+  std::optional<Candidate> best = near_pair(topology, V, options);
   if (!best) return std::nullopt;
   best->distance = distance_upper(*best);
   const double reach = std::min(best->distance, std::numeric_limits<double>::max());
@@ -127,7 +127,7 @@ std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point>
     if (is_vf ? triage_vf_farther(pair.x, least_so_far) : triage_ee_farther(pair.x, least_so_far)) return std::nullopt;
     return distance_upper(pair);
   };
-  best = least(topology, V, reach, check_bodies, *best, exact_upper, is_less);
+  best = least(topology, V, reach, options, *best, exact_upper, is_less);
   Gap gap{best->distance, best->distance, 0, best->event, best->features, {best->x.begin(), best->x.end()}};
   const bool is_rounded = gap.upper == kInfinity || compare_distance(*best, gap.upper) != 0;
   if (is_rounded) gap.lower = std::bit_cast<double>(std::bit_cast<std::uint64_t>(gap.upper) - 1);

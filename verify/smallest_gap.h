@@ -15,7 +15,8 @@ namespace selvage::verify {
 /// pair. `upper` is the smallest double that is not below the exact distance, `lower` the largest that is not above;
 /// the pair is a nearest one, exactly, and the first such in (event, features) order. Costs about as much as
 /// check_frame.
-[[nodiscard]] std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V, bool check_bodies);
+[[nodiscard]] std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V,
+                                              const CheckOptions& options);
 
 /// Of the exact distances, also where both lie between the same doubles.
 [[nodiscard]] bool is_smaller(const Gap& a, const Gap& b);

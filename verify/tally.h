@@ -35,9 +35,16 @@ inline bool asks_again(SecondOpinionScope scope, bool filtered, bool touches) {
 /// Counts, and the `limit` first hits in (event, features) order. Memory does not grow with the number of hits.
 class Tally {
  public:
-  explicit Tally(std::size_t limit) : limit_(limit) {}
+  /// `stop` outlives it.
+  explicit Tally(std::size_t limit, const Stop& stop) : limit_(limit), stop_(&stop) {}
+  /// For a part of the work of `whole`.
+  [[nodiscard]] static Tally part_of(const Tally& whole, std::size_t limit) { return Tally(limit, *whole.stop_); }
 
   PairCounts pairs;
+
+  void throw_if_stopped() const {
+    if (*stop_ && (*stop_)()) throw Stopped();
+  }
 
   void add(const Hit& hit);
   void add(const Tally& other);
@@ -70,6 +77,7 @@ class Tally {
   void count_exempted(std::size_t rule, std::int64_t count = 1);
 
   std::size_t limit_;
+  const Stop* stop_;
   ViolationCounts violations_;
   std::vector<Hit> hits_;
   std::vector<Hit> disagreements_;
@@ -83,10 +91,13 @@ void tally_in_parallel(std::size_t count, std::size_t limit, Tally& tally, const
   // that their memory is no matter.
   constexpr std::size_t kLeast = 16, kMostChunks = 1024;
   const std::size_t size = std::max(kLeast, (count + kMostChunks - 1) / kMostChunks);
-  std::vector<Tally> chunks((count + size - 1) / size, Tally(limit));
+  std::vector<Tally> chunks((count + size - 1) / size, Tally::part_of(tally, limit));
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     const FpGuard guard;
-    for (std::size_t i = c * size; i < std::min((c + 1) * size, count); ++i) work(i, chunks[c]);
+    for (std::size_t i = c * size; i < std::min((c + 1) * size, count); ++i) {
+      chunks[c].throw_if_stopped();
+      work(i, chunks[c]);
+    }
   });
   for (const Tally& chunk : chunks) tally.add(chunk);
 }

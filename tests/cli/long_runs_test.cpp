@@ -155,6 +155,30 @@ TEST(LongRuns, AKilledRunIsResumed) {
   EXPECT_NE(changed.err.find("start anew"), std::string::npos) << changed.err;
 }
 
+TEST(LongRuns, AFrameThatCannotBeReadDoesNotCostThoseBefore) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = sequence(folder.path(), 4, 5);
+  const auto run = folder.path() / "run", third = run / "frame_000002.npy", json = folder.path() / "r.json";
+  arguments.insert(arguments.begin(), "convert");
+  arguments.insert(arguments.end(), {"-o", run});
+  ASSERT_EQ(run_program(folder, arguments).exit_code, 0);
+  const std::string bytes = slurp(third);
+  spit(third, bytes.substr(0, bytes.size() - 1));
+  const auto refused = run_program(folder, {"verify", run, "--json", json});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("r.json.progress; --resume goes on from there"), std::string::npos) << refused.err;
+  spit(third, bytes);
+  const auto other = run_program(folder, {"verify", run, "--json", json, "--resume", "--max-violations", "7"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("lists 100 violations at most"), std::string::npos) << other.err;
+  EXPECT_EQ(run_program(folder, {"verify", run, "--json", json, "--resume"}).exit_code, 0);
+  EXPECT_EQ(report(json)["frames"]["checked"], 4);
+  spit(run / "frame_000000.npy", "");
+  const auto first = run_program(folder, {"verify", run, "--json", folder.path() / "other.json"});
+  EXPECT_EQ(first.exit_code, 3);
+  EXPECT_EQ(first.err.find("--resume"), std::string::npos) << "nothing was checked: " << first.err;
+}
+
 TEST(LongRuns, AnInterruptedRunIsResumed) {
   const TemporaryFolder folder;
   const auto files = sequence(folder.path(), 60, 40);

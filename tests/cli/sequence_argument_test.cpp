@@ -190,10 +190,13 @@ TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {
   EXPECT_NE(verify({"f_1.obj", "f_2.obj", "f_4.obj"}).find("f_4.obj comes right after "), std::string::npos);
   EXPECT_NE(verify({"f_010.obj", "f_002.obj"}).find("f_002.obj comes right after "), std::string::npos);
   EXPECT_NE(verify({"f_1.obj", "f_1.obj"}).find("f_1.obj comes right after "), std::string::npos);
+  EXPECT_NE(verify({"f_0.obj", "f_2.obj", "f_3.obj"}).find("f_2.obj comes right after "), std::string::npos);
+  EXPECT_NE(verify({"s1_v2.obj", "s2_v2.obj", "s9_v2.obj"}).find("s9_v2.obj comes right after "), std::string::npos);
   for (const std::vector<std::string>& even : {std::vector<std::string>{"f_08.obj", "f_09.obj", "f_10.obj"},
                                                {"f_9.obj", "f_10.obj", "f_11.obj"},
                                                {"f_10.obj", "f_20.obj", "f_30.obj"},
                                                {"1a.obj", "2a.obj"},
+                                               {"a1_b1.obj", "a2_b3.obj"},
                                                {"before.obj", "after.obj"},
                                                {"take1_end.obj", "take3.obj", "take4.obj"}}) {
     EXPECT_EQ(verify(even), "") << even[0];

@@ -178,11 +178,20 @@ TEST(SequenceOutput, OfWhatFailsNothingIsLeft) {
       EXPECT_TRUE(fs::is_empty(folder.path())) << name;
     }
   }
-  for (const char* name : {"a.npz", "a.pc2", "a", "a.obj", "a.pvd"}) {
+  for (const char* name : {"a.npz", "a.pc2", "a", "a/", "a/b/c", "a.obj", "a.pvd"}) {
     const TemporaryFolder folder;
     create(folder / name, kTwoFrames)->append(0, mesh_of(kTwoFrames[0]));  // never finished
     EXPECT_TRUE(fs::is_empty(folder.path())) << name;
   }
+}
+
+TEST(SequenceOutput, AFolderThatWasThereStaysThere) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "empty");
+  fs::create_directory_symlink("empty", folder / "link");
+  create(folder / "link", kTwoFrames)->append(0, mesh_of(kTwoFrames[0]));  // never finished
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_TRUE(fs::is_empty(folder / "empty"));
 }
 
 /// Without the directory at the end, as one reads from a pipe.

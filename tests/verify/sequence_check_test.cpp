@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -130,6 +132,31 @@ TEST(SequenceCheck, StoppedIsUnknown) {
     EXPECT_EQ(report.frames.checked + report.motions.checked, static_cast<std::int64_t>(last_done));
     EXPECT_EQ(last_done, stop);
     ASSERT_EQ(report.unchecked.size(), 1U);
+  }
+}
+
+TEST(SequenceCheck, IsStoppedWithinAFrameThatCollapsed) {
+  constexpr std::int64_t kFew = 50;  // of some 1000 blocks of pairs
+  io::MeshData collapsed = sheet(40);
+  std::ranges::fill(collapsed.points, Point{1, 1, 1});
+  for (const bool motions : {false, true}) {
+    std::atomic<std::int64_t> asked = 0, asked_in_first = 0;
+    SequenceOptions options;
+    options.motions = motions;
+    options.gap = !motions;
+    options.progress = [&](std::size_t done, std::size_t) {
+      if (done == 1) asked_in_first = asked.load();
+      return true;
+    };
+    options.check.stop = [&] { return ++asked > asked_in_first + kFew && asked_in_first > 0; };
+    const SequenceReport report = check({sheet(40), collapsed}, options);
+    EXPECT_EQ(report.verdict, Verdict::kUnknown);
+    EXPECT_EQ(report.frames.checked, 1);
+    EXPECT_EQ(report.motions.checked, 0);
+    EXPECT_EQ(report.violations_total.total(), 0);
+    ASSERT_EQ(report.unchecked.size(), 1U);
+    EXPECT_NE(report.unchecked.front().find("stopped on request after 1 of "), std::string::npos);
+    EXPECT_LT(asked, asked_in_first + 2 * kFew);
   }
 }
 

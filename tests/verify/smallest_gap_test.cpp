@@ -41,7 +41,7 @@ Nearest nearest(const Topology& topology, const std::vector<Point>& V, double d)
 
 void expect_smallest(const io::MeshData& mesh, const char* why) {
   const Topology topology = make_topology({mesh.triangles}, mesh.points.size());
-  const std::optional<Gap> gap = smallest_gap(topology, mesh.points, false);
+  const std::optional<Gap> gap = smallest_gap(topology, mesh.points, {});
   ASSERT_TRUE(gap) << why;
   const Nearest upper = nearest(topology, mesh.points, gap->upper), lower = nearest(topology, mesh.points, gap->lower);
   EXPECT_TRUE(upper.within) << why << " " << gap->upper;
@@ -83,9 +83,9 @@ TEST(SmallestGap, OfWhatIsFarApartOrTouches) {
   expect_smallest(mesh, "no boxes overlap");
   for (std::size_t i = 3; i < 6; ++i) mesh.points[i][2] = 0x1p-1074;
   expect_smallest(mesh, "the smallest double");
-  EXPECT_EQ(smallest_gap(make_topology({mesh.triangles}, 6), mesh.points, false)->upper, 0x1p-1074);
+  EXPECT_EQ(smallest_gap(make_topology({mesh.triangles}, 6), mesh.points, {})->upper, 0x1p-1074);
   mesh.points[3][2] = 0;
-  EXPECT_EQ(smallest_gap(make_topology({mesh.triangles}, 6), mesh.points, false)->upper, 0);
+  EXPECT_EQ(smallest_gap(make_topology({mesh.triangles}, 6), mesh.points, {})->upper, 0);
   for (std::size_t i = 3; i < 6; ++i) mesh.points[i][2] = 0x1p+1000;
   expect_smallest(mesh, "huge");
 }
@@ -105,7 +105,7 @@ TEST(SmallestGap, IsOfANearestPairWhateverTheOrder) {
     mesh.points.insert(mesh.points.end(), second.begin(), second.end());
     for (std::int32_t v = 0; v < 12; v += 3) mesh.triangles.push_back({v, v + 1, v + 2});
     expect_smallest(mesh, less_first ? "the nearest pair first" : "the nearest pair last");
-    const std::optional<Gap> gap = smallest_gap(make_topology({mesh.triangles}, 12), mesh.points, false);
+    const std::optional<Gap> gap = smallest_gap(make_topology({mesh.triangles}, 12), mesh.points, {});
     ASSERT_EQ(gap->x.size(), 4U);
     EXPECT_EQ(gap->x[0][1], 100);
   }
@@ -129,14 +129,14 @@ TEST(SmallestGap, OfSubnormalMeshes) {
 TEST(SmallestGap, IsOfPairsThatAreChecked) {
   io::MeshData mesh = sheet(3);
   const Topology single = make_topology({std::span(mesh.triangles).first(1)}, mesh.points.size());
-  EXPECT_FALSE(smallest_gap(single, mesh.points, false)) << "one face has no pair";
-  const double alone = smallest_gap(make_topology({mesh.triangles}, 16), mesh.points, false)->upper;
+  EXPECT_FALSE(smallest_gap(single, mesh.points, {})) << "one face has no pair";
+  const double alone = smallest_gap(make_topology({mesh.triangles}, 16), mesh.points, {})->upper;
   const auto p = testing::add_vertex(mesh, testing::point_on(mesh, 4, {1, 1, 2}, 0x1p-10)),
              q = testing::add_vertex(mesh, {1, 1, 9}), r = testing::add_vertex(mesh, {2, 1, 9});
   mesh.triangles.push_back({p, q, r});
-  EXPECT_LE(smallest_gap(make_topology({mesh.triangles}, 19), mesh.points, false)->upper, 0x1p-10);
+  EXPECT_LE(smallest_gap(make_topology({mesh.triangles}, 19), mesh.points, {})->upper, 0x1p-10);
   const std::vector<Exemption> exempt = {{{{0, 18}}, {{18, 19}}}};
-  EXPECT_EQ(smallest_gap(make_topology({mesh.triangles, {}, {}, exempt}, 19), mesh.points, false)->upper, alone);
+  EXPECT_EQ(smallest_gap(make_topology({mesh.triangles, {}, {}, exempt}, 19), mesh.points, {})->upper, alone);
 }
 
 }  // namespace selvage::verify
