@@ -1,4 +1,5 @@
 // The program: one line per subcommand. What each does is in NAME_command.cpp.
+#include <string>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -56,6 +57,12 @@ int main(int argc, char** argv) {
     }
     job = [name = std::string(argv[1])]() -> ExitCode {
       throw UsageError("no subcommand '" + name + "'; run with --help for the list");
+    };
+  }
+  for (int i = 1; i < argc; ++i) {
+    if (*argv[i] != '\0') continue;
+    job = [i]() -> ExitCode {  // --json "$UNSET" would not be asked for
+      throw UsageError("argument " + std::to_string(i) + " is empty, as a variable without a value is; write it out");
     };
   }
   if (!job) {

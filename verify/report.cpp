@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
+
+#include "io/text.h"
 
 namespace selvage::verify {
 namespace {
@@ -47,7 +50,7 @@ std::string place(const Violation& violation) {
 std::string line(const Violation& violation, const ReportContext& context) {
   const auto frame_name = [&](std::int64_t frame) {
     const auto name = context.frame_names.find(frame);
-    return name != context.frame_names.end() ? name->second : std::to_string(frame);
+    return name != context.frame_names.end() ? io::printable(name->second) : std::to_string(frame);
   };
   std::string text = "  frame " + std::to_string(violation.frame);
   if (violation.motion) {
@@ -57,7 +60,7 @@ std::string line(const Violation& violation, const ReportContext& context) {
   text += std::string(": ") + name_of(violation.event) + " " + violation.kind + ", " + feature_names(violation) +
           place(violation);
   text += " [" + frame_name(violation.frame) + "]\n";
-  if (!violation.case_file.empty()) text += "    selvage replay " + violation.case_file + "\n";
+  if (!violation.case_file.empty()) text += "    " + replay_command(violation.case_file) + "\n";
   return text;
 }
 
@@ -89,6 +92,27 @@ const char* name_of(EventKind event) {
   return "unknown";
 }
 
+std::string replay_command(const std::string& case_file) {
+  const auto is_plain = [](char c) {
+    return ('0' <= c && c <= '9') || ('a' <= (c | ' ') && (c | ' ') <= 'z') ||
+           std::string_view("/._-+,:@%").find(c) != std::string_view::npos;
+  };
+  std::string text = "selvage replay ";
+  if (std::ranges::all_of(case_file, is_plain)) return text + case_file;
+  text += '\'';
+  for (const char c : case_file) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + '\'';
+}
+
+std::optional<std::int64_t> first_surface_change(const SequenceReport& report) {
+  std::optional<std::uint32_t> before = report.surface_crc32_before;
+  for (std::size_t k = 0; k < report.surface_crc32.size(); ++k) {
+    if (before && *before != report.surface_crc32[k]) return report.first_frame + static_cast<std::int64_t>(k);
+    before = report.surface_crc32[k];
+  }
+  return std::nullopt;
+}
+
 std::string text_report(const SequenceReport& report, const ReportContext& context, std::size_t max_listed) {
   const auto count = [](std::int64_t n) { return std::to_string(n); };
   std::string text = name_of(report.verdict);
@@ -109,6 +133,10 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   text += "surface:    " + count(report.faces) + " faces, " + count(report.vertices) + " vertices, " +
           (report.precision == io::Precision::kFloat32 ? "float32" : "float64") +
           " coordinates checked as stored, the largest " + number(report.largest_coordinate) + "\n";
+  if (const auto change = first_surface_change(report)) {
+    text += "note:       the number of vertices, the faces or their groups change, first at frame " + count(*change) +
+            "; the surface above is the last frame's\n";
+  }
   if (report.unreferenced_vertices > 0) {
     text += "note:       " + count(report.unreferenced_vertices) + " vertices belong to no face and are not checked\n";
   }
@@ -138,7 +166,7 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
             " vertices joined to another at the same place in every " + "frame; " +
             count(report.welded->collapsed_faces) + " faces lost a corner and are degenerate\n";
   }
-  for (const std::string& what : report.unchecked) text += "unchecked:  " + what + "\n";
+  for (const std::string& what : report.unchecked) text += "unchecked:  " + io::printable(what) + "\n";
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
   if (listed > 0 && report.violations.front().case_file.empty()) {

@@ -1,7 +1,9 @@
 // A sequence report for people (text) and for programs (JSON, schema "selvage.verify/1").
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,11 @@ struct ReportContext {
                                       std::size_t max_listed);
 /// One JSON object; docs/formats.md describes its keys.
 [[nodiscard]] std::string json_report(const SequenceReport& report, const ReportContext& context);
+
+/// What explains the case, as one types it into a shell.
+[[nodiscard]] std::string replay_command(const std::string& case_file);
+/// The first frame whose surface is not that of the frame before.
+[[nodiscard]] std::optional<std::int64_t> first_surface_change(const SequenceReport& report);
 
 struct ParsedReport {
   SequenceReport report;

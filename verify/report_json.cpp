@@ -52,7 +52,7 @@ Json to_json(const Violation& violation) {
   }
   if (!violation.case_file.empty()) {
     json["case"] = violation.case_file;
-    json["replay"] = "selvage replay " + violation.case_file;
+    json["replay"] = replay_command(violation.case_file);
   }
   return json;
 }
@@ -159,11 +159,13 @@ std::string json_report(const SequenceReport& report, const ReportContext& conte
   json["surface"] = {{"faces", report.faces},
                      {"vertices", report.vertices},
                      {"unreferenced_vertices", report.unreferenced_vertices},
+                     {"first_change", nullptr},
                      {"body_faces", report.body_faces},
                      {"body_pairs", report.bodies_checked ? "checked" : "skipped"},
                      {"precision", report.precision == io::Precision::kFloat32 ? "float32" : "float64"},
                      {"largest_coordinate", report.largest_coordinate},
                      {"largest_coordinate_hex", hex_float(report.largest_coordinate)}};
+  if (const auto change = first_surface_change(report)) json["surface"]["first_change"] = *change;
   json["sequence"] = sequence(report);
   json["seconds"] = report.seconds;
   // A file name may hold bytes that are no UTF-8: they are replaced, the report is valid all the same.

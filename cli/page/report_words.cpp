@@ -119,6 +119,10 @@ Html left_out(const verify::SequenceReport& report) {
     list += paragraph(counted(report.body_faces, "face") +
                       " of bodies are checked against the cloth, not against bodies (--bodies does that too).");
   }
+  if (const auto change = verify::first_surface_change(report)) {
+    list +=
+        paragraph(fmt::format("The number of vertices, the faces or their groups change, first at frame {}.", *change));
+  }
   if (report.unreferenced_vertices > 0) {
     list += paragraph(counted(report.unreferenced_vertices, "point") + " of no face are not checked.");
   }

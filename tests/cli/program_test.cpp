@@ -39,6 +39,15 @@ TEST(Program, VersionNamesTheExactLibraries) {
   EXPECT_NE(result.out.find("GMP"), std::string::npos) << result.out;
 }
 
+TEST(Program, AnEmptyArgumentIsUsage) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  const auto result = run_program(folder, {"verify", mesh, "--json", ""});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("argument 4 is empty"), std::string::npos) << result.err;
+}
+
 TEST(Program, NoSubcommandIsUsage) {
   const auto result = run_program({});
   EXPECT_EQ(result.exit_code, 2);

@@ -107,6 +107,15 @@ TEST(SequenceCheck, ChangingFacesAreUnknownAndNamed) {
   ASSERT_EQ(report.unchecked.size(), 1U);
   EXPECT_NE(report.unchecked[0].find("memory[0] to memory[1]"), std::string::npos) << report.unchecked[0];
 
+  SequenceOptions frames_only;
+  frames_only.motions = false;
+  const SequenceReport frames = check({sheet(4), sheet(4), other, other}, frames_only);
+  EXPECT_EQ(frames.verdict, Verdict::kClean);
+  EXPECT_EQ(first_surface_change(frames), 2);
+  EXPECT_NE(text_report(frames, {}, 0).find("change, first at frame 2;"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(json_report(frames, {}))["surface"]["first_change"], 2);
+  EXPECT_EQ(first_surface_change(check({sheet(4), sheet(4)})), std::nullopt);
+
   io::MeshData more_vertices = sheet(4);
   testing::add_vertex(more_vertices, {9, 9, 9});
   EXPECT_EQ(check({sheet(4), more_vertices}).verdict, Verdict::kUnknown);
@@ -272,6 +281,11 @@ TEST(SequenceCheck, ListIsCappedOverTheWholeSequence) {
   }
   EXPECT_EQ(sum.vf, report.violations_total.vf);
   EXPECT_EQ(sum.total(), report.violations_total.total());
+}
+
+TEST(Report, TheReplayCommandIsTypedAsItStands) {
+  EXPECT_EQ(replay_command("a/frame-0-overlap-0-1.case"), "selvage replay a/frame-0-overlap-0-1.case");
+  EXPECT_EQ(replay_command("Tim's shots/a.case"), "selvage replay 'Tim'\\''s shots/a.case'");
 }
 
 TEST(Report, TextAndJsonTellTheSame) {
