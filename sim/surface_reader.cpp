@@ -23,21 +23,21 @@ SheetSpec read_sheet(TomlTable& table) {
   SheetSpec sheet;
   sheet.nx = static_cast<std::int32_t>(table.integer("nx", 2, kMaxSide));
   sheet.ny = static_cast<std::int32_t>(table.integer("ny", 2, kMaxSide));
-  sheet.width_m = table.number("width_m", kPositive);
-  sheet.height_m = table.number("height_m", kPositive);
+  sheet.width_m = table.number("width_m", kLength);
+  sheet.height_m = table.number("height_m", kLength);
   return sheet;
 }
 
 SphereSpec read_sphere(TomlTable& table) {
   SphereSpec sphere;
-  sphere.radius_m = table.number("radius_m", kPositive);
+  sphere.radius_m = table.number("radius_m", kLength);
   sphere.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, sphere.subdivisions));
   return sphere;
 }
 
 EllipsoidSpec read_ellipsoid(TomlTable& table) {
   EllipsoidSpec ellipsoid;
-  ellipsoid.size_m = table.vector("size_m", kPositive);
+  ellipsoid.size_m = table.vector("size_m", kLength);
   ellipsoid.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, ellipsoid.subdivisions));
   return ellipsoid;
 }
@@ -45,8 +45,8 @@ EllipsoidSpec read_ellipsoid(TomlTable& table) {
 CapsuleSpec read_capsule(TomlTable& table) {
   CapsuleSpec capsule;
   capsule.end_m = table.vector("end_m", kCoordinate);
-  capsule.radius_m = table.number("radius_m", kPositive);
-  capsule.end_radius_m = table.number("end_radius_m", kPositive, capsule.radius_m);
+  capsule.radius_m = table.number("radius_m", kLength);
+  capsule.end_radius_m = table.number("end_radius_m", kLength, capsule.radius_m);
   capsule.segments = static_cast<std::int32_t>(table.integer("segments", 3, 1000, capsule.segments));
   if (!(capsule.end_m.norm() > std::abs(capsule.radius_m - capsule.end_radius_m))) {
     table.fail("end_m", "one end of the capsule holds the other; move end_m out, or use a sphere");
@@ -56,7 +56,7 @@ CapsuleSpec read_capsule(TomlTable& table) {
 
 BoxSpec read_box(TomlTable& table) {
   BoxSpec box;
-  box.size_m = table.vector("size_m", kPositive);
+  box.size_m = table.vector("size_m", kLength);
   box.cells = static_cast<std::int32_t>(table.integer("cells", 1, 1000, box.cells));
   return box;
 }
@@ -65,9 +65,9 @@ GarmentSpec::Sleeves read_sleeves(TomlTable& table) {
   GarmentSpec::Sleeves sleeves;
   sleeves.top_m = table.number("top_m", kCoordinate);
   sleeves.bottom_m = table.number("bottom_m", kCoordinate);
-  sleeves.depth_m = table.number("depth_m", kPositive);
-  sleeves.length_m = table.number("length_m", kPositive);
-  sleeves.cuff_radius_m = table.number("cuff_radius_m", kPositive);
+  sleeves.depth_m = table.number("depth_m", kLength);
+  sleeves.length_m = table.number("length_m", kLength);
+  sleeves.cuff_radius_m = table.number("cuff_radius_m", kLength);
   sleeves.down_deg = table.number("down_deg", {-90, 90}, 0);
   return sleeves;
 }
@@ -75,8 +75,8 @@ GarmentSpec::Sleeves read_sleeves(TomlTable& table) {
 GarmentSpec::Ring read_ring(TomlTable& table) {
   GarmentSpec::Ring ring;
   ring.height_m = table.number("height_m", kCoordinate);
-  ring.depth_m = table.number("depth_m", kPositive);
-  ring.width_m = table.number("width_m", kPositive);
+  ring.depth_m = table.number("depth_m", kLength);
+  ring.width_m = table.number("width_m", kLength);
   return ring;
 }
 
@@ -96,7 +96,7 @@ GarmentSpec read_garment(TomlTable& table) {
     largest_m = std::max({largest_m, ring.depth_m, ring.width_m});
   }
   if (garment.sleeves) largest_m = std::max(largest_m, garment.sleeves->length_m);
-  garment.cell_m = table.number("cell_m", {largest_m / double(kMaxSide), 1e300});
+  garment.cell_m = table.number("cell_m", {largest_m / double(kMaxSide), kLength.upper});
   return garment;
 }
 

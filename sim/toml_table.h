@@ -21,10 +21,12 @@ struct Range {
   double lower = -std::numeric_limits<double>::max(), upper = std::numeric_limits<double>::max();
   bool lower_open = false;
 };
-inline constexpr Range kPositive{0, 1e300, true};
-inline constexpr Range kNotNegative{0, 1e300};
+inline constexpr Range kPositive{0, 1e30, true};
+inline constexpr Range kNotNegative{0, 1e30};
 /// Scripted and initial coordinates: beyond it 1e-6 m is below the spacing of doubles, and no tolerance means anything.
 inline constexpr Range kCoordinate{-1e9, 1e9};
+/// Sizes; with those above, their areas, masses and squares stay far within doubles.
+inline constexpr Range kLength{1e-30, 1e9};
 
 /// Where tables come from: the name that errors give, and which of two values holds where a file has
 /// {draft = ..., full = ...}.

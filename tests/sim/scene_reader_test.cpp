@@ -55,6 +55,10 @@ const BadScene kBadScenes[] = {
     {"a string for a number", "[time]\nframes = \"ten\"\n", 2, "frames must be an integer"},
     {"a fraction for a count", "[time]\nframes = 2.5\n", 2, "frames must be an integer"},
     {"infinity", kScene + "drag = 1\n[collision]\nthickness_m = inf\n", 11, "thickness_m must be a number above 0"},
+    {"a size beyond all places", kScene + "[[body]]\nsphere = {radius_m = 1e300}\n", 10,
+     "radius_m must be a number of at least 1e-30 and at most 1000000000"},
+    {"a stiffness beyond all", kScene + "shear_n_m = 1e300\n", 9,
+     "shear_n_m must be a number of at least 0 and at most"},
     {"nan", "drag_1_s = nan\n" + kScene, 1, "drag_1_s"},
     {"two numbers for a vector", "gravity_m_s2 = [0, 0]\n" + kScene, 1, "three numbers"},
     {"tolerance above thickness", kScene + "[collision]\nthickness_m = 1e-3\ntolerance_m = 2e-3\n", 11,
@@ -116,7 +120,7 @@ const BadScene kBadScenes[] = {
     {"cells beyond counting",
      "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n"
      "ring = [{height_m = 2, depth_m = 1, width_m = 1}, {height_m = 1, depth_m = 1, width_m = 1}]\n"
-     "sleeves = {top_m = 1.8, bottom_m = 1.4, depth_m = 0.3, length_m = 1e30, cuff_radius_m = 0.1}\n",
+     "sleeves = {top_m = 1.8, bottom_m = 1.4, depth_m = 0.3, length_m = 1e9, cuff_radius_m = 0.1}\n",
      5, "cell_m must be"},
     {"rings that rise",
      "[time]\nframes = 1\n[[cloth]]\n[cloth.garment]\ncell_m = 0.1\n"

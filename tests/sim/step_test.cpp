@@ -422,7 +422,7 @@ TEST(World, RefusesAnUnstableDynamicsStep) {
 
 // More than a million steps a frame: with 1e20 N/m their number was no int, and the cloth stayed where it was.
 TEST(World, RefusesSpringsThatNoStepOfTheDynamicsIsShortEnoughFor) {
-  for (const char* stiffness : {"1e14", "1e20", "1e300"}) {
+  for (const char* stiffness : {"1e14", "1e20", "1e30"}) {
     std::string text = small_scene_text(1);
     text.replace(text.find("stretch_n_m = 40"), 16, std::string("stretch_n_m = ") + stiffness);
     EXPECT_THROW((void)build_world(parse_scene(text, "small.toml")), io::Error) << stiffness;
