@@ -55,9 +55,10 @@ void BlockMatrix::multiply(const Positions& x, Positions& result) const {
   });
 }
 
-ConjugateGradientsResult solve_by_conjugate_gradients(const BlockMatrix& A, std::span<const std::uint8_t> is_free,
-                                                      const Positions& rhs, double relative_residual,
-                                                      std::int32_t max_iterations, Positions& x) {
+ConjugateGradientsResult solve_by_conjugate_gradients(const BlockMatrix& A, const Coupling* coupling,
+                                                      std::span<const std::uint8_t> is_free, const Positions& rhs,
+                                                      double relative_residual, std::int32_t max_iterations,
+                                                      Positions& x) {
   ConjugateGradientsResult result;
   std::vector<SymmetricBlock> preconditioner(static_cast<std::size_t>(A.rows()));
   std::vector<std::uint8_t> is_definite(preconditioner.size(), 1);
@@ -70,7 +71,9 @@ ConjugateGradientsResult solve_by_conjugate_gradients(const BlockMatrix& A, std:
   parallel_each(A.rows(), [&](Eigen::Index i) {
     const auto row = static_cast<std::size_t>(i);
     if (is_free[row] != 0) {
-      is_definite[row] = invert(A.diagonal(i), preconditioner[row]) ? 1 : 0;
+      SymmetricBlock diagonal = A.diagonal(i);
+      if (coupling != nullptr) coupling->add_diagonal(i, diagonal);
+      is_definite[row] = invert(diagonal, preconditioner[row]) ? 1 : 0;
       residual.row(i) = rhs.row(i);
     } else {
       preconditioner[row] = {};
@@ -87,6 +90,7 @@ ConjugateGradientsResult solve_by_conjugate_gradients(const BlockMatrix& A, std:
   // Written so that NaN ends the loop.
   while (result.iterations < max_iterations && energy > enough) {
     A.multiply(direction, product);
+    if (coupling != nullptr) coupling->add_product(direction, product);
     // Rows that are not free have no direction, so what the product has there does not count.
     const double curvature = dot(direction, product);
     if (curvature <= 0) {

@@ -56,6 +56,16 @@ class BlockMatrix {
   std::vector<SymmetricBlock> off_diagonal_, diagonal_;
 };
 
+/// What a matrix has beside its blocks; symmetric.
+class Coupling {
+ public:
+  virtual ~Coupling() = default;
+  /// result += (this) x.
+  virtual void add_product(const Positions& x, Positions& result) const = 0;
+  /// block += the diagonal block at row i of this.
+  virtual void add_diagonal(Eigen::Index i, SymmetricBlock& block) const = 0;
+};
+
 struct ConjugateGradientsResult {
   std::int32_t iterations = 0;
   bool converged = false;  ///< false after max_iterations, or where a number is not finite
@@ -64,9 +74,11 @@ struct ConjugateGradientsResult {
 
 /// Solves A x = rhs on the rows with is_free; the others of x become zero, and A acts as if their rows and columns were
 /// not there. The preconditioner is the inverse of the diagonal blocks; ends
-/// when the residual is `relative_residual` of rhs in its norm. Deterministic for any thread count.
-ConjugateGradientsResult solve_by_conjugate_gradients(const BlockMatrix& A, std::span<const std::uint8_t> is_free,
-                                                      const Positions& rhs, double relative_residual,
-                                                      std::int32_t max_iterations, Positions& x);
+/// when the residual is `relative_residual` of rhs in its norm. `coupling`, where it is not null, is a part of A.
+/// Deterministic for any thread count, as the coupling is.
+ConjugateGradientsResult solve_by_conjugate_gradients(const BlockMatrix& A, const Coupling* coupling,
+                                                      std::span<const std::uint8_t> is_free, const Positions& rhs,
+                                                      double relative_residual, std::int32_t max_iterations,
+                                                      Positions& x);
 
 }  // namespace selvage::sim

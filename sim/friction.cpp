@@ -11,6 +11,13 @@
 namespace selvage::sim {
 namespace {
 
+/// m x = v x x.
+Eigen::Matrix3d cross_matrix(const Vec3& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
 /// The rigid rotations of a closed pair's four vertices.
 void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipGeometry& slip) {
   double mass_sum = 0;
@@ -112,6 +119,17 @@ bool adds_energy(const Interaction& interaction, const PairVectors& displacement
 }
 
 }  // namespace
+
+std::array<Eigen::Matrix3d, 4> slip_matrices(const Interaction& interaction, const PairVectors& x_t0) {
+  std::array<Eigen::Matrix3d, 4> result;
+  for (std::size_t i = 0; i < 4; ++i) result[i] = interaction.weights[i] * Eigen::Matrix3d::Identity();
+  if (!is_closed(interaction)) return result;
+  SlipGeometry slip;
+  add_rotation(interaction, x_t0, slip);
+  const Eigen::Matrix3d turn = cross_matrix(slip.r) * slip.inverse_inertia;
+  for (std::size_t i = 0; i < 4; ++i) result[i] += turn * cross_matrix(slip.y[i]) / interaction.mobility[i];
+  return result;
+}
 
 std::optional<PairVectors> friction_change(const Interaction& interaction, const PairVectors& x_t0,
                                            const PairVectors& displacement, const Vec3& normal,

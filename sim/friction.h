@@ -28,6 +28,10 @@ struct SlipGeometry {
   Eigen::Matrix3d stop = Eigen::Matrix3d::Zero();             ///< impulse per slip, across the normal
 };
 
+/// B_i of the slip of a pair, sum of B_i u_i for displacements u_i: their relative displacement without what a rigid
+/// rotation of a closed pair explains. A force f on the slip is B_i^T f on the vertices, without a torque on the pair.
+[[nodiscard]] std::array<Eigen::Matrix3d, 4> slip_matrices(const Interaction& interaction, const PairVectors& x_t0);
+
 /// What a contact has done in a step so far. Its sweeps share one cone: a slip that another contact brings back later
 /// in the step is stopped by what this one has pressed before.
 struct FrictionLoad {

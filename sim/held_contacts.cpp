@@ -283,6 +283,13 @@ PairVectors HeldContacts::displacements(const Line& line, const MidstepMotion& s
   return moved;
 }
 
+void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
+  Line& line = lines_[i];
+  line.load_m_s2 = load_m_s2;
+  line.repelled = line.repelled || load_m_s2 > 0;
+  line.rubbed = line.rubbed || rubbed;
+}
+
 std::vector<RepulsionContact> HeldContacts::contacts() const {
   std::vector<RepulsionContact> result(lines_.size());
   parallel_each(std::ssize(lines_), [&](Eigen::Index i) {

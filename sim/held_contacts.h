@@ -58,6 +58,18 @@ class HeldContacts {
   /// same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
+  /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts, in any order, with the
+  /// loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it.
+  [[nodiscard]] std::size_t size() const { return lines_.size(); }
+  [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return lines_[i].contact; }
+  [[nodiscard]] double load_m_s2(std::size_t i) const { return lines_[i].load_m_s2; }
+  void bore(std::size_t i, double load_m_s2, bool rubbed);
+  /// Where a vertex that is not cloth is at `share` in [0, 1] of the collision step.
+  [[nodiscard]] Vec3 scripted_at(VertexId vertex, double share) const {
+    return V_t0_.row(vertex) + share * (V_t1_.row(vertex) - V_t0_.row(vertex));
+  }
+  [[nodiscard]] bool is_cloth(VertexId vertex) const { return vertex < surface_.cloth_count; }
+
   /// As they were last looked at, measured at V_t0, in the order in which they act: the collision step repels them
   /// where they are at its end.
   [[nodiscard]] std::vector<RepulsionContact> contacts() const;
@@ -86,7 +98,6 @@ class HeldContacts {
   using Reach = ContactGroups::Reach;
   enum class Answer { kNo, kYes, kOutOfReach };
 
-  [[nodiscard]] bool is_cloth(VertexId vertex) const { return vertex < surface_.cloth_count; }
   [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
   void set_lines(PairKind kind, const std::vector<RepulsionContact>& contacts);
   [[nodiscard]] double load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const;

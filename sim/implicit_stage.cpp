@@ -5,6 +5,7 @@
 
 #include "kernel/assert.h"
 #include "sim/parallel.h"
+#include "sim/stage_contacts.h"
 
 namespace selvage::sim {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::int32_t kMaxHalvings = 30;
 // A sum of terms of both signs may be off by this part of their magnitudes; the terms themselves hold a few roundings.
 constexpr double kSumRounding = 0x1p-46;
 // Newton's linear equations are solved to this part of their right-hand side (section 7.1 of Nocedal and Wright).
-constexpr double kForcing = 1e-2;
+constexpr double kForcing = 1e-1;
 constexpr std::int32_t kMaxCgIterations = 1000;
 // Forces are sums of a few dozen roundings of the positions.
 constexpr double kForceRoundings = 32;
@@ -78,7 +79,7 @@ void ImplicitStage::find_forces(const StageEquations& equations, const Positions
              h * h * k, h * h * k};
     if (length > 0) {
       state.along_kg += h * spring.damping_n_s_m;
-      state.across_kg *= 1 - spring.rest_length_m / length;
+      state.across_kg = h * h * state.pull_n / length;
     }
   });
   stabilizing_ = Positions::Zero(x.rows(), 3);
@@ -86,6 +87,7 @@ void ImplicitStage::find_forces(const StageEquations& equations, const Positions
     stabilizers_->add_forces(x, 1, 0, stabilizing_);
     stabilizers_->add_forces(u_, 0, 1 / h, stabilizing_);
   }
+  if (equations.contacts != nullptr) equations.contacts->look(u_);
   acceleration.resize(x.rows(), 3);
   gradient_.resize(x.rows(), 3);
   linear_.resize(x.rows(), 3);
@@ -105,6 +107,7 @@ void ImplicitStage::find_forces(const StageEquations& equations, const Positions
     const Eigen::RowVector3d gravity = fields_.gravity_m_s2.transpose();
     const double drag_1_s = fields_.drag_1_s + fields_.quadratic_drag_1_m * u_.row(i).norm() / h;
     acceleration.row(i) = gravity - (drag_1_s / h) * u_.row(i) + w * (pull + stabilizing_.row(i));
+    if (equations.contacts != nullptr) acceleration.row(i) += w / (h * h) * equations.contacts->force_at(i);
     const Eigen::RowVector3d coasting = u_.row(i) - h * equations.v_t0.row(i);
     gradient_.row(i) = (coasting - h * h * acceleration.row(i)) / w;
     linear_.row(i) = (coasting + h * fields_.drag_1_s * u_.row(i) - h * h * gravity) / w - h * h * stabilizing_.row(i);
@@ -180,9 +183,16 @@ ImplicitStage::Change ImplicitStage::potential_change(const StageEquations& equa
     term += fields_.quadratic_drag_1_m / (3 * w) * (std::pow(speed_after_m, 3) - std::pow(speed_m, 3));
   });
   Change change;
-  for (const double term : terms_) {
-    change.sum += term;
-    change.magnitude += std::abs(term);
+  const auto add = [&](const std::vector<double>& terms) {
+    for (const double term : terms) {
+      change.sum += term;
+      change.magnitude += std::abs(term);
+    }
+  };
+  add(terms_);
+  if (equations.contacts != nullptr) {
+    equations.contacts->changes(step, share, terms_);
+    add(terms_);
   }
   return change;
 }
@@ -211,21 +221,38 @@ double ImplicitStage::residual_m(const StageEquations& equations) const {
 double ImplicitStage::rounding_m(const StageEquations& equations, const Positions& x) const {
   double strongest = 0;
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    const SymmetricBlock& diagonal = matrix_.diagonal(i);
+    SymmetricBlock diagonal = matrix_.diagonal(i);
+    if (equations.contacts != nullptr) equations.contacts->add_diagonal(i, diagonal);
     strongest = std::max(strongest, equations.inverse_mass[static_cast<std::size_t>(i)] *
                                         std::max({diagonal[0], diagonal[3], diagonal[5]}));
   }
   return kForceRoundings * 0x1p-53 * x.cwiseAbs().maxCoeff() * strongest;
 }
 
-bool ImplicitStage::find_step(Positions& step, StageReport& report) {
+bool ImplicitStage::find_step(const StageEquations& equations, Positions& step, StageReport& report) {
   const ConjugateGradientsResult linear =
-      solve_by_conjugate_gradients(matrix_, is_free_, -gradient_, kForcing, kMaxCgIterations, step);
+      solve_by_conjugate_gradients(matrix_, equations.contacts, is_free_, -gradient_, kForcing, kMaxCgIterations, step);
   report.cg_iterations += linear.iterations;
   return linear.definite;
 }
 
-StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, Positions& acceleration) {
+std::vector<double> ImplicitStage::resistance_kg(std::span<const double> inverse_mass, double h_s) const {
+  std::vector<double> result(is_free_.size());
+  for (VertexId i = 0; i < springs_.vertex_count(); ++i) {
+    const double w = inverse_mass[static_cast<std::size_t>(i)];
+    double sum = w > 0 ? 1 / w : 0;
+    springs_.for_each_at(i, [&](std::uint32_t s, double) {
+      const Spring& spring = springs_.springs()[s];
+      sum += h_s * (h_s * spring.stiffness_n_m + spring.damping_n_s_m);
+    });
+    if (stabilizers_ != nullptr) sum += stabilizers_->diagonal(i, h_s * h_s, h_s);
+    result[static_cast<std::size_t>(i)] = sum;
+  }
+  return result;
+}
+
+StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, Positions& acceleration,
+                                 double enough_m) {
   SELVAGE_ASSERT(equations.h_s > 0 && x.rows() == matrix_.rows());
   for (std::size_t i = 0; i < is_free_.size(); ++i) is_free_[i] = equations.inverse_mass[i] > 0 ? 1 : 0;
   StageReport report;
@@ -233,16 +260,16 @@ StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, 
   for (;;) {
     find_forces(equations, x, acceleration);
     report.residual_m = residual_m(equations);
-    report.converged = report.residual_m <= kResidual_m;
+    report.converged = report.residual_m <= enough_m;
     if (report.converged) return report;
     assemble(equations, false);
     // Not the first guess: what stiff springs round away hides all that soft motions still lack.
     report.converged =
         report.newton_rounds > 0 && report.residual_m <= std::min(rounding_m(equations, x), kMostRounding_m);
     if (report.converged || report.newton_rounds == kMaxRounds) return report;
-    if (!find_step(step, report)) {
+    if (!find_step(equations, step, report)) {
       assemble(equations, true);
-      (void)find_step(step, report);
+      (void)find_step(equations, step, report);
     }
     ++report.newton_rounds;
     const double share = line_search(equations, x, step);

@@ -12,6 +12,8 @@
 
 namespace selvage::sim {
 
+class StageContacts;
+
 /// Forces on top of springs and stabilisers: acceleration gravity - (drag + quadratic_drag |v|) v.
 struct FieldForces {
   Vec3 gravity_m_s2 = Vec3::Zero();
@@ -24,6 +26,7 @@ struct StageEquations {
   const Positions& v_t0;    ///< m/s
   std::span<const double> inverse_mass;
   double h_s = 0;  ///< > 0
+  StageContacts* contacts = nullptr;  ///< none, or looked at anew where the solution goes
 };
 
 /// What a solution is worth.
@@ -35,22 +38,25 @@ struct StageReport {
 };
 
 /// Newton's method on the potential whose minimum the stage is:
-///   sum of m/2 |u|^2 - m u.(h v_t0 + h^2 g) + m h drag/2 |u|^2 + m quadratic_drag/3 |u|^3 + h^2 (spring energies),
-/// u = x - origin. Damping forces join it with the directions of the springs that each round starts from. The matrix of
-/// a round is the potential's second derivative. Compressed springs push across themselves: where that makes it not
-/// positive definite, which conjugate gradients find out, the part across is left out of them for the round (the usual
-/// projection; with it alone buckled cloth converges by a quarter a round). So every solution is a direction of
-/// descent, and a step that does not lower the potential is halved.
+///   sum of m/2 |u|^2 - m u.(h v_t0 + h^2 g) + m h drag/2 |u|^2 + m quadratic_drag/3 |u|^3 + h^2 (spring energies)
+/// and of the contacts' terms, u = x - origin. Damping forces join it with the directions of the springs that each
+/// round starts from. The matrix of a round is the potential's second derivative. Compressed springs push across
+/// themselves: where that makes it not positive definite, which conjugate gradients find out, the part across is left
+/// out of them for the round (the usual projection; with it alone buckled cloth converges by a quarter a round). So
+/// every solution is a direction of descent, and a step that does not lower the potential is halved.
 class ImplicitStage {
  public:
   /// `stabilizers` may be null; both outlive the stage.
   ImplicitStage(const SpringSystem& springs, const StabilizerSystem* stabilizers, const FieldForces& fields);
 
   /// x holds the first guess, and the given positions of vertices with inverse mass 0, which are kept. It ends where
-  /// the equations hold within kResidual_m, or, after a round, within what rounding leaves up to kMostRounding_m, or
+  /// the equations hold within enough_m, or, after a round, within what rounding leaves up to kMostRounding_m, or
   /// after kMaxRounds: then it is the best that was found, and the report says so. `acceleration` becomes a(x, v),
-  /// without that of the vertices held.
-  StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration);
+  /// without that of the vertices held, and with that of the contacts.
+  StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration,
+                    double enough_m = kResidual_m);
+  /// #V: a bound of the matrix's diagonal at each vertex without contacts and drag, kg.
+  [[nodiscard]] std::vector<double> resistance_kg(std::span<const double> inverse_mass, double h_s) const;
 
   static constexpr std::int32_t kMaxRounds = 50;
   /// A thousandth of the default collision tolerance. In velocity it is an error of 1e-9 m / h.
@@ -72,7 +78,7 @@ class ImplicitStage {
   /// `projected`: without the part of compressed springs across themselves.
   void assemble(const StageEquations& equations, bool projected);
   /// Solves a round's linear equations. False where the matrix is not positive definite.
-  bool find_step(Positions& step, StageReport& report);
+  bool find_step(const StageEquations& equations, Positions& step, StageReport& report);
   /// The share of `step` to take, from 1 downwards; 0 where none lowers the potential.
   [[nodiscard]] double line_search(const StageEquations& equations, const Positions& x, const Positions& step);
   [[nodiscard]] Change potential_change(const StageEquations& equations, const Positions& x, const Positions& step,

@@ -17,8 +17,9 @@ namespace {
 
 constexpr double kThickness = 0.004, kGravity = 9.81;
 
-std::string start(double friction, double duration_s) {
-  return "gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = " + std::to_string(duration_s) +
+std::string start(double friction, double duration_s, const std::string& solver = "explicit") {
+  return "solver = \"" + solver +
+         "\"\ngravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = " + std::to_string(duration_s) +
          "\n[collision]\nthickness_m = 0.004\nfriction_static = " + std::to_string(friction) + "\n";
 }
 
@@ -74,6 +75,23 @@ TEST(Sliding, OverSmallFacesIsSlowedAsFrictionSays) {
   slide.run_to(kEnd_s);
   const double way_m = 2 * kEnd_s - kFriction * kGravity * kEnd_s * kEnd_s / 2;
   EXPECT_NEAR(slide.x().col(0).mean() - start_m, way_m, 0.01 * way_m);
+}
+
+TEST(Sliding, UnderTheImplicitSolverIsAsTheLawsSay) {
+  constexpr double kFriction = 0.3, kEnd_s = 0.3, kStep_s = 1.0 / 30;
+  const std::string moving = sheet("position_m = [-0.9, 0.007, 0.0041]\nvelocity_m_s = [2, 0.3, 0]") + ground();
+  Slide freely(start(0, kEnd_s, "implicit") + moving);
+  freely.run_to(kEnd_s);
+  EXPECT_LT(freely.largest_error_m_s({2, 0.3, 0}), 1e-3);
+  EXPECT_GT(freely.x().col(2).minCoeff(), 0.99 * kThickness);
+  EXPECT_LT(freely.x().col(2).maxCoeff(), 1.05 * kThickness);
+  Slide rubbing(start(kFriction, kEnd_s, "implicit") + moving);
+  const Vec3 start_m = rubbing.x().colwise().mean();
+  rubbing.run_to(kEnd_s);
+  // Backward Euler: each step goes with the velocity at its end.
+  const double slowed_m = kFriction * kGravity * (kEnd_s + kStep_s) * kEnd_s / 2;
+  const double way_m = std::hypot(2, 0.3) * kEnd_s - slowed_m;
+  EXPECT_NEAR((rubbing.x().colwise().mean() - start_m.transpose()).leftCols(2).norm(), way_m, 0.01 * way_m);
 }
 
 TEST(Sliding, ABoxThatTurnsBelowTakesNothingAlong) {
