@@ -66,7 +66,8 @@ void print_phases(const sim::RunTotals& totals) {
 
 void print_totals(const sim::RunTotals& totals) {
   fmt::print("{} frames, {} steps ({} tried with a longer step first)\n", totals.frames, totals.steps, totals.halvings);
-  fmt::print("repulsions {}, frictions {}\n", totals.repulsions, totals.frictions);
+  fmt::print("repulsions {}, frictions {}, largest strain {:.3g}\n", totals.repulsions, totals.frictions,
+             totals.largest_strain);
   fmt::print("steps with collisions {}, impulse rounds {}, zone rounds {} (largest zone {} vertices)\n",
              totals.steps_with_collisions, totals.impulse_rounds, totals.zone_rounds, totals.largest_zone_vertices);
   fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}, vertices cut back {}\n",

@@ -22,6 +22,14 @@ double strain(const Spring& spring, const PositionsRef& x) {
   return std::abs((x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1);
 }
 
+struct Largest {
+  double value = 0;
+  Largest& operator+=(const Largest& other) {
+    value = std::max(value, other.value);
+    return *this;
+  }
+};
+
 }  // namespace
 
 std::int64_t springs_overstrained(const SpringSystem& springs, double strain_limit, const StrainedMotion& motion) {
@@ -41,6 +49,20 @@ std::int64_t springs_overstrained(const SpringSystem& springs, double strain_lim
     }
     return count;
   });
+}
+
+double largest_strain(const SpringSystem& springs, const PositionsRef& x) {
+  const auto& all = springs.springs();
+  std::vector<Largest> partial;
+  return parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
+           Largest largest;
+           for (Eigen::Index i = begin; i < end; ++i) {
+             const Spring& spring = all[static_cast<std::size_t>(i)];
+             if (spring.kind != SpringKind::kBending) largest += {strain(spring, x)};
+           }
+           return largest;
+         })
+      .value;
 }
 
 }  // namespace selvage::sim

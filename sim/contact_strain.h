@@ -1,4 +1,4 @@
-// Whether contact strains the springs that it holds: where a collision step is long beside the swing of the springs,
+// How far springs are strained, and whether contact strains those that it holds: where a collision step is long beside the swing of the springs,
 // the dynamics carries a vertex on in it that contact then puts back, and the springs between are pressed.
 #pragma once
 
@@ -16,5 +16,9 @@ struct StrainedMotion {
 /// limits by the collision step alone, or beyond 3 by the whole step. 0 without a limit. O(springs), in parallel.
 [[nodiscard]] std::int64_t springs_overstrained(const SpringSystem& springs, double strain_limit,
                                                 const StrainedMotion& motion);
+
+/// Of structural and shear springs: the largest change of a length over the length at rest; 0 without springs.
+/// O(springs), in parallel.
+[[nodiscard]] double largest_strain(const SpringSystem& springs, const PositionsRef& x);
 
 }  // namespace selvage::sim

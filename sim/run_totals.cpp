@@ -31,6 +31,7 @@ void RunTotals::add(const StepResult& step) {
   cg_iterations += step.dynamics.cg_iterations;
   unconverged_solves += step.dynamics.unconverged;
   largest_residual_m = std::max(largest_residual_m, step.dynamics.residual_m);
+  largest_strain = std::max(largest_strain, step.largest_strain);
   phases += step.phases;
 }
 

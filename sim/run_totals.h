@@ -25,6 +25,7 @@ struct RunTotals {
   std::int64_t pairs_below_tolerance = 0, waiting_bodies = 0, cut_candidates = 0;
   std::int64_t dynamics_solves = 0, newton_rounds = 0, cg_iterations = 0, unconverged_solves = 0;
   double largest_residual_m = 0;  ///< of an implicit solve
+  double largest_strain = 0;      ///< of structural and shear springs, at the end of a step
   StepPhases phases;
   PhaseTime recording;
 
@@ -65,6 +66,7 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("cg_iterations", totals.cg_iterations);
   visit("unconverged_solves", totals.unconverged_solves);
   visit("largest_residual_m", totals.largest_residual_m);
+  visit("largest_strain", totals.largest_strain);
   const auto visit_phase = [&](const char* name, auto& phase) {
     visit((std::string(name) + "_s").c_str(), phase.wall_s);
     visit((std::string(name) + "_cpu_s").c_str(), phase.cpu_s);

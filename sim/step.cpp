@@ -96,6 +96,7 @@ StepResult Simulation::step() {
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried.safe, std::move(tried.end));
+    result.largest_strain = largest_strain(world_.springs, x_);
     loads_ = had_room(tried.safe.report) ? std::move(tried.loads) : std::vector<ContactLoad>();
     const bool few = tried.safe.report.first_collisions <= few_collisions();
     const bool is_too_short = 2 * clock_.dt_s() <= shortest_s_;  // for what meets now: it was faster

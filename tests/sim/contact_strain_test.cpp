@@ -31,4 +31,17 @@ TEST(ContactStrain, CountsSpringsThatEndBeyondTheLimitAndGrewThere) {
   EXPECT_EQ(overstrained(0.05, candidate), 4) << "beyond three limits that does not matter";
 }
 
+TEST(ContactStrain, TheLargestIsOfStructuralAndShearSpringsStretchedOrPressed) {
+  Positions x = Positions::Zero(6, 3);
+  x(1, 0) = 2.2;  // of 2
+  x(3, 1) = 0.8;  // of 1
+  x(5, 2) = 9;    // of 1, bending
+  const std::vector<Spring> springs{{0, 1, SpringKind::kStructural, 2, 10, 0},
+                                    {2, 3, SpringKind::kShear, 1, 10, 0},
+                                    {4, 5, SpringKind::kBending, 1, 10, 0}};
+  EXPECT_DOUBLE_EQ(largest_strain(SpringSystem(springs, 6), x), 0.2);
+  EXPECT_DOUBLE_EQ(largest_strain(SpringSystem({springs[0]}, 6), x), 0.1);
+  EXPECT_EQ(largest_strain(SpringSystem({springs[2]}, 6), x), 0);
+}
+
 }  // namespace selvage::sim
