@@ -54,15 +54,15 @@ std::int64_t springs_overstrained(const SpringSystem& springs, double strain_lim
 double largest_strain(const SpringSystem& springs, const PositionsRef& x) {
   const auto& all = springs.springs();
   std::vector<Largest> partial;
-  return parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
-           Largest largest;
-           for (Eigen::Index i = begin; i < end; ++i) {
-             const Spring& spring = all[static_cast<std::size_t>(i)];
-             if (spring.kind != SpringKind::kBending) largest += {strain(spring, x)};
-           }
-           return largest;
-         })
-      .value;
+  const Largest whole = parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
+    Largest largest;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const Spring& spring = all[static_cast<std::size_t>(i)];
+      if (spring.kind != SpringKind::kBending) largest += {strain(spring, x)};
+    }
+    return largest;
+  });
+  return whole.value;
 }
 
 }  // namespace selvage::sim

@@ -1,4 +1,4 @@
-// How far springs are strained, and whether contact strains those that it holds: where a collision step is long beside the swing of the springs,
+// How far springs are strained, and whether by contact: where a collision step is long beside the swing of the springs,
 // the dynamics carries a vertex on in it that contact then puts back, and the springs between are pressed.
 #pragma once
 
