@@ -32,6 +32,8 @@ class CentralDifferences : public Dynamics {
   /// As many equal internal steps as options.step_s asks for.
   DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
                          double dt_s, HeldContacts* contacts = nullptr) override;
+  /// Where the collision step is made of several internal ones: one that is one leaves contacts to the repulsions,
+  /// which are the same then.
   [[nodiscard]] bool holds_contacts(double dt_s) const override { return step_count(dt_s) > 1; }
 
   /// v(n+1) of the line above. After an advance() in several internal steps the collision step has changed an average

@@ -22,6 +22,7 @@ double strain(const Spring& spring, const PositionsRef& x) {
   return std::abs((x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1);
 }
 
+/// For parallel_sum(): the "sum" of two is the larger.
 struct Largest {
   double value = 0;
   Largest& operator+=(const Largest& other) {

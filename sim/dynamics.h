@@ -1,4 +1,5 @@
-// The internal dynamics of cloth behind one interface: where it would go if there were no contact (paper, section 5).
+// The internal dynamics of cloth behind one interface: where it would go with the contacts that are known beforehand,
+// if there are any (paper, section 5).
 #pragma once
 
 #include <span>
@@ -17,7 +18,7 @@ struct Motion {
 
 /// How well an implicit solver did; all zero where nothing is solved.
 struct DynamicsReport {
-  std::int32_t solves = 0;         ///< systems of equations
+  std::int32_t solves = 0;         ///< systems of equations; with contacts solved several times, each counts once
   std::int32_t newton_rounds = 0;  ///< over all of them
   std::int32_t cg_iterations = 0;
   std::int32_t unconverged = 0;  ///< solves that ended above their tolerance: the best that was found was taken
@@ -33,11 +34,10 @@ class Dynamics {
   virtual DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1,
                                  std::span<const double> inverse_mass, double dt_s,
                                  HeldContacts* contacts = nullptr) = 0;
-  /// Whether contacts act in advance(): where the step is made of several. A step that is one leaves them to the
-  /// repulsions, which are the same then.
+  /// Whether contacts act in advance().
   [[nodiscard]] virtual bool holds_contacts(double dt_s) const = 0;
 
-  /// Section 7.6: the velocity at the end of a step with contacts, from the positions there and the midstep velocity
+  /// Section 7.6: the velocity at the end of a step with contacts, from the positions there and the mean velocity
   /// that the collision step left in motion.v. Rows with inverse mass 0 are kept.
   virtual void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) = 0;
 };

@@ -90,7 +90,7 @@ class HeldContacts {
     std::array<double, 4> shares{};           ///< that they take of a change of the distance; 0 for those
     double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
     double lever_share = 1;                   ///< of a change of the distance that is done
-    double load_m_s2 = 0;                     ///< as in ContactLoad; 0 for edges
+    double load_m_s2 = 0;                     ///< as in ContactLoad; hold() leaves 0 for edges
     double pushed = 0;                        ///< in this step of the dynamics, m, >= 0
     bool repelled = false, rubbed = false;
   };

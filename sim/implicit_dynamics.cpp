@@ -17,6 +17,8 @@ constexpr double kStageShare = 1 - 1 / std::numbers::sqrt2;
 // what is left, the collision step repels. With a hundredth a sheet at rest on a slope creeps by 3e-6 m/s.
 constexpr double kForceResidual = 1e-3;
 constexpr int kForceRounds = 12;
+// With those that follow where contacts begin to slide, which others may have to follow.
+constexpr int kMostRounds = 3 * kForceRounds;
 // The stage is solved to this first, then to a tenth of it and so on while what contacts bear is not yet found: to
 // 1e-9 m from the start took 1.2 to 1.7 times the iterations in the scenes of docs/numerics.md.
 constexpr double kFirstResidual_m = 1e-3;
@@ -33,13 +35,13 @@ void add_stage(const StageReport& stage, DynamicsReport& report) {
 }  // namespace
 
 ImplicitDynamics::ImplicitDynamics(const SpringSystem& springs, const ImplicitDynamicsOptions& options)
-    : options_(options), strain_(springs, options.strain), stage_(springs, options.stabilizers, options.fields) {
-  SELVAGE_ASSERT(options.step_s > 0);
+    : step_s_(options.step_s), strain_(springs, options.strain), stage_(springs, options.stabilizers, options.fields) {
+  SELVAGE_ASSERT(step_s_ > 0);
 }
 
 DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scripted_x_t1,
                                          std::span<const double> inverse_mass, double dt_s, HeldContacts* contacts) {
-  const int step_count = static_cast<int>(std::ceil(dt_s / options_.step_s));
+  const int step_count = static_cast<int>(std::ceil(dt_s / step_s_));
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) {
       motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
@@ -96,16 +98,20 @@ void ImplicitDynamics::step_in_contact(Motion& motion, std::span<const double> i
   StageContacts terms(contacts, x_t0, inverse_mass, stage_.resistance_kg(inverse_mass, h), span);
   StageReport all;
   double enough_m = kFirstResidual_m;
-  for (int round = 1;; ++round) {
+  for (int round = 1, last = kForceRounds;; ++round) {
     const StageReport stage = stage_.solve({x_t0, v_t0, inverse_mass, h, &terms}, motion.x, acceleration_, enough_m);
     all = {all.newton_rounds + stage.newton_rounds, all.cg_iterations + stage.cg_iterations, stage.residual_m,
            stage.converged};
-    const bool is_found = terms.update() <= kForceResidual || round >= kForceRounds;
-    if (!stage.converged || (is_found && enough_m == ImplicitStage::kResidual_m)) break;
+    if (!stage.converged) break;
+    const bool is_found = terms.update() <= kForceResidual || round >= last;
+    if (is_found && enough_m == ImplicitStage::kResidual_m) {
+      if (round >= kMostRounds || !terms.let_slide()) break;
+      last = round + kForceRounds;
+    }
     enough_m = is_found ? ImplicitStage::kResidual_m : std::max(ImplicitStage::kResidual_m, enough_m / 10);
   }
   add_stage(all, report);
-  terms.finish();
+  if (all.converged) terms.finish();  // else what they bore is worth nothing
   // Where the forces put it, as above; but what was not solved goes no farther than it did.
   motion.v = all.converged ? Positions(v_t0 + h * acceleration_) : Positions((motion.x - x_t0) / h);
   if (all.residual_m <= ImplicitStage::kResidual_m) motion.x = x_t0 + h * motion.v;
@@ -123,6 +129,7 @@ void ImplicitDynamics::limit(const Positions& x_t0, std::span<const double> inve
 }
 
 void ImplicitDynamics::final_velocity(Motion& motion, std::span<const double> inverse_mass, double /*dt_s*/) {
+  SELVAGE_ASSERT(end_v_.rows() == motion.v.rows());
   parallel_each(motion.v.rows(), [&](Eigen::Index i) {
     if (inverse_mass[static_cast<std::size_t>(i)] > 0) motion.v.row(i) += end_v_.row(i) - average_v_.row(i);
   });

@@ -21,13 +21,14 @@ struct ImplicitDynamicsOptions {
 ///   x1 = x + g h v1,                    v1 = v + g h a(x1, v1);
 ///   x2 = x + (1 - g) h v1 + g h v2,     v2 = v + (1 - g) h a(x1, v1) + g h a(x2, v2);   x(n+1) = x2, v(n+1) = v2.
 /// No step is too long to be stable, what is too stiff for the step to resolve is damped at once (backward Euler damps
-/// all the rest as well; the trapezoidal rule lets stiff springs ring), and nothing is remembered from one step to the
-/// next, so contact and changes of the step need no restart. Velocities are those of the forces found, which are equal
-/// and opposite: linear momentum is kept to rounding, angular momentum to the order of the method.
+/// all the rest as well; the trapezoidal rule lets stiff springs ring), and of free motion nothing is remembered from
+/// one step to the next, so contact and changes of the step need no restart. Velocities are those of the forces found,
+/// which are equal and opposite: linear momentum is kept to rounding, angular momentum to the order of the method.
 ///
 /// A step with contacts is one of backward Euler, x1 = x + h v1, v1 = v + h a(x1, v1), with the contacts in its
-/// potential (stage_contacts.h), which adds no energy: of the two stages the second would throw back at (1 - g) / g =
-/// 2.4 times its speed what meets something in between. It is of first order.
+/// potential (stage_contacts.h): of the two stages the second would throw back at (1 - g) / g = 2.4 times its speed
+/// what meets something in between. It is of first order. What contacts bear is found to a thousandth of the largest of
+/// it, or as far as a dozen solutions find it, and begins with their loads of the last step.
 class ImplicitDynamics : public Dynamics {
  public:
   ImplicitDynamics(const SpringSystem& springs, const ImplicitDynamicsOptions& options);  ///< springs outlive it
@@ -40,7 +41,7 @@ class ImplicitDynamics : public Dynamics {
                          double dt_s, HeldContacts* contacts = nullptr) override;
   [[nodiscard]] bool holds_contacts(double) const override { return true; }
 
-  /// Adds to the velocity at the end what the collision step changed in the mean velocity.
+  /// Adds to the velocity at the end what the collision step changed in the mean velocity. REQUIRES advance() before.
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
@@ -49,7 +50,7 @@ class ImplicitDynamics : public Dynamics {
                        HeldContacts& contacts, DynamicsReport& report);
   void limit(const Positions& x_t0, std::span<const double> inverse_mass, double h, Motion& motion);
 
-  ImplicitDynamicsOptions options_;
+  double step_s_;
   StrainLimiter strain_;
   ImplicitStage stage_;
   Positions acceleration_;

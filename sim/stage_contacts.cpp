@@ -20,7 +20,10 @@ constexpr double kStiffness = 1;
 StageContacts::StageContacts(HeldContacts& held, const Positions& x, std::span<const double> inverse_mass,
                              std::span<const double> resistance_kg, const StageSpan& span)
     : held_(held), span_(span) {
-  for (std::size_t i = 0; i < held.size(); ++i) add_term(i, x, inverse_mass, resistance_kg);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    add_term(i, x, inverse_mass, resistance_kg);
+    held.bore(i, 0, false);
+  }
   index_ends(x.rows());
   response_.resize(terms_.size());
   acts_.resize(terms_.size());
@@ -220,18 +223,29 @@ void StageContacts::changes(const Positions& step, double share, std::vector<dou
 double StageContacts::update() {
   double largest_change_m = 0, largest_m = 0;
   for (Term& term : terms_) {
-    const double radius_before = term.radius(), size = term.asked.tail<2>().norm();
-    // Only where the cone was open, or what has borne nothing yet would count as sliding.
-    if (radius_before > 0 && size > radius_before) term.slides = true;
     Vec3 bears = term.asked;
     bears[0] = std::max(0.0, bears[0]);
     const double radius = (term.slides ? term.friction_kinetic : term.friction_static) * bears[0];
-    if (size > radius) bears.tail<2>() *= radius / size;
+    const double size = bears.tail<2>().norm();
+    term.is_at_border = size > radius;
+    if (term.is_at_border) bears.tail<2>() *= radius / size;
     largest_change_m = std::max(largest_change_m, (bears - term.borne).norm() * term.mobility_1_kg);
     largest_m = std::max(largest_m, bears[0] * term.mobility_1_kg);
     term.borne = bears;
   }
-  return largest_m > 0 ? largest_change_m / largest_m : 0;
+  return largest_change_m > 0 ? largest_change_m / std::max(largest_change_m, largest_m) : 0;
+}
+
+bool StageContacts::let_slide() {
+  bool changes = false;
+  for (Term& term : terms_) {
+    if (term.slides || !term.is_at_border || !(term.borne[0] > 0)) continue;
+    if (!(term.friction_kinetic < term.friction_static)) continue;
+    term.slides = true;
+    term.borne.tail<2>() *= term.friction_kinetic / term.friction_static;
+    changes = true;
+  }
+  return changes;
 }
 
 void StageContacts::finish() {

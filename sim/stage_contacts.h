@@ -20,16 +20,17 @@ struct StageSpan {
 /// The conditions distance >= min(thickness, distance at the start), with Coulomb's friction, as terms of the stage's
 /// potential (implicit_stage.h), by augmented Lagrangians (Nocedal and Wright 2006, 17.3; for friction Alart and
 /// Curnier 1991): with a gap g above what is allowed and a slip s, both linear in the displacements u, a contact adds
-///   max(0, p - k g)^2 / 2k + (the same for s of a force q + k s that is cut at the cone's radius),
+///   max(0, p - k g)^2 / 2k + (the same for s of a force q - k s that is cut at the cone's radius),
 /// where p and q, what it bears, are found by solving the stage a few times. Directions and points are those of the
-/// contact at the start of the collision step. The potential stays convex, and is 0 where the step starts but for what
-/// the contact bore before: it gives no energy. Forces are opposite within a pair, and along its normal or without a
-/// torque on it. Masses stand for forces, kg m, as in the whole potential.
+/// contact at the start of the collision step. The potential is convex, and in the first span, beside bodies at rest,
+/// no more at the start than what the contact bore before makes it: from there no step gains energy by it. Forces are
+/// opposite within a pair, and along its normal or without a torque on it. Masses stand for forces, kg m, as in the
+/// whole potential.
 class StageContacts : public Coupling {
  public:
   /// For cloth at x, m, at the start of the span. `resistance_kg`: a bound of the diagonal of the stage's matrix at
-  /// each vertex of the cloth. Contacts with a limited lever (interaction.h) are left to the collision step. `held`
-  /// must outlive it.
+  /// each vertex of the cloth. Contacts with a limited lever (interaction.h) are left to the collision step. Takes the
+  /// loads of all. `held` must outlive it.
   StageContacts(HeldContacts& held, const Positions& x, std::span<const double> inverse_mass,
                 std::span<const double> resistance_kg, const StageSpan& span);
 
@@ -42,11 +43,14 @@ class StageContacts : public Coupling {
   void add_diagonal(Eigen::Index vertex, SymmetricBlock& block) const override;
   /// What `step` changes in each contact's potential, one number each.
   void changes(const Positions& step, double share, std::vector<double>& terms) const;
-  [[nodiscard]] std::size_t size() const { return terms_.size(); }
 
   /// Takes what was found for what the contacts bear. The largest change of a force over the largest force, both in
   /// what they would move the pair alone by: weights on light cloth count as much as blows on heavy cloth.
   double update();
+  /// After the forces were found: contacts at the border of the static cone slide from now on. Whether that changes
+  /// what they bear. Asked before, forces that are not found yet, or cones that open with them, had cloth slide that
+  /// sticks.
+  bool let_slide();
   /// Tells the contacts what they bore.
   void finish();
 
@@ -59,7 +63,7 @@ class StageContacts : public Coupling {
     Vec3 start = Vec3::Zero();  ///< gap and slip where no cloth moves, m
     double stiffness_kg = 0, mobility_1_kg = 0;
     double friction_static = 0, friction_kinetic = 0;
-    bool slides = false;
+    bool is_at_border = false, slides = false;
     Vec3 borne = Vec3::Zero();  ///< p and q, kg m
     // At the displacements looked at: what gap and slip ask for, what they get, and its derivative.
     Vec3 asked = Vec3::Zero(), force = Vec3::Zero();
