@@ -5,18 +5,12 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/cross_matrix.h"
 #include "sim/power_of_two.h"
 #include "sim/pseudo_inverse.h"
 
 namespace selvage::sim {
 namespace {
-
-/// m x = v x x.
-Eigen::Matrix3d cross_matrix(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// The rigid rotations of a closed pair's four vertices.
 void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipGeometry& slip) {

@@ -28,7 +28,8 @@ struct ImplicitDynamicsOptions {
 /// A step with contacts is one of backward Euler, x1 = x + h v1, v1 = v + h a(x1, v1), with the contacts in its
 /// potential (stage_contacts.h): of the two stages the second would throw back at (1 - g) / g = 2.4 times its speed
 /// what meets something in between. It is of first order. What contacts bear is found to a thousandth of the largest of
-/// it, or as far as a dozen solutions find it, and begins with their loads of the last step.
+/// it, or as far as some dozen solutions find it, more where contacts begin to slide; it begins with their loads of the
+/// last step.
 class ImplicitDynamics : public Dynamics {
  public:
   ImplicitDynamics(const SpringSystem& springs, const ImplicitDynamicsOptions& options);  ///< springs outlive it

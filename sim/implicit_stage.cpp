@@ -16,8 +16,8 @@ constexpr std::int32_t kMaxHalvings = 30;
 // A sum of terms of both signs may be off by this part of their magnitudes; the terms themselves hold a few roundings.
 constexpr double kSumRounding = 0x1p-46;
 // Newton's linear equations are solved to this part of their right-hand side (section 7.1 of Nocedal and Wright). With
-// contacts, of which others press in the next round, a tenth took 0.7 times the iterations of a hundredth; without them
-// 1.04 to 1.2 times the time.
+// contacts, of which others press in the next round, a tenth took 0.6 to 1.1 times the iterations of a hundredth;
+// without them 1.04 to 1.2 times the time.
 constexpr double kForcing = 1e-2, kForcingInContact = 1e-1;
 constexpr std::int32_t kMaxCgIterations = 1000;
 // Forces are sums of a few dozen roundings of the positions.

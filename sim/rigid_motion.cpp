@@ -8,18 +8,12 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "sim/cross_matrix.h"
 #include "sim/power_of_two.h"
 #include "sim/pseudo_inverse.h"
 
 namespace selvage::sim {
 namespace {
-
-/// The matrix of v -> a x v.
-Eigen::Matrix3d cross_matrix(const Vec3& a) {
-  Eigen::Matrix3d result;
-  result << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return result;
-}
 
 double largest_coordinate(std::span<const Vec3> vectors) {
   double largest = 0;

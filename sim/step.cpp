@@ -6,9 +6,9 @@
 #include "kernel/assert.h"
 #include "sim/catch_up.h"
 #include "sim/central_differences.h"
-#include "sim/contact_strain.h"
 #include "sim/held_contacts.h"
 #include "sim/implicit_dynamics.h"
+#include "sim/spring_strain.h"
 
 namespace selvage::sim {
 namespace {

@@ -28,7 +28,7 @@ struct StepResult {
   CollisionStepReport report;
   DynamicsReport dynamics;  ///< of the step that was taken
   double dt_s = 0;
-  double largest_strain = 0;  ///< of structural and shear springs, at the end of the step (contact_strain.h)
+  double largest_strain = 0;  ///< of structural and shear springs, at the end of the step (spring_strain.h)
   /// Tries thrown away because repulsions were not enough, or the equations of implicit dynamics were not solved.
   std::int32_t halvings = 0;
   StepPhases phases;  ///< those tries included

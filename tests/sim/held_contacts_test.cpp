@@ -44,13 +44,7 @@ struct OneContact {
   OneContact(const RandomPair& pair, Eigen::Index cloth_vertices) : V_t0(4, 3), cloth_count(cloth_vertices) {
     for (Eigen::Index i = 0; i < 4; ++i) V_t0.row(i) = pair.x_t0[static_cast<std::size_t>(i)];
     V_t1 = V_t0;
-    contact.kind = pair.interaction.weights[1] > 0 ? PairKind::kEe : PairKind::kVf;
-    contact.interaction = pair.interaction;
-    contact.x_t0 = pair.x_t0;
-    contact.normal = relative(pair.interaction, pair.x_t0).normalized();
-    contact.distance = relative(pair.interaction, pair.x_t0).norm();
-    contact.mobility = effective_mobility(pair.interaction);
-    contact.properties.thickness_m = kThickness;
+    contact = contact_of(pair, kThickness);
     x.copy(V_t0.topRows(cloth_count));
     v.resize(cloth_count);
     for (Eigen::Index i = 0; i < cloth_count; ++i) v.row(i) = pair.displacement[static_cast<std::size_t>(i)];

@@ -86,10 +86,14 @@ TEST(ImplicitStage, SaysThatItDidNotConverge) {
   StepResult step;
   step.dynamics.unconverged = 2;
   step.dynamics.residual_m = 3e-5;
+  step.largest_strain = 0.4;
   RunTotals totals;
   totals.add(step);
   EXPECT_NE(totals.shortfalls().find("2 implicit solves did not converge"), std::string::npos);
   EXPECT_EQ(totals.largest_residual_m, 3e-5);
+  step.largest_strain = 0.3;
+  totals.add(step);
+  EXPECT_EQ(totals.largest_strain, 0.4);
 }
 
 // What the stiffest springs round away must hide neither that cloth falls, nor that nothing was solved.

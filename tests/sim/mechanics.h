@@ -8,6 +8,7 @@
 #include <rapidcheck.h>
 
 #include "sim/interaction.h"
+#include "sim/repulsion_contact.h"
 
 namespace selvage::sim::testing {
 
@@ -79,6 +80,19 @@ inline RandomPair random_contact(double gap) {
   const std::size_t first = pair.interaction.weights[1] > 0 ? 2 : 1;  // vertices of the first feature
   for (std::size_t i = 0; i < first; ++i) pair.x_t0[i] -= miss - gap * Vec3::UnitZ();
   return pair;
+}
+
+/// The contact of a pair where it is, along the line between its points.
+inline RepulsionContact contact_of(const RandomPair& pair, double thickness_m) {
+  RepulsionContact contact;
+  contact.kind = pair.interaction.weights[1] > 0 ? PairKind::kEe : PairKind::kVf;
+  contact.interaction = pair.interaction;
+  contact.x_t0 = pair.x_t0;
+  contact.normal = relative(pair.interaction, pair.x_t0).normalized();
+  contact.distance = relative(pair.interaction, pair.x_t0).norm();
+  contact.mobility = effective_mobility(pair.interaction);
+  contact.properties.thickness_m = thickness_m;
+  return contact;
 }
 
 inline PairVectors sum(const PairVectors& a, const PairVectors& b, double factor = 1) {

@@ -39,14 +39,7 @@ struct OneContact {
     return result;
   }
   static RepulsionContact contact(const RandomPair& pair, double friction) {
-    RepulsionContact result;
-    result.kind = pair.interaction.weights[1] > 0 ? PairKind::kEe : PairKind::kVf;
-    result.interaction = pair.interaction;
-    result.x_t0 = pair.x_t0;
-    result.normal = relative(pair.interaction, pair.x_t0).normalized();
-    result.distance = relative(pair.interaction, pair.x_t0).norm();
-    result.mobility = effective_mobility(pair.interaction);
-    result.properties.thickness_m = kThickness;
+    RepulsionContact result = contact_of(pair, kThickness);
     result.properties.friction_static = result.properties.friction_kinetic = friction;
     return result;
   }
@@ -177,6 +170,25 @@ TEST(StageContacts, WhatWasNotSolvedGoesNoFartherThanItDid) {
   EXPECT_EQ(report.unconverged, 1);
   EXPECT_TRUE(motion.v.allFinite());
   EXPECT_EQ(motion.v, Positions((motion.x - one.x) / kStep));
+  EXPECT_TRUE(one.held.loads().empty());
+}
+
+/// The only corner that can move has a small weight: left to the collision step, and its load does not wait for later.
+TEST(StageContacts, AContactOfALimitedLeverKeepsNoLoad) {
+  for (const double weight : {0.5, 0.01}) {
+    RandomPair pair;
+    pair.inverse_mass = {0, 1, 0, 0};
+    pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, weight, 0.5, 0.5 - weight}, pair.inverse_mass);
+    pair.x_t0 = {Vec3::Zero(), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
+    pair.x_t0[0] = relative(pair.interaction, pair.x_t0) * -1 + 0.2 * Vec3::UnitZ();
+    const bool has_term = lever_share(pair.interaction) == 1;
+    EXPECT_EQ(has_term, weight == 0.5);
+    OneContact one(pair, 4, 0.5, 7);
+    (void)one.forces(Positions::Zero(4, 3));
+    (void)one.stage.update();
+    one.stage.finish();
+    EXPECT_EQ(one.held.loads().size(), has_term ? 1U : 0U);
+  }
 }
 
 }  // namespace selvage::sim::testing

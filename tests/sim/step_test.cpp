@@ -294,12 +294,15 @@ sheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}
                                     "edge-on.toml"));
   double largest = 0;
   while (simulation.clock().state().frame < 15) {
-    simulation.step();
+    const StepResult step = simulation.step();
+    double now = 0;
     for (const Spring& spring : simulation.world().springs.springs()) {
       if (spring.kind == SpringKind::kBending) continue;
       const double length_m = (simulation.x().row(spring.a) - simulation.x().row(spring.b)).norm();
-      largest = std::max(largest, std::abs(length_m / spring.rest_length_m - 1));
+      now = std::max(now, std::abs(length_m / spring.rest_length_m - 1));
     }
+    EXPECT_EQ(step.largest_strain, now);
+    largest = std::max(largest, now);
   }
   EXPECT_LT(largest, 0.3);
 }

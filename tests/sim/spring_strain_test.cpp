@@ -1,10 +1,10 @@
-#include "sim/contact_strain.h"
+#include "sim/spring_strain.h"
 
 #include <gtest/gtest.h>
 
 namespace selvage::sim {
 
-TEST(ContactStrain, CountsSpringsThatEndBeyondTheLimitAndGrewThere) {
+TEST(SpringStrain, CountsSpringsThatEndBeyondTheLimitAndGrewThere) {
   // Along x, rest length 1: kept, pressed, pulled, strained before, and a bending spring.
   const SpringSystem springs({{0, 1, SpringKind::kStructural, 1, 10, 0},
                               {2, 3, SpringKind::kStructural, 1, 10, 0},
@@ -31,7 +31,7 @@ TEST(ContactStrain, CountsSpringsThatEndBeyondTheLimitAndGrewThere) {
   EXPECT_EQ(overstrained(0.05, candidate), 4) << "beyond three limits that does not matter";
 }
 
-TEST(ContactStrain, TheLargestIsOfStructuralAndShearSpringsStretchedOrPressed) {
+TEST(SpringStrain, TheLargestIsOfStructuralAndShearSpringsStretchedOrPressed) {
   Positions x = Positions::Zero(6, 3);
   x(1, 0) = 2.2;  // of 2
   x(3, 1) = 0.8;  // of 1

@@ -1,4 +1,4 @@
-#include "sim/contact_strain.h"
+#include "sim/spring_strain.h"
 
 #include <algorithm>
 #include <cmath>
