@@ -11,7 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 8\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 9\n";
 
 std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
@@ -32,7 +32,8 @@ void put(std::string& bytes, const Positions& x) {
   bytes += bytes_of(x);
 }
 
-static_assert(sizeof(ContactLoad) == 2 * sizeof(std::int32_t) + sizeof(double), "padding would be written as it is");
+static_assert(sizeof(ContactLoad) == 2 * sizeof(std::int32_t) + 4 * sizeof(double),
+              "padding would be written as it is");
 
 void put(std::string& bytes, const std::vector<ContactLoad>& loads) {
   put(bytes, static_cast<std::int64_t>(loads.size()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -11,6 +12,9 @@
 
 namespace selvage::sim {
 namespace {
+
+/// Share by which rounding may raise an energy.
+constexpr double kRounding = 0x1p-40;
 
 /// The rigid rotations of a closed pair's four vertices.
 void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipGeometry& slip) {
@@ -71,6 +75,26 @@ Vec3 slip_of(const Interaction& interaction, const SlipGeometry& rotation, const
   return relative(interaction, displacement) - (rotation.inverse_inertia * angular_momentum).cross(rotation.r);
 }
 
+/// Changes of the displacements by an impulse on the slip. In real numbers their energy() is no more than the effective
+/// mobility times the squared impulse, which is without the rotation.
+PairVectors changes_by(const Interaction& interaction, const SlipGeometry& slip, const Vec3& impulse) {
+  const Vec3 rotation_back = slip.inverse_inertia * slip.r.cross(impulse);
+  PairVectors changes;
+  for (std::size_t i = 0; i < 4; ++i) {
+    changes[i] = interaction.mobility[i] * interaction.weights[i] * impulse - rotation_back.cross(slip.y[i]);
+  }
+  return changes;
+}
+
+/// Twice that of motion.
+double energy(const Interaction& interaction, const PairVectors& displacement) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (interaction.mobility[i] > 0) sum += displacement[i].squaredNorm() / interaction.mobility[i];
+  }
+  return sum;
+}
+
 /// The largest share in [0, 1] of `step` that leads from `start` to no farther than `radius` from the origin; 0 where
 /// `start` is farther already.
 double share_within(const Vec3& start, const Vec3& step, double radius) {
@@ -96,7 +120,6 @@ double normalize(PairVectors& displacement) {
 /// closed pair can, where its masses differ by more than their bits: with masses of 2^-40 to 2^40 and a friction of
 /// 10^6 cloth went 10^6 m where 0.3 were wanted. REQUIRES a closed pair: in it a motion that all share does not count.
 bool adds_energy(const Interaction& interaction, const PairVectors& displacement, const PairVectors& change) {
-  constexpr double kRounding = 0x1p-40;
   // Beside the heaviest of n <= 4 vertices the energy is at most n + 1 times that about their centre of mass, of which
   // the heaviest alone has 1 / n of what the two frames differ by. Beside a light one it has no bound.
   std::size_t heaviest = 0;
@@ -142,15 +165,34 @@ std::optional<PairVectors> friction_change(const Interaction& interaction, const
   const double share = sticks ? 1.0 : share_within(so_far, impulse_to_stop, friction.on_kinetic * normal_impulse);
   if (!(share > 0)) return std::nullopt;
   const Vec3 impulse = lever_share(interaction) * share * impulse_to_stop;
-  const Vec3 rotation_back = slip.inverse_inertia * slip.r.cross(impulse);
-  PairVectors change;
-  for (std::size_t i = 0; i < 4; ++i) {
-    change[i] = interaction.mobility[i] * interaction.weights[i] * impulse - rotation_back.cross(slip.y[i]);
-  }
+  PairVectors change = changes_by(interaction, slip, impulse);
   if (is_closed(interaction) && adds_energy(interaction, scaled, change)) return std::nullopt;
   load.rubbed += scale * impulse;
   for (Vec3& part : change) part *= scale;
   return change;
+}
+
+PairVectors begin_friction(const Interaction& interaction, const PairVectors& x_t0, const Vec3& normal,
+                           const FrictionCoefficients& friction, const Vec3& friction_m, FrictionLoad& load) {
+  const double mobility = effective_mobility(interaction);
+  // Of what pressed, so that nothing leaves the range of doubles.
+  Vec3 share = (friction_m - friction_m.dot(normal) * normal) / load.pressed;
+  const double norm = share.norm();
+  if (norm > friction.on_kinetic) share *= friction.on_kinetic / norm;
+  if (!(share.norm() > 0)) return zero_vectors();
+  const SlipGeometry slip = make_slip_geometry(interaction, x_t0, normal, mobility);
+  const Vec3 impulse = share / mobility;
+  PairVectors changes = changes_by(interaction, slip, impulse);
+  if (!(energy(interaction, changes) <= (1 + kRounding) * mobility * impulse.squaredNorm())) return zero_vectors();
+  load.slip = slip;
+  load.rubbed = load.pressed * impulse;
+  for (Vec3& change : changes) change *= load.pressed;
+  return changes;
+}
+
+PairVectors take_back(const Interaction& interaction, FrictionLoad& load) {
+  if (!load.slip) return zero_vectors();
+  return changes_by(interaction, *load.slip, -std::exchange(load.rubbed, Vec3::Zero()));
 }
 
 }  // namespace selvage::sim

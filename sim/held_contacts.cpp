@@ -27,9 +27,13 @@ constexpr double kNearer = 1 - 1e-6;
 
 constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
 
-void move(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
+void move_vertex(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
   step.x_t1.row(vertex) += change.transpose();
   step.v.row(vertex) += change.transpose() / step.h;
+}
+
+FrictionCoefficients friction_of(const RepulsionContact& contact) {
+  return {contact.properties.friction_static, contact.properties.friction_kinetic};
 }
 
 std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.vertex, load.face}; }
@@ -45,7 +49,10 @@ HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const 
   SELVAGE_ASSERT(vf_count_ + ee_.order().size() == lines_.size());
   parallel_each(static_cast<Eigen::Index>(vf_count_), [&](Eigen::Index at) {
     Line& line = lines_[static_cast<std::size_t>(at)];
-    line.load_m_s2 = load_of(line.contact, loads);
+    if (const ContactLoad* const load = load_of(line.contact, loads)) {
+      line.load_m_s2 = load->acceleration_m_s2;
+      line.friction_m_s2 = Vec3(load->friction_m_s2.data());
+    }
   });
 }
 
@@ -80,12 +87,12 @@ void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>&
 /// That of its pair; else that of the vertex on a face beside. Over an edge or a corner of the surface a vertex lies on
 /// any of the faces there, and another may have been found than the one that bore it. Several may begin with one load:
 /// what is too much they take back.
-double HeldContacts::load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const {
+const ContactLoad* HeldContacts::load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const {
   const auto begin = std::ranges::lower_bound(loads, contact.first, {}, &ContactLoad::vertex);
   const auto end = std::ranges::upper_bound(loads, contact.first, {}, &ContactLoad::vertex);
   auto load = std::find_if(begin, end, [&](const ContactLoad& l) { return l.face == contact.second; });
   if (load == end) load = std::find_if(begin, end, [&](const ContactLoad& l) { return touch(l.face, contact.second); });
-  return load == end ? 0 : load->acceleration_m_s2;
+  return load == end ? nullptr : &*load;
 }
 
 bool HeldContacts::touch(FaceId a, FaceId b) const {
@@ -118,7 +125,7 @@ void HeldContacts::set(Line& line) const {
 }
 
 void HeldContacts::hold(const MidstepMotion& step) {
-  for (std::size_t at = vf_count_; at < lines_.size(); ++at) lines_[at].pushed = 0;
+  for (std::size_t at = vf_count_; at < lines_.size(); ++at) lines_[at].did = {};
   vf_.each(false, [&](std::size_t i, const Reach& reach) { return bear(lines_[i], reach, step); });
   for (int sweep = 1; sweep <= sweeps_; ++sweep) {
     const bool is_last = sweep == sweeps_;
@@ -133,45 +140,60 @@ void HeldContacts::hold(const MidstepMotion& step) {
 
 /// What it bore in the last step, before anything else, where it is now.
 bool HeldContacts::bear(Line& line, const Reach& reach, const MidstepMotion& step) const {
-  line.pushed = 0;
+  line.did = {};
   if (!(line.load_m_s2 > 0)) return true;
   const Answer acts = look_again(line, reach, step);
   if (acts == Answer::kOutOfReach) return false;
   if (acts == Answer::kNo) line.load_m_s2 = 0;
-  if (line.lever_share == 1) push(line, line.load_m_s2 * step.h * step.h, step);  // else what is missing, once
+  if (!(line.load_m_s2 > 0 && line.lever_share == 1)) return true;  // else what is missing, once
+  push(line, line.load_m_s2 * step.h * step.h, step);
+  const RepulsionContact& contact = line.contact;
+  const Vec3 friction_m = step.h * step.h * line.friction_m_s2;
+  move(line,
+       begin_friction(contact.interaction, contact.x_t0, contact.normal, friction_of(contact), friction_m, line.did),
+       step);
   return true;
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
 bool HeldContacts::hold(Line& line, const Reach& reach, bool is_last, const MidstepMotion& step) const {
   double change = excess(line, step);
-  if (!(line.load_m_s2 > 0 || line.pushed > 0)) {  // else it has been looked at in this step
+  if (!(line.load_m_s2 > 0 || line.did.pressed > 0)) {  // else it has been looked at in this step
     if (!(change > 0)) return true;
     const Answer acts = look_again(line, reach, step);
     if (acts == Answer::kOutOfReach) return false;
     if (acts == Answer::kNo) return true;
+    line.did = {};
     change = excess(line, step);
   }
-  if (is_last || line.lever_share == 1) {  // else once, or the limit of its lever would not hold
-    push(line, change > 0 ? (is_last ? 1 : kOverRelaxation) * change : std::max(change, -line.pushed), step);
-  }
-  if (is_last && line.pushed > 0) {
-    line.repelled = true;
+  if (!is_last && line.lever_share < 1) return true;  // once, or the limit of its lever would not hold
+  push(line, change > 0 ? (is_last ? 1 : kOverRelaxation) * change : std::max(change, -line.did.pressed), step);
+  if (is_last) {
     rub(line, step);
+    line.repelled = line.repelled || line.did.pressed > 0;
+    line.rubbed = line.rubbed || line.did.rubbed != Vec3::Zero();
   }
   return true;
 }
 
 void HeldContacts::learn(Line& line, const MidstepMotion& step) {
-  const double now_m_s2 = std::min(line.pushed / (step.h * step.h), std::numeric_limits<double>::max());
-  const bool bears = line.pushed > 0 && line.lever_share == 1;
-  line.load_m_s2 = bears ? line.load_m_s2 + kLearning * (now_m_s2 - line.load_m_s2) : 0;
+  if (!(line.did.pressed > 0 && line.lever_share == 1)) {
+    line.load_m_s2 = 0;
+    line.friction_m_s2.setZero();
+    return;
+  }
+  const double squared_s2 = step.h * step.h;
+  const double now_m_s2 = std::min(line.did.pressed / squared_s2, std::numeric_limits<double>::max());
+  Vec3 friction_m_s2 = effective_mobility(line.contact.interaction) / squared_s2 * line.did.rubbed;
+  if (!friction_m_s2.allFinite()) friction_m_s2.setZero();
+  line.load_m_s2 += kLearning * (now_m_s2 - line.load_m_s2);
+  line.friction_m_s2 += kLearning * (friction_m_s2 - line.friction_m_s2);
 }
 
 void HeldContacts::push(Line& line, double change, const MidstepMotion& step) {
-  line.pushed += line.lever_share * change;
+  line.did.pressed += line.lever_share * change;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (line.shares[i] != 0) move(line.vertices[i], change * line.shares[i] * line.contact.normal, step);
+    if (line.shares[i] != 0) move_vertex(line.vertices[i], change * line.shares[i] * line.contact.normal, step);
   }
 }
 
@@ -182,7 +204,7 @@ double HeldContacts::excess(const Line& line, const MidstepMotion& step) const {
   double distance = line.scripted_t0 + step.share * scripted;
   for (std::size_t i = 0; i < 4; ++i) distance += line.weights[i] * step.x_t1.row(line.vertices[i]).dot(normal);
   const double overlap = line.contact.properties.thickness_m - distance;
-  if (line.pushed == 0 && !(overlap > 0)) return overlap;
+  if (line.did.pressed == 0 && !(overlap > 0)) return overlap;
   double approach = -step.h / dt_s_ * scripted;
   for (std::size_t i = 0; i < 4; ++i) approach -= step.h * line.weights[i] * step.v.row(line.vertices[i]).dot(normal);
   return std::min(overlap, approach);
@@ -243,17 +265,24 @@ bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& 
   return std::ranges::all_of(face, [&](VertexId v) { return !is_cloth(v) || reach.has(v); });
 }
 
+/// What it rubbed before in this step is found anew: its direction is that of the slip without it, its cone that of
+/// what presses now.
 void HeldContacts::rub(Line& line, const MidstepMotion& step) const {
+  if (!(line.did.pressed > 0) && line.did.rubbed == Vec3::Zero()) return;
   const RepulsionContact& contact = line.contact;
-  const Interaction& interaction = contact.interaction;
-  FrictionLoad load{line.pushed};
-  const FrictionCoefficients friction{contact.properties.friction_static, contact.properties.friction_kinetic};
-  const auto change =
-      friction_change(interaction, contact.x_t0, displacements(line, step), contact.normal, friction, load);
-  if (!change) return;
-  line.rubbed = true;
+  PairVectors change = take_back(contact.interaction, line.did);
+  PairVectors displacement = displacements(line, step);
+  for (std::size_t i = 0; i < 4; ++i) displacement[i] += change[i];
+  const auto friction =
+      friction_change(contact.interaction, contact.x_t0, displacement, contact.normal, friction_of(contact), line.did);
+  for (std::size_t i = 0; friction && i < 4; ++i) change[i] += (*friction)[i];
+  move(line, change, step);
+}
+
+void HeldContacts::move(const Line& line, const PairVectors& changes, const MidstepMotion& step) const {
   for (std::size_t i = 0; i < 4; ++i) {
-    if (is_cloth(interaction.vertices[i])) move(interaction.vertices[i], (*change)[i], step);
+    const VertexId vertex = line.contact.interaction.vertices[i];
+    if (is_cloth(vertex)) move_vertex(vertex, changes[i], step);
   }
 }
 
@@ -311,7 +340,10 @@ std::vector<ContactLoad> HeldContacts::loads() const {
   std::vector<ContactLoad> result;
   for (std::size_t at = 0; at < vf_count_; ++at) {
     const Line& line = lines_[at];
-    if (line.load_m_s2 > 0) result.push_back({line.contact.first, line.contact.second, line.load_m_s2});
+    if (!(line.load_m_s2 > 0)) continue;
+    const Vec3& friction = line.friction_m_s2;
+    result.push_back(
+        {line.contact.first, line.contact.second, line.load_m_s2, {friction.x(), friction.y(), friction.z()}});
   }
   // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
   std::ranges::stable_sort(result, {}, pair_of);

@@ -43,9 +43,10 @@ class HeldContacts {
   HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
                const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
-  /// The loads, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). A contact alone
-  /// ends no nearer than its thickness, or than it was before the step, after any number of sweeps, and adds no
-  /// energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far. Where its lever is limited
+  /// The loads with their friction, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3).
+  /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
+  /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
+  /// friction that it began with. Where its lever is limited
   /// (interaction.h) it is pushed once, as far as that lets it. Of many something is left (tests/sim/physics_test.cpp
   /// asks their energy). They keep linear momentum. Every contact that presses is first looked at where it is now:
   /// held where they were at the start of the collision step, cloth that a ball pulls along at 3.6 m/s gained 8 % of
@@ -91,7 +92,8 @@ class HeldContacts {
     double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
     double lever_share = 1;                   ///< of a change of the distance that is done
     double load_m_s2 = 0;                     ///< as in ContactLoad; hold() leaves 0 for edges
-    double pushed = 0;                        ///< in this step of the dynamics, m, >= 0
+    Vec3 friction_m_s2 = Vec3::Zero();        ///< as in ContactLoad
+    FrictionLoad did{};                       ///< in this step of the dynamics
     bool repelled = false, rubbed = false;
   };
 
@@ -100,7 +102,8 @@ class HeldContacts {
 
   [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
   void set_lines(PairKind kind, const std::vector<RepulsionContact>& contacts);
-  [[nodiscard]] double load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const;
+  [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact,
+                                           const std::vector<ContactLoad>& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
   void set(Line& line) const;
   /// False where they need what is not in reach: nothing has been done then.
@@ -113,6 +116,7 @@ class HeldContacts {
   [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
                                  const MidstepMotion& step) const;
   void rub(Line& line, const MidstepMotion& step) const;
+  void move(const Line& line, const PairVectors& changes, const MidstepMotion& step) const;
   /// Of the contact's vertices at the start of the step, and what it moves them by.
   [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const;
   [[nodiscard]] PairVectors displacements(const Line& line, const MidstepMotion& step) const;

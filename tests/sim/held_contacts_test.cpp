@@ -51,12 +51,13 @@ struct OneContact {
   }
 
   /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with.
-  RepulsionCount step(double load_m_s2 = 0, int sweeps = 1) {
+  RepulsionCount step(double load_m_s2 = 0, int sweeps = 1, const Vec3& friction_m_s2 = Vec3::Zero()) {
     for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kStep * v.row(i);
     const std::vector<RepulsionContact> contacts{contact};
     const Ground ground = one_face();
-    HeldContacts held(contacts, {{contact.first, contact.second, load_m_s2}}, ground.surface(cloth_count), V_t0, V_t1,
-                      kStep, sweeps);
+    const ContactLoad load{
+        contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
+    HeldContacts held(contacts, {load}, ground.surface(cloth_count), V_t0, V_t1, kStep, sweeps);
     held.hold({kStep, 1, x, v});
     loads = held.loads();
     return held.count();
@@ -76,6 +77,8 @@ struct OneContact {
     return relative(contact.interaction, at).dot(contact.normal);
   }
 };
+
+Vec3 friction_of(const ContactLoad& load) { return Vec3(load.friction_m_s2.data()); }
 
 /// One step of the dynamics in which the first vertex moves at v, m/s.
 void move_and_hold(OneContact& one, HeldContacts& held, const Eigen::RowVector3d& v, double share) {
@@ -193,7 +196,8 @@ TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadOrOverRelaxedSweepsWereTo
     OneContact with = without;
     without.step();
     const double load_m_s2 = number_between(0, 100);
-    with.step(load_m_s2, integer_in(1, 5));
+    const Vec3 friction_m_s2(number_between(-50, 50), number_between(-50, 50), number_between(-50, 50));
+    with.step(load_m_s2, integer_in(1, 5), friction_m_s2);
     RC_CLASSIFY(!without.loads.empty());
     for (Eigen::Index i = 0; i < 4; ++i) {
       RC_ASSERT((with.v.row(i) - without.v.row(i)).norm() <= 1e-11);
@@ -204,12 +208,14 @@ TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadOrOverRelaxedSweepsWereTo
     if (!without.loads.empty()) {
       const double learnt_m_s2 = without.loads[0].acceleration_m_s2 + load_m_s2 / 2;
       RC_ASSERT(std::abs(with.loads.at(0).acceleration_m_s2 - learnt_m_s2) <= 1e-10);
+      const Vec3 learnt = friction_of(without.loads[0]) + friction_m_s2 / 2;
+      RC_ASSERT((friction_of(with.loads[0]) - learnt).norm() <= 1e-9);
     }
   });
 }
 
 TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
-  OneContact one = vertex_over_body({0, 0, -1});
+  OneContact one = vertex_over_body({0.2, 0.3, -1});
   one.contact.first = 3;
   one.contact.second = 7;
   one.step();
@@ -217,6 +223,7 @@ TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
   EXPECT_EQ(one.loads[0].vertex, 3);
   EXPECT_EQ(one.loads[0].face, 7);
   EXPECT_NEAR(one.loads[0].acceleration_m_s2, 0.5 / kStep, 1e-12);  // half of the 1 m/s that it took away in a step
+  EXPECT_LT((friction_of(one.loads[0]) - Vec3(-0.1, -0.15, 0) / kStep).norm(), 1e-12);  // and of the slip
   OneContact leaves = vertex_over_body({0, 0, 1});
   leaves.step(5);
   EXPECT_TRUE(leaves.loads.empty());

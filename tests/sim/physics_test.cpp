@@ -410,6 +410,36 @@ TEST(Physics, SheetsThatLieOnOneAnotherKeepTheirDistances) {
   }
 }
 
+TEST(Physics, SheetsThatLieOnOneAnotherStayWhereTheyAre) {
+  // In the second second the uppermost moves by 0.28 mm with one sweep and by 0.05 with four, most of it down; by 5.2
+  // and 25, sideways, where contacts did not remember their friction.
+  constexpr int kLayers = 8, kVertices = 6 * 6;
+  for (const auto& [sweeps, most_m] : {std::pair(1, 4e-4), {4, 1e-4}}) {
+    for (const std::string friction : {"0.3", "1e6"}) {
+      Simulation simulation(
+          parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 2\n"
+                      "[collision]\nthickness_m = 0.004\nfriction_static = " +
+                          friction + "\ncontact_sweeps = " + std::to_string(sweeps) +
+                          "\n[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.3, height_m = 0.3}\ncopies = 8\n"
+                          "copy_offset_m = [0.003, 0.002, 0.004]\nposition_m = [0, 0, 0.004]\ndensity_kg_m2 = 0.2\n"
+                          "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\n"
+                          "damping_ratio = 0.1\n" +
+                          plane(),
+                      "rest.toml"));
+      const auto run_to = [&](double end_s) {
+        while (simulation.clock().time_s() < end_s - 1e-9) simulation.step();
+        return simulation.x();
+      };
+      const Positions settled = run_to(1), end = run_to(2);
+      for (int layer = 0; layer < kLayers; ++layer) {
+        const VertexId first = layer * kVertices, last = first + kVertices;
+        const Vec3 moved = mean(end, first, last) - mean(settled, first, last);
+        EXPECT_LT(moved.norm(), most_m) << "layer " << layer << ", " << sweeps << " sweeps, friction " << friction;
+      }
+    }
+  }
+}
+
 TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
   // Each vertex lies over a corner of six faces, any of which may be found to bear it. Of 40 mm 29.0 are left, and
   // 2 tries are thrown away; 25.5, and 7, where a load was lost with the face that bore it.
@@ -430,8 +460,8 @@ TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
 }
 
 TEST(Physics, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
-  // The least distance of neighbours, in the middle, where they lie on the ball: 2.5 mm of 3, 0.9 with one sweep; 1.4
-  // where contacts do not keep the order of their vertices (sim/contact_groups.cpp).
+  // The least distance of neighbours, in the middle, where they lie on the ball: 2.2 to 2.6 mm of 3, as rounding goes,
+  // 0.9 with one sweep; 1.4 where contacts do not keep the order of their vertices (sim/contact_groups.cpp).
   constexpr int kLayers = 16, kSide = 8;
   Simulation simulation(
       parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.3\n"
@@ -448,7 +478,7 @@ TEST(Physics, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
     return Vec3((mean(simulation.x(), row, row + 2) + mean(simulation.x(), row + kSide, row + kSide + 2)) / 2);
   };
   for (int layer = 1; layer < kLayers; ++layer) {
-    EXPECT_GT((middle_m(layer) - middle_m(layer - 1)).norm(), 0.0022) << layer;
+    EXPECT_GT((middle_m(layer) - middle_m(layer - 1)).norm(), 0.002) << layer;
   }
 }
 
