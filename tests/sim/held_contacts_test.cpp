@@ -1,5 +1,7 @@
 #include "sim/held_contacts.h"
 
+#include <cmath>
+
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 
@@ -227,6 +229,14 @@ TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
   OneContact leaves = vertex_over_body({0, 0, 1});
   leaves.step(5);
   EXPECT_TRUE(leaves.loads.empty());
+}
+
+TEST(HeldContacts, LearnNothingThatLeavesTheRangeOfDoubles) {
+  OneContact one = vertex_over_body({2.4e307, 0, -5e307});
+  one.step();
+  ASSERT_EQ(one.loads.size(), 1U);
+  EXPECT_TRUE(std::isfinite(one.loads[0].acceleration_m_s2));
+  EXPECT_TRUE(friction_of(one.loads[0]).allFinite());
 }
 
 TEST(HeldContacts, AColumnRestsOnItsLoads) {
