@@ -11,9 +11,10 @@
 namespace selvage::sim {
 namespace {
 
-/// Share of what a contact had to add that it remembers. A column of twelve that is put down in steps of 0.4 ms keeps
-/// every distance to a hundredth and comes to rest (tests/sim/held_contacts_test.cpp). Measured: with nothing it sinks,
-/// and with all of it velocities, which last by themselves, are learnt as forces, and it swings.
+/// Share of what a contact had to add that it remembers, of its friction as well. A column of twelve that is put down
+/// in steps of 0.4 ms keeps every distance to a hundredth and comes to rest (tests/sim/held_contacts_test.cpp).
+/// Measured: with nothing it sinks, and with all of it velocities, which last by themselves, are learnt as forces, and
+/// it swings.
 constexpr double kLearning = 0.5;
 
 /// Factor on what is missing, in all sweeps but the last (successive over-relaxation); what was too much is taken back
