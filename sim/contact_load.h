@@ -14,7 +14,7 @@ namespace selvage::sim {
 struct ContactLoad {
   std::int32_t vertex, face;
   double acceleration_m_s2;                  ///< of the pair's relative motion, > 0
-  std::array<double, 3> friction_m_s2 = {};  ///< of the same, across the contact's direction
+  std::array<double, 3> friction_m_s2 = {};  ///< of the same, across the contact's direction, if the pair did not turn
 };
 
 }  // namespace selvage::sim

@@ -177,8 +177,8 @@ PairVectors begin_friction(const Interaction& interaction, const PairVectors& x_
   const double mobility = effective_mobility(interaction);
   // Of what pressed, so that nothing leaves the range of doubles.
   Vec3 share = (friction_m - friction_m.dot(normal) * normal) / load.pressed;
-  const double norm = share.norm();
-  if (norm > friction.on_kinetic) share *= friction.on_kinetic / norm;
+  const double norm = share.stableNorm();
+  if (norm > friction.on_static) share *= friction.on_static / norm;
   if (!(share.norm() > 0)) return zero_vectors();
   const SlipGeometry slip = make_slip_geometry(interaction, x_t0, normal, mobility);
   const Vec3 impulse = share / mobility;

@@ -139,16 +139,19 @@ void HeldContacts::hold(const MidstepMotion& step) {
                 [&](Eigen::Index i) { learn(lines_[static_cast<std::size_t>(i)], step); });
 }
 
-/// What it bore in the last step, before anything else, where it is now.
+/// What it bore in the last step, before anything else, where it is now. Friction of a vertex that can move alone:
+/// where the edge of a box carried the cloth by a vertex of its own, that swung by 0.7 mm with it and rests without
+/// (docs/simulator-speed.md).
 bool HeldContacts::bear(Line& line, const Reach& reach, const MidstepMotion& step) const {
   line.did = {};
   if (!(line.load_m_s2 > 0)) return true;
   const Answer acts = look_again(line, reach, step);
   if (acts == Answer::kOutOfReach) return false;
   if (acts == Answer::kNo) line.load_m_s2 = 0;
-  if (!(line.load_m_s2 > 0 && line.lever_share == 1)) return true;  // else what is missing, once
+  if (acts == Answer::kNo || line.lever_share < 1) return true;  // a limited lever is pushed once, in the last sweep
   push(line, line.load_m_s2 * step.h * step.h, step);
   const RepulsionContact& contact = line.contact;
+  if (!(line.did.pressed > 0 && contact.interaction.mobility[0] > 0)) return true;
   const Vec3 friction_m = step.h * step.h * line.friction_m_s2;
   move(line,
        begin_friction(contact.interaction, contact.x_t0, contact.normal, friction_of(contact), friction_m, line.did),
@@ -164,7 +167,6 @@ bool HeldContacts::hold(Line& line, const Reach& reach, bool is_last, const Mids
     const Answer acts = look_again(line, reach, step);
     if (acts == Answer::kOutOfReach) return false;
     if (acts == Answer::kNo) return true;
-    line.did = {};
     change = excess(line, step);
   }
   if (!is_last && line.lever_share < 1) return true;  // once, or the limit of its lever would not hold
@@ -188,7 +190,7 @@ void HeldContacts::learn(Line& line, const MidstepMotion& step) {
   Vec3 friction_m_s2 = effective_mobility(line.contact.interaction) / squared_s2 * line.did.rubbed;
   if (!friction_m_s2.allFinite()) friction_m_s2.setZero();
   line.load_m_s2 += kLearning * (now_m_s2 - line.load_m_s2);
-  line.friction_m_s2 += kLearning * (friction_m_s2 - line.friction_m_s2);
+  line.friction_m_s2 = (1 - kLearning) * line.friction_m_s2 + kLearning * friction_m_s2;
 }
 
 void HeldContacts::push(Line& line, double change, const MidstepMotion& step) {
@@ -271,13 +273,16 @@ bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& 
 void HeldContacts::rub(Line& line, const MidstepMotion& step) const {
   if (!(line.did.pressed > 0) && line.did.rubbed == Vec3::Zero()) return;
   const RepulsionContact& contact = line.contact;
+  const bool had_begun = line.did.rubbed != Vec3::Zero();
   PairVectors change = take_back(contact.interaction, line.did);
   PairVectors displacement = displacements(line, step);
   for (std::size_t i = 0; i < 4; ++i) displacement[i] += change[i];
   const auto friction =
       friction_change(contact.interaction, contact.x_t0, displacement, contact.normal, friction_of(contact), line.did);
-  for (std::size_t i = 0; friction && i < 4; ++i) change[i] += (*friction)[i];
-  move(line, change, step);
+  if (friction) {
+    for (std::size_t i = 0; i < 4; ++i) change[i] += (*friction)[i];
+  }
+  if (friction || had_begun) move(line, change, step);
 }
 
 void HeldContacts::move(const Line& line, const PairVectors& changes, const MidstepMotion& step) const {
@@ -316,6 +321,7 @@ PairVectors HeldContacts::displacements(const Line& line, const MidstepMotion& s
 void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
   Line& line = lines_[i];
   line.load_m_s2 = load_m_s2;
+  line.friction_m_s2.setZero();
   line.repelled = line.repelled || load_m_s2 > 0;
   line.rubbed = line.rubbed || rubbed;
 }

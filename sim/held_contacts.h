@@ -46,21 +46,21 @@ class HeldContacts {
   /// The loads with their friction, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3).
   /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
   /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
-  /// friction that it began with. Where its lever is limited
-  /// (interaction.h) it is pushed once, as far as that lets it. Of many something is left (tests/sim/physics_test.cpp
-  /// asks their energy). They keep linear momentum. Every contact that presses is first looked at where it is now:
-  /// held where they were at the start of the collision step, cloth that a ball pulls along at 3.6 m/s gained 8 % of
-  /// kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. A vertex that has left
-  /// its face is held by the one on which it is now: held by the border that it left, cloth without friction that slid
-  /// at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second. In turn back and forth, but vertices
-  /// before edges always: in cloth at rest on a plane they leave nothing for the edges between them to press, while
-  /// edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever). Call for the steps of a
-  /// collision step in their order. O(contacts) a sweep, in parallel where contacts share no vertex (contact_groups.h):
-  /// same bits for any number of threads.
+  /// friction that it began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it.
+  /// Of many something is left (tests/sim/physics_test.cpp asks their energy). They keep linear momentum. Every contact
+  /// that presses is first looked at where it is now: held where they were at the start of the collision step, cloth
+  /// that a ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an
+  /// edge was held in the air. A vertex that has left its face is held by the one on which it is now: held by the
+  /// border that it left, cloth without friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s
+  /// in a second. In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave
+  /// nothing for the edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2
+  /// micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a sweep, in parallel
+  /// where contacts share no vertex (contact_groups.h): same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts, in any order, with the
-  /// loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it.
+  /// loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it. They do
+  /// not learn its friction.
   [[nodiscard]] std::size_t size() const { return lines_.size(); }
   [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return lines_[i].contact; }
   [[nodiscard]] double load_m_s2(std::size_t i) const { return lines_[i].load_m_s2; }

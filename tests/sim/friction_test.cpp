@@ -74,14 +74,14 @@ TEST(Friction, AllFrictionsOfAStepShareOneCone) {
   EXPECT_NEAR(slip_after(Vec3(0, 0.5, 0)), 0, 1e-15) << "a wider cone";
 }
 
-TEST(Friction, BeginsAcrossTheNormalWithinTheKineticCone) {
+TEST(Friction, BeginsAcrossTheNormalWithinTheStaticCone) {
   const VertexOnFloor scene;
   const auto moves = [&](const Vec3& friction_m) {
     FrictionLoad load{2};
     return begin_friction(scene.interaction, scene.x_t0, Vec3::UnitZ(), {0.5, 0.3}, friction_m, load)[0];
   };
   EXPECT_LT((moves(Vec3(0.3, -0.4, 7)) - Vec3(0.3, -0.4, 0)).norm(), 1e-15);
-  EXPECT_LT((moves(Vec3(3, -4, 7)) - 2 * 0.3 * Vec3(0.6, -0.8, 0)).norm(), 1e-15);
+  EXPECT_LT((moves(Vec3(3, -4, 7)) - 2 * 0.5 * Vec3(0.6, -0.8, 0)).norm(), 1e-15);
   EXPECT_EQ(moves(Vec3(0, 0, 7)), Vec3(0, 0, 0));
 }
 

@@ -415,7 +415,7 @@ TEST(Physics, SheetsThatLieOnOneAnotherStayWhereTheyAre) {
   // and 25, sideways, where contacts did not remember their friction.
   constexpr int kLayers = 8, kVertices = 6 * 6;
   for (const auto& [sweeps, most_m] : {std::pair(1, 4e-4), {4, 1e-4}}) {
-    for (const std::string friction : {"0.3", "1e6"}) {
+    for (const std::string friction : {"0.3\nfriction_kinetic = 0.1", "1e6"}) {
       Simulation simulation(
           parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 2\n"
                       "[collision]\nthickness_m = 0.004\nfriction_static = " +
