@@ -1,10 +1,12 @@
 // The system calls of the sequence writer, one after the other made to kill the process, to fail, or to write half. The
 // functions below take the place of libc's in this program alone.
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -23,6 +25,13 @@
 namespace {
 
 enum class Fault { kNone, kKill, kKillHalfway, kFailOnce, kFailForever, kFailHalfway, kShortWrites, kInterruptions };
+
+/// In the names of tests.
+void PrintTo(Fault fault, std::ostream* out) {
+  constexpr std::array kNames{"none",         "kill",         "kill halfway", "fail once",
+                              "fail forever", "fail halfway", "short writes", "interruptions"};
+  *out << kNames[static_cast<std::size_t>(fault)];
+}
 
 struct Plan {
   bool is_armed = false;

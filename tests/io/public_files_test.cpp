@@ -1,6 +1,7 @@
 // The public files, read whole: figures as published with them.
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +82,8 @@ struct PublicSequence {
   const char* file;
   std::size_t frames, vertices, faces, bodies;  // as numpy reads them
   Precision precision;
+  /// In the names of tests.
+  friend void PrintTo(const PublicSequence& sequence, std::ostream* out) { *out << sequence.file; }
 };
 
 class PublicSequences : public PublicFiles, public ::testing::WithParamInterface<PublicSequence> {};
