@@ -139,16 +139,20 @@ void HeldContacts::hold(const MidstepMotion& step) {
                 [&](Eigen::Index i) { learn(lines_[static_cast<std::size_t>(i)], step); });
 }
 
-/// What it bore in the last step, before anything else, where it is now. Friction of a vertex that can move alone:
-/// where the edge of a box carried the cloth by a vertex of its own, that swung by 0.7 mm with it and rests without
-/// (docs/simulator-speed.md).
+/// What it bore in the last step, before anything else, where it is now. With its friction where the vertex can move:
+/// cloth that the edge of a box carried by a vertex of its own swung about that by 0.7 mm for ever, and rests since the
+/// vertices of bodies begin without (docs/simulator-speed.md).
 bool HeldContacts::bear(Line& line, const Reach& reach, const MidstepMotion& step) const {
   line.did = {};
   if (!(line.load_m_s2 > 0)) return true;
   const Answer acts = look_again(line, reach, step);
   if (acts == Answer::kOutOfReach) return false;
-  if (acts == Answer::kNo) line.load_m_s2 = 0;
-  if (acts == Answer::kNo || line.lever_share < 1) return true;  // a limited lever is pushed once, in the last sweep
+  if (acts == Answer::kNo) {
+    line.load_m_s2 = 0;
+    line.friction_m_s2.setZero();
+    return true;
+  }
+  if (line.lever_share < 1) return true;  // pushed once, in the last sweep
   push(line, line.load_m_s2 * step.h * step.h, step);
   const RepulsionContact& contact = line.contact;
   if (!(line.did.pressed > 0 && contact.interaction.mobility[0] > 0)) return true;
