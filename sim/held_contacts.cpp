@@ -139,9 +139,7 @@ void HeldContacts::hold(const MidstepMotion& step) {
                 [&](Eigen::Index i) { learn(lines_[static_cast<std::size_t>(i)], step); });
 }
 
-/// What it bore in the last step, before anything else, where it is now. With its friction where the vertex can move:
-/// cloth that the edge of a box carried by a vertex of its own swung about that by 0.7 mm for ever, and rests since the
-/// vertices of bodies begin without (docs/simulator-speed.md).
+/// What it bore in the last step, before anything else, where it is now.
 bool HeldContacts::bear(Line& line, const Reach& reach, const MidstepMotion& step) const {
   line.did = {};
   if (!(line.load_m_s2 > 0)) return true;
@@ -155,7 +153,7 @@ bool HeldContacts::bear(Line& line, const Reach& reach, const MidstepMotion& ste
   if (line.lever_share < 1) return true;  // pushed once, in the last sweep
   push(line, line.load_m_s2 * step.h * step.h, step);
   const RepulsionContact& contact = line.contact;
-  if (!(line.did.pressed > 0 && contact.interaction.mobility[0] > 0)) return true;
+  if (!(line.did.pressed > 0)) return true;
   const Vec3 friction_m = step.h * step.h * line.friction_m_s2;
   move(line,
        begin_friction(contact.interaction, contact.x_t0, contact.normal, friction_of(contact), friction_m, line.did),
@@ -183,6 +181,8 @@ bool HeldContacts::hold(Line& line, const Reach& reach, bool is_last, const Mids
   return true;
 }
 
+/// Friction where the vertex can move: cloth that the edge of a box carried by a vertex of its own swung about that by
+/// 0.7 mm for ever, and rests since the vertices of bodies do not remember (docs/simulator-speed.md).
 void HeldContacts::learn(Line& line, const MidstepMotion& step) {
   if (!(line.did.pressed > 0 && line.lever_share == 1)) {
     line.load_m_s2 = 0;
@@ -192,7 +192,7 @@ void HeldContacts::learn(Line& line, const MidstepMotion& step) {
   const double squared_s2 = step.h * step.h;
   const double now_m_s2 = std::min(line.did.pressed / squared_s2, std::numeric_limits<double>::max());
   Vec3 friction_m_s2 = effective_mobility(line.contact.interaction) / squared_s2 * line.did.rubbed;
-  if (!friction_m_s2.allFinite()) friction_m_s2.setZero();
+  if (!friction_m_s2.allFinite() || line.contact.interaction.mobility[0] == 0) friction_m_s2.setZero();
   line.load_m_s2 += kLearning * (now_m_s2 - line.load_m_s2);
   line.friction_m_s2 = (1 - kLearning) * line.friction_m_s2 + kLearning * friction_m_s2;
 }

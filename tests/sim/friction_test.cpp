@@ -26,6 +26,15 @@ std::optional<PairVectors> first_friction(const Interaction& interaction, const 
   return friction_change(interaction, x_t0, displacement, Vec3::UnitZ(), friction, load);
 }
 
+/// They differ by more than doubles hold.
+RandomPair contact_of_extreme_masses() {
+  RandomPair pair = random_contact(0.1);
+  std::array<double, 4> inverse_mass{};
+  for (double& w : inverse_mass) w = std::exp2(number_between(-49, 49));
+  pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, pair.interaction.weights, inverse_mass);
+  return pair;
+}
+
 double slip(const PairVectors& displacement) { return displacement[0].head<2>().norm(); }
 
 }  // namespace
@@ -105,10 +114,7 @@ TEST(Friction, IsTakenBack) {
 TEST(Friction, BeginsWithNoMoreEnergyThanItsImpulseHasWhereMassesDifferByMoreThanDoublesHold) {
   int begun = 0;
   check_property(2000, 37, [&] {
-    RandomPair pair = random_contact(0.1);
-    std::array<double, 4> inverse_mass{};
-    for (double& w : inverse_mass) w = std::exp2(number_between(-49, 49));
-    pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, pair.interaction.weights, inverse_mass);
+    const RandomPair pair = contact_of_extreme_masses();
     FrictionLoad load{1};
     const PairVectors changes = begin_friction(pair.interaction, pair.x_t0, Vec3::UnitZ(), {1e6, 1e6},
                                                Vec3(number_between(-1, 1), number_between(-1, 1), 0), load);
@@ -141,10 +147,7 @@ TEST(Friction, KeepsBothMomentaAddsNoEnergyAndStaysInTheCone) {
 TEST(Friction, AddsNoEnergyWhereMassesDifferByMoreThanDoublesHold) {
   int rubbed = 0;
   check_property(2000, 35, [&] {
-    RandomPair pair = random_contact(0.1);
-    std::array<double, 4> inverse_mass{};
-    for (double& w : inverse_mass) w = std::exp2(number_between(-49, 49));
-    pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, pair.interaction.weights, inverse_mass);
+    const RandomPair pair = contact_of_extreme_masses();
     const double friction = std::pow(10, number_between(0, 12));
     const auto change = first_friction(pair.interaction, pair.x_t0, pair.displacement, 1, {friction, friction});
     if (!change) return;

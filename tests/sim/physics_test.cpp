@@ -11,10 +11,12 @@
 #include "sim/central_differences.h"
 #include "sim/scene_reader.h"
 #include "sim/step.h"
+#include "tests/sim/physics_support.h"
 
 namespace selvage {
 
 using namespace sim;
+using namespace sim::testing;
 
 namespace {
 
@@ -27,8 +29,6 @@ std::string sheet(const std::string& name, double z, double velocity_z, const st
          std::to_string(z) + "]\nrotation_deg = [0, 0, 10]\nvelocity_m_s = [0.2, 0, " + std::to_string(velocity_z) +
          "]\ndensity_kg_m2 = 0.2\nstretch_n_m = 20\nshear_n_m = 10\nbend_n_m = 0.2\ndamping_ratio = 0.2\n" + more;
 }
-
-std::string plane() { return "[[body]]\nname = \"plane\"\nsheet = {nx = 2, ny = 2, width_m = 4, height_m = 4}\n"; }
 
 /// A cloth of which every vertex is pinned.
 std::string held_sheet() {
@@ -44,10 +44,6 @@ std::string held_sheet() {
 std::string tilted_gravity(double slope) {
   const double down = kGravity / std::hypot(1, slope);
   return "gravity_m_s2 = [" + std::to_string(slope * down) + ", 0, " + std::to_string(-down) + "]\n";
-}
-
-Vec3 mean(const Positions& rows, VertexId begin, VertexId end) {
-  return rows.middleRows(begin, end - begin).colwise().mean().transpose();
 }
 
 struct Momenta {
@@ -358,11 +354,7 @@ TEST(Physics, SheetComesToRestAndStays) {
                         "max_step_s = 0.005\n[collision]\nthickness_m = 0.002\nfriction_static = 0.5\n" +
                         sheet("sheet", 0.01, 0) + plane(),
                     "rest.toml"));
-    const auto run_to = [&](double end_s) {
-      while (simulation.clock().time_s() < end_s - 1e-9) simulation.step();
-      return simulation.x();
-    };
-    const Positions early = run_to(1.4), late = run_to(1.6);
+    const Positions early = run_to(simulation, 1.4), late = run_to(simulation, 1.6);
     EXPECT_LT((late - early).topRows(49).rowwise().norm().maxCoeff() / 0.2, 1e-6) << "m/s, " << solver;
   }
 }
@@ -385,125 +377,6 @@ TEST(Physics, StiffClothGainsNoEnergyInContactInLongSteps) {
     EXPECT_LT(energy_j(simulation), 1.01 * start_j) << simulation.clock().time_s();
   }
   EXPECT_GT(contacts, 50);
-}
-
-TEST(Physics, SheetsThatLieOnOneAnotherKeepTheirDistances) {
-  // Of 30 mm 27.0 are left, which is lost where the stack is put down. Where loads ended with a collision step 19.1
-  // were, without loads 18.2, and 17 tries were thrown away; 23.1 where what rests was held from the second round on.
-  // The implicit solver keeps all of them.
-  constexpr int kLayers = 10, kVertices = 4 * 4;
-  for (const auto& [solver, kept] : {std::pair("explicit", 0.85), {"implicit", 0.99}}) {
-    Simulation simulation(
-        parse_scene("solver = \"" + std::string(solver) + "\"\n" +
-                        "gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.5\n"
-                        "max_step_s = 0.0166667\n[collision]\nthickness_m = 0.003\nfriction_static = 0.3\n"
-                        "[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.045, height_m = 0.045}\ncopies = 10\n"
-                        "copy_offset_m = [0, 0, 0.0032]\nposition_m = [0, 0, 0.0032]\ndensity_kg_m2 = 0.2\n"
-                        "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\ndamping_ratio = 0.1\n" +
-                        plane(),
-                    "stack.toml"));
-    std::int64_t halvings = 0;
-    while (simulation.clock().time_s() < 0.5 - 1e-9) halvings += simulation.step().halvings;
-    EXPECT_EQ(halvings, 0) << solver;
-    const double top = mean(simulation.x(), kVertices * (kLayers - 1), kVertices * kLayers).z();
-    EXPECT_GT(top, kept * kLayers * 0.003) << solver;
-  }
-}
-
-TEST(Physics, SheetsThatLieOnOneAnotherStayWhereTheyAre) {
-  // In the second second the uppermost moves by 0.28 mm with one sweep and by 0.05 with four, most of it down; by 5.2
-  // and 25, sideways, where contacts did not remember their friction.
-  constexpr int kLayers = 8, kVertices = 6 * 6;
-  for (const auto& [sweeps, most_m] : {std::pair(1, 4e-4), {4, 1e-4}}) {
-    for (const std::string friction : {"0.3\nfriction_kinetic = 0.1", "1e6"}) {
-      Simulation simulation(
-          parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 2\n"
-                      "[collision]\nthickness_m = 0.004\nfriction_static = " +
-                          friction + "\ncontact_sweeps = " + std::to_string(sweeps) +
-                          "\n[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.3, height_m = 0.3}\ncopies = 8\n"
-                          "copy_offset_m = [0.003, 0.002, 0.004]\nposition_m = [0, 0, 0.004]\ndensity_kg_m2 = 0.2\n"
-                          "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\n"
-                          "damping_ratio = 0.1\n" +
-                          plane(),
-                      "rest.toml"));
-      const auto run_to = [&](double end_s) {
-        while (simulation.clock().time_s() < end_s - 1e-9) simulation.step();
-        return simulation.x();
-      };
-      const Positions settled = run_to(1), end = run_to(2);
-      for (int layer = 0; layer < kLayers; ++layer) {
-        const VertexId first = layer * kVertices, last = first + kVertices;
-        const Vec3 moved = mean(end, first, last) - mean(settled, first, last);
-        EXPECT_LT(moved.norm(), most_m) << "layer " << layer << ", " << sweeps << " sweeps, friction " << friction;
-      }
-    }
-  }
-}
-
-TEST(Physics, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
-  // Each vertex lies over a corner of six faces, any of which may be found to bear it. Of 40 mm 29.0 are left, and
-  // 2 tries are thrown away; 25.5, and 7, where a load was lost with the face that bore it.
-  constexpr int kLayers = 10, kVertices = 6 * 6;
-  Simulation simulation(
-      parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 0.5\n"
-                  "[collision]\nthickness_m = 0.004\nfriction_static = 0.3\n"
-                  "[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.25, height_m = 0.25}\ncopies = 10\n"
-                  "copy_offset_m = [0, 0, 0.0041]\nposition_m = [0, 0, 0.0041]\ndensity_kg_m2 = 0.2\n"
-                  "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\nstabilize_n_m = 0.2\ndamping_ratio = 0.1\n"
-                  "[[body]]\nsheet = {nx = 11, ny = 11, width_m = 0.5, height_m = 0.5}\n",
-                  "aligned.toml"));
-  std::int64_t halvings = 0;
-  while (simulation.clock().time_s() < 0.5 - 1e-9) halvings += simulation.step().halvings;
-  EXPECT_LE(halvings, 2);
-  const double top = mean(simulation.x(), kVertices * (kLayers - 1), kVertices * kLayers).z();
-  EXPECT_GT(top, 0.68 * kLayers * 0.004);
-}
-
-TEST(Physics, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
-  // The least distance of neighbours, in the middle, where they lie on the ball: 2.2 to 2.6 mm of 3, as rounding goes,
-  // 0.9 with one sweep; 1.4 where contacts do not keep the order of their vertices (sim/contact_groups.cpp).
-  constexpr int kLayers = 16, kSide = 8;
-  Simulation simulation(
-      parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.3\n"
-                  "max_step_s = 0.0166667\n[collision]\nthickness_m = 0.003\nfriction_static = 0.3\n"
-                  "contact_sweeps = 4\n"
-                  "[[cloth]]\nsheet = {nx = 8, ny = 8, width_m = 0.1, height_m = 0.1}\ncopies = 16\n"
-                  "copy_offset_m = [0, 0, 0.008]\nposition_m = [0, 0, 0.035]\ndensity_kg_m2 = 0.2\n"
-                  "stretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\ndamping_ratio = 0.1\n"
-                  "[[body]]\nsphere = {radius_m = 0.02, subdivisions = 2}\n",
-                  "drop.toml"));
-  while (simulation.clock().time_s() < 0.3 - 1e-9) simulation.step();
-  const auto middle_m = [&](int layer) {
-    const VertexId row = kSide * (layer * kSide + kSide / 2 - 1) + kSide / 2 - 1;
-    return Vec3((mean(simulation.x(), row, row + 2) + mean(simulation.x(), row + kSide, row + kSide + 2)) / 2);
-  };
-  for (int layer = 1; layer < kLayers; ++layer) {
-    EXPECT_GT((middle_m(layer) - middle_m(layer - 1)).norm(), 0.002) << layer;
-  }
-}
-
-TEST(Physics, SheetOverTheEdgeOfABoxComesToRest) {
-  // Its weight and its friction hold it with room to spare: 43 % hangs, and an edge turned by 90 degrees divides the
-  // pull by exp(0.6 pi / 2) = 2.6. It moved by 6 mm in the fifth second, at steps of 1/60 s or a tenth of that, when
-  // contacts ended at the thickness (kContactReach). Of 12 x 12 vertices it moved by 0.3 mm where the box's vertices
-  // remembered the friction under them (HeldContacts::bear), and moves by 0.01.
-  for (const int side : {8, 12}) {
-    Simulation simulation(
-        parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 4\n[time]\nframes_per_s = 30\nduration_s = 5\n"
-                    "max_step_s = 0.0166667\n[collision]\nthickness_m = 0.004\nfriction_static = 0.6\n"
-                    "[[cloth]]\nsheet = {nx = " +
-                        std::to_string(side) + ", ny = " + std::to_string(side) +
-                        ", width_m = 0.6, height_m = 0.6}\nposition_m = [0.12, 0, 0.005]\n"
-                        "density_kg_m2 = 0.2\nstretch_n_m = 40\nshear_n_m = 12\nbend_n_m = 0.4\ndamping_ratio = 0.4\n"
-                        "[[body]]\nbox = {size_m = [1, 1, 0.4], cells = 4}\nposition_m = [-0.3, 0, -0.2]\n",
-                    "edge.toml"));
-    const auto run_to = [&](double end_s) {
-      while (simulation.clock().time_s() < end_s - 1e-9) simulation.step();
-      return simulation.x();
-    };
-    const Positions early = run_to(4), late = run_to(5);
-    EXPECT_LT((late - early).topRows(side * side).rowwise().norm().maxCoeff(), 2e-4) << "m";
-  }
 }
 
 }  // namespace selvage
