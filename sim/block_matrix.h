@@ -43,6 +43,12 @@ class BlockMatrix {
   /// Where row i's blocks stand in neighbour() and off_diagonal(): [begin(i), begin(i + 1)).
   [[nodiscard]] std::size_t begin(Eigen::Index i) const { return begin_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] VertexId neighbour(std::size_t slot) const { return neighbour_[slot]; }
+  /// The slot of a neighbour of row i. REQUIRES that it is one.
+  [[nodiscard]] std::size_t find(VertexId i, VertexId neighbour) const {
+    std::size_t slot = begin(i);
+    while (neighbour_[slot] != neighbour) ++slot;
+    return slot;
+  }
   SymmetricBlock& off_diagonal(std::size_t slot) { return off_diagonal_[slot]; }
   SymmetricBlock& diagonal(Eigen::Index i) { return diagonal_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const SymmetricBlock& diagonal(Eigen::Index i) const { return diagonal_[static_cast<std::size_t>(i)]; }

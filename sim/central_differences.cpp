@@ -85,7 +85,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   internal_step_s_ = h;
   x_.copy(motion.x);
   v_.copy(motion.v);
-  springs_.look(x_, {h / 2, 0}, force_);
+  springs_.look(x_, inverse_mass, {h / 2, 0}, force_);
   springs_.multiply(x_, v_, impulses_);
   for (int step = 0; step < count; ++step) {
     explicit_half_kick(inverse_mass, h);
@@ -95,7 +95,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     if (contacts != nullptr) contacts->hold({h, double(step + 1) / count, x_t1_, v_});
     std::swap(x_, x_t1_);
     if (step + 1 == count) last_midstep_v_ = v_;
-    springs_.look(x_, {h / 2, 0}, force_);
+    springs_.look(x_, inverse_mass, {h / 2, 0}, force_);
     implicit_half_kick(inverse_mass, h);
   }
   const Positions x_t0 = motion.x;
@@ -118,7 +118,7 @@ void CentralDifferences::final_velocity(Motion& motion, std::span<const double> 
   }
   x_.copy(motion.x);
   v_.copy(motion.v);
-  springs_.look(x_, {h / 2, h / 2 * (h / 2)}, force_);
+  springs_.look(x_, inverse_mass, {h / 2, h / 2 * (h / 2)}, force_);
   impulses_.set_zero();  // a guess that does not depend on what was before, so that a run resumes with the same bits
   implicit_half_kick(inverse_mass, h);
   x_t1_.resize(x_.rows());

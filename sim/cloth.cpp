@@ -73,6 +73,10 @@ std::map<std::array<VertexId, 2>, std::vector<VertexId>> edges_of(const io::Tria
   }
   return opposite_of;
 }
+// Part of what a stabiliser spans below which its bow has no direction worth damping along: it moves by that in what
+// rounding makes of a flat sheet, and is not seen there.
+constexpr double kStraight = 1e-6;
+
 bool is_hinge(const std::vector<VertexId>& opposite) { return opposite.size() == 2 && opposite[0] != opposite[1]; }
 
 void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
@@ -98,18 +102,22 @@ std::optional<Stabilizer> hinge_stabilizer(const Positions& x, const std::array<
   if (!(height[0] > 0) || !(height[1] > 0)) return std::nullopt;
   const double t = height[0] / (height[0] + height[1]);
   const double s = (along[0] + t * (along[1] - along[0])) / length;
-  return Stabilizer{{edge[0], edge[1], opposite[0], opposite[1]}, {1 - s, s, t - 1, -t}, 0, 0};
+  return Stabilizer{
+      {edge[0], edge[1], opposite[0], opposite[1]}, {1 - s, s, t - 1, -t}, 0, 0, kStraight * (height[0] + height[1])};
 }
 
+// Those along x, then those along y: the lanes of a block are neighbours then (sim/stabilizer_lanes.h).
 std::vector<Stabilizer> sheet_stabilizers(const SheetSpec& sheet) {
   std::vector<Stabilizer> made;
   const std::int32_t nx = sheet.nx, ny = sheet.ny;
+  const auto add = [&](VertexId middle, VertexId stride, double span_m) {
+    made.push_back({{middle, middle - stride, middle + stride, 0}, {1, -0.5, -0.5, 0}, 0, 0, kStraight * span_m});
+  };
   for (std::int32_t j = 0; j < ny; ++j) {
-    for (std::int32_t i = 0; i < nx; ++i) {
-      const VertexId a = j * nx + i;
-      if (i > 0 && i + 1 < nx) made.push_back({{a, a - 1, a + 1, 0}, {1, -0.5, -0.5, 0}, 0, 0});
-      if (j > 0 && j + 1 < ny) made.push_back({{a, a - nx, a + nx, 0}, {1, -0.5, -0.5, 0}, 0, 0});
-    }
+    for (std::int32_t i = 1; i + 1 < nx; ++i) add(j * nx + i, 1, 2 * sheet.width_m / (nx - 1));
+  }
+  for (std::int32_t j = 1; j + 1 < ny; ++j) {
+    for (std::int32_t i = 0; i < nx; ++i) add(j * nx + i, nx, 2 * sheet.height_m / (ny - 1));
   }
   return made;
 }

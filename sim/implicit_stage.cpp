@@ -23,7 +23,8 @@ constexpr std::int32_t kMaxCgIterations = 1000;
 // Forces are sums of a few dozen roundings of the positions.
 constexpr double kForceRoundings = 32;
 
-std::vector<std::vector<VertexId>> find_neighbours(const SpringSystem& springs, const StabilizerSystem* stabilizers) {
+std::vector<std::vector<VertexId>> find_neighbours(const SpringSystem& springs,
+                                                   const std::optional<StageStabilizers>& stabilizers) {
   std::vector<std::vector<VertexId>> neighbours(static_cast<std::size_t>(springs.vertex_count()));
   for (const Spring& spring : springs.springs()) {
     neighbours[static_cast<std::size_t>(spring.a)].push_back(spring.b);
@@ -31,17 +32,11 @@ std::vector<std::vector<VertexId>> find_neighbours(const SpringSystem& springs, 
   }
   for (VertexId i = 0; i < springs.vertex_count(); ++i) {
     std::vector<VertexId>& row = neighbours[static_cast<std::size_t>(i)];
-    if (stabilizers != nullptr) stabilizers->for_each_at(i, [&](VertexId j, double, double) { row.push_back(j); });
+    if (stabilizers) stabilizers->list_neighbours(i, row);
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
   }
   return neighbours;
-}
-
-std::size_t find_slot(const BlockMatrix& matrix, VertexId row, VertexId column) {
-  std::size_t slot = matrix.begin(row);
-  while (matrix.neighbour(slot) != column) ++slot;
-  return slot;
 }
 
 double dot(const Positions& a, const Positions& b) {
@@ -55,15 +50,16 @@ double dot(const Positions& a, const Positions& b) {
 ImplicitStage::ImplicitStage(const SpringSystem& springs, const StabilizerSystem* stabilizers,
                              const FieldForces& fields)
     : springs_(springs),
-      stabilizers_(stabilizers),
+      stabilizers_(stabilizers != nullptr ? std::make_optional<StageStabilizers>(*stabilizers) : std::nullopt),
       fields_(fields),
-      matrix_(find_neighbours(springs, stabilizers)),
+      matrix_(find_neighbours(springs, stabilizers_)),
       is_free_(static_cast<std::size_t>(springs.vertex_count())),
       spring_(springs.springs().size()) {
   for (const Spring& spring : springs.springs()) {
-    slot_.push_back(find_slot(matrix_, spring.a, spring.b));
-    slot_.push_back(find_slot(matrix_, spring.b, spring.a));
+    slot_.push_back(matrix_.find(spring.a, spring.b));
+    slot_.push_back(matrix_.find(spring.b, spring.a));
   }
+  if (stabilizers_) stabilizers_->find_slots(matrix_);
 }
 
 void ImplicitStage::find_forces(const StageEquations& equations, const Positions& x, Positions& acceleration) {
@@ -85,7 +81,7 @@ void ImplicitStage::find_forces(const StageEquations& equations, const Positions
     }
   });
   stabilizing_ = Positions::Zero(x.rows(), 3);
-  if (stabilizers_ != nullptr) {
+  if (stabilizers_) {
     stabilizers_->add_forces(x, 1, 0, stabilizing_);
     stabilizers_->add_forces(u_, 0, 1 / h, stabilizing_);
   }
@@ -135,15 +131,7 @@ void ImplicitStage::assemble(const StageEquations& equations, bool projected) {
         off_diagonal[k] -= block[k];
       }
     });
-    if (stabilizers_ != nullptr) {
-      std::size_t slot = matrix_.begin(i);
-      stabilizers_->for_each_at(static_cast<VertexId>(i), [&](VertexId j, double stiffness, double damping) {
-        while (matrix_.neighbour(slot) != j) ++slot;
-        const double coefficient = h * h * stiffness + h * damping;
-        add_identity(coefficient, matrix_.off_diagonal(slot));
-        add_identity(-coefficient, diagonal);
-      });
-    }
+    if (stabilizers_) stabilizers_->add_blocks(static_cast<VertexId>(i), h, matrix_);
     if (w == 0) return;
     const double speed_m = u_.row(i).norm();
     add_identity((1 + h * fields_.drag_1_s + fields_.quadratic_drag_1_m * speed_m) / w, diagonal);
@@ -172,7 +160,7 @@ ImplicitStage::Change ImplicitStage::potential_change(const StageEquations& equa
         h * spring.damping_n_s_m / 2 * along * (2 * before + along);
   });
   Positions curvature = Positions::Zero(x.rows(), 3);  // of the part that is quadratic, times the step
-  if (stabilizers_ != nullptr) stabilizers_->add_forces(step, -h * h, -h, curvature);
+  if (stabilizers_) stabilizers_->add_forces(step, -h * h, -h, curvature);
   parallel_each(x.rows(), [&](Eigen::Index i) {
     const double w = equations.inverse_mass[static_cast<std::size_t>(i)];
     double& term = terms_[spring_.size() + static_cast<std::size_t>(i)];
@@ -248,7 +236,7 @@ std::vector<double> ImplicitStage::resistance_kg(std::span<const double> inverse
       const Spring& spring = springs_.springs()[s];
       sum += h_s * (h_s * spring.stiffness_n_m + spring.damping_n_s_m);
     });
-    if (stabilizers_ != nullptr) sum += stabilizers_->diagonal(i, h_s * h_s, h_s);
+    if (stabilizers_) sum += stabilizers_->resistance_kg(i, h_s);
     result[static_cast<std::size_t>(i)] = sum;
   }
   return result;
@@ -258,6 +246,7 @@ StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, 
                                  double enough_m) {
   SELVAGE_ASSERT(equations.h_s > 0 && x.rows() == matrix_.rows());
   for (std::size_t i = 0; i < is_free_.size(); ++i) is_free_[i] = equations.inverse_mass[i] > 0 ? 1 : 0;
+  if (stabilizers_) stabilizers_->look(equations.origin + equations.h_s * equations.v_t0);
   StageReport report;
   Positions step;
   for (;;) {

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/block_matrix.h"
 #include "sim/spring.h"
-#include "sim/stabilizer.h"
+#include "sim/stage_stabilizers.h"
 
 namespace selvage::sim {
 
@@ -40,11 +41,11 @@ struct StageReport {
 /// Newton's method on the potential whose minimum the stage is:
 ///   sum of m/2 |u|^2 - m u.(h v_t0 + h^2 g) + m h drag/2 |u|^2 + m quadratic_drag/3 |u|^3 + h^2 (spring energies)
 /// and of the contacts' terms, u = x - origin. Damping forces join it with the directions of the springs that each
-/// round starts from. The matrix of a round is the potential's second derivative, and what damping pulls across springs
-/// that turn. Compressed springs push across themselves: where that makes it not positive definite, which conjugate
-/// gradients find out, the part across is left out of them for the round (the usual projection; with it alone buckled
-/// cloth converges by a quarter a round). So every solution is a direction of descent, and a step that does not lower
-/// the potential is halved.
+/// round starts from, and of stabilisers where their velocity takes them. The matrix of a round is the potential's
+/// second derivative, and what damping pulls across springs that turn. Compressed springs push across themselves: where
+/// that makes it not positive definite, which conjugate gradients find out, the part across is left out of them for the
+/// round (the usual projection; with it alone buckled cloth converges by a quarter a round). So every solution is a
+/// direction of descent, and a step that does not lower the potential is halved.
 class ImplicitStage {
  public:
   /// `stabilizers` may be null; both outlive the stage.
@@ -88,7 +89,7 @@ class ImplicitStage {
   [[nodiscard]] double rounding_m(const StageEquations& equations, const Positions& x) const;
 
   const SpringSystem& springs_;
-  const StabilizerSystem* stabilizers_;
+  std::optional<StageStabilizers> stabilizers_;
   FieldForces fields_;
   BlockMatrix matrix_;
   std::vector<std::size_t> slot_;  ///< of both ends of every spring: its block in matrix_, in the row of end a, then b

@@ -33,7 +33,7 @@ class TableBuilder {
     }
     for (const auto& [distance, slot] : at_distance) {
       if (std::count(slot.begin(), slot.end(), nullptr) <= kLanes - kRunLanes) {
-        add_slot(slot, row, row + distance);
+        add_slot(slot, row + distance);
         continue;
       }
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -48,7 +48,7 @@ class TableBuilder {
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (rank < single[lane].size()) slot[lane] = single[lane][rank];
       }
-      add_slot(slot, row, row);
+      add_slot(slot, row);
     }
     table_.begin.push_back(slot_count());
   }
@@ -56,10 +56,12 @@ class TableBuilder {
  private:
   [[nodiscard]] std::uint32_t slot_count() const { return static_cast<std::uint32_t>(table_.first.size()); }
 
-  void add_slot(const Slot& slot, VertexId row, std::int32_t first) {
+  void add_slot(const Slot& slot, std::int32_t first) {
     table_.first.push_back(first);
+    const VertexId any =
+        (*std::find_if(slot.begin(), slot.end(), [](const auto* found) { return found != nullptr; }))->vertex;
     for (const LaneNeighbour* neighbour : slot) {
-      table_.neighbour.push_back(neighbour != nullptr ? neighbour->vertex : row);
+      table_.neighbour.push_back(neighbour != nullptr ? neighbour->vertex : any);
       table_.item.push_back(neighbour != nullptr ? neighbour->item : LaneTable::kNone);
     }
   }

@@ -37,8 +37,8 @@ double stable_step_s(const SpringSystem& springs, std::span<const double> invers
   for (VertexId i = 0; i < springs.vertex_count(); ++i) {
     double stiffness = 0;
     for (const SpringSystem::End& end : springs.ends_at(i)) stiffness += springs.springs()[end.spring].stiffness_n_m;
-    omega_squared_upper = std::max(omega_squared_upper, inverse_mass[static_cast<std::size_t>(i)] *
-                                                            (2 * stiffness + stabilizers.row_sum(i, 1, 0)));
+    omega_squared_upper = std::max(
+        omega_squared_upper, inverse_mass[static_cast<std::size_t>(i)] * (2 * stiffness + stabilizers.row_sum_n_m(i)));
   }
   return omega_squared_upper > 0 ? 2 / std::sqrt(omega_squared_upper) : std::numeric_limits<double>::infinity();
 }

@@ -1,7 +1,6 @@
 #include "sim/spring_lanes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "sim/parallel.h"
@@ -43,8 +42,7 @@ void LookWith(const LaneTable& table, const LaneVectors& positions, const Impuls
   const Value least_squared = hn::Set(d, std::numeric_limits<double>::min()), one = hn::Set(d, 1.0);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     const Vector x_i = ReadRows(x, row);
-    const Value across = coefficient(entries.all_stabilizing_n_s_m, entries.all_stabilizing_n_m, std::size_t(row));
-    Vector pull = ZeroRows(), own = {across, across, across};
+    Vector pull = ZeroRows(), own = ZeroRows();
     ForEachSlot(table, row, [&](std::size_t entry, auto read) HWY_ATTR SELVAGE_INLINE_LAMBDA {
       const Vector line = lanes::Minus<Real>(read(x), x_i);
       const Value squared = lanes::Dot<Real>(line, line);
@@ -70,30 +68,19 @@ void Look(const LaneTable& table, const LaneVectors& x, const ImpulseShares& sha
   (shares.stiffness_s2 == 0 ? LookWith<false> : LookWith<true>)(table, x, shares, begin, end, entries, force, diagonal);
 }
 
-template <bool kStiffness>
-void MultiplyWith(const LaneTable& table, const SpringEntries& entries, const ImpulseShares& shares,
-                  const LaneVectors& positions, const LaneVectors& velocities, Eigen::Index begin, Eigen::Index end,
-                  LaneVectors& product) {
+void MultiplyRows(const LaneTable& table, const SpringEntries& entries, const LaneVectors& positions,
+                  const LaneVectors& velocities, Eigen::Index begin, Eigen::Index end, LaneVectors& product) {
   const Axes x(positions), v(velocities);
-  const Coefficients<kStiffness> coefficient(shares);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     const Vector x_i = ReadRows(x, row), v_i = ReadRows(v, row);
     Vector sum = ZeroRows();
     ForEachSlot(table, row, [&](std::size_t entry, auto read) HWY_ATTR SELVAGE_INLINE_LAMBDA {
       const Vector line = lanes::Minus<Real>(read(x), x_i), rate = lanes::Minus<Real>(v_i, read(v));
       const Value along = hn::Mul(ReadEntries(entries.along, entry), lanes::Dot<Real>(line, rate));
-      const Value across = coefficient(entries.stabilizing_n_s_m, entries.stabilizing_n_m, entry);
-      const Vector impulse = lanes::Plus<Real>(lanes::Times<Real>(along, line), lanes::Times<Real>(across, rate));
-      sum = lanes::Plus<Real>(sum, impulse);
+      sum = lanes::Plus<Real>(sum, lanes::Times<Real>(along, line));
     });
     WriteRows(sum, product, row);
   }
-}
-
-void Multiply(const LaneTable& table, const SpringEntries& entries, const ImpulseShares& shares, const LaneVectors& x,
-              const LaneVectors& v, Eigen::Index begin, Eigen::Index end, LaneVectors& product) {
-  (shares.stiffness_s2 == 0 ? MultiplyWith<false> : MultiplyWith<true>)(table, entries, shares, x, v, begin, end,
-                                                                        product);
 }
 
 }  // namespace selvage::sim::HWY_NAMESPACE
@@ -106,7 +93,7 @@ namespace {
 /// What a vertex sees of another.
 struct Pair {
   double stiffness_n_m = 0, rest_length_m = 0, damping_n_s_m = 0;
-  double stabilizing_n_m = 0, stabilizing_n_s_m = 0;
+  double stabilizing_n_m = 0;
 };
 
 class PairCollector {
@@ -116,14 +103,12 @@ class PairCollector {
     for (VertexId i = 0; i < springs.vertex_count(); ++i) {
       for (const SpringSystem::End& end : springs.ends_at(i)) {
         const Spring& spring = springs.springs()[end.spring];
-        add(i, end.other) = {spring.stiffness_n_m, spring.rest_length_m, spring.damping_n_s_m, 0, 0};
+        add(i, end.other) = {spring.stiffness_n_m, spring.rest_length_m, spring.damping_n_s_m, 0};
       }
       if (stabilizers == nullptr) continue;
-      stabilizers->for_each_at(i, [&](VertexId j, double stiffness, double damping) {
-        Pair& pair = find_or_add(i, j);
-        pair.stabilizing_n_m = -stiffness;  // the system's are for x_i - x_j
-        pair.stabilizing_n_s_m = -damping;
-      });
+      for (const StabilizerSystem::Neighbour& neighbour : stabilizers->neighbours_of(i)) {
+        find_or_add(i, neighbour.vertex).stabilizing_n_m = -neighbour.coefficient_n_m;  // theirs is for x_i - x_j
+      }
     }
   }
 
@@ -141,19 +126,7 @@ class PairCollector {
     entries.slack_pull_n = spread([](const Pair& pair) { return pair.stiffness_n_m * pair.rest_length_m; });
     entries.stiffness_n_m = spread([](const Pair& pair) { return pair.stiffness_n_m; });
     entries.damping_n_s_m = spread([](const Pair& pair) { return pair.damping_n_s_m; });
-    entries.stabilizing_n_m = spread([](const Pair& pair) { return pair.stabilizing_n_m; });
-    entries.stabilizing_n_s_m = spread([](const Pair& pair) { return pair.stabilizing_n_s_m; });
     entries.along.resize(table.item.size());
-    const std::size_t rows = kLanes * table.run_end.size();
-    entries.all_stabilizing_n_m.resize(rows);
-    entries.all_stabilizing_n_s_m.resize(rows);
-    for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-      for (const LaneNeighbour& neighbour : neighbours_[i]) {
-        const Pair& pair = pairs_[static_cast<std::size_t>(neighbour.item)];
-        entries.all_stabilizing_n_m[i] += pair.stabilizing_n_m;
-        entries.all_stabilizing_n_s_m[i] += pair.stabilizing_n_s_m;
-      }
-    }
     return entries;
   }
 
@@ -176,46 +149,46 @@ class PairCollector {
 }  // namespace
 
 HWY_EXPORT(Look);
-HWY_EXPORT(Multiply);
+HWY_EXPORT(MultiplyRows);
 
 SpringLanes::SpringLanes(const SpringSystem& springs, const StabilizerSystem* stabilizers) {
   const PairCollector collector(springs, stabilizers);
   table_ = collector.table();
   entries_ = collector.entries(table_);
+  if (stabilizers != nullptr) stabilizers_ = StabilizerLanes(*stabilizers, springs.vertex_count());
   diagonal_.resize(springs.vertex_count());
 }
 
-void SpringLanes::look(const LaneVectors& x, const ImpulseShares& shares, LaneVectors& force) {
+void SpringLanes::look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,
+                       LaneVectors& force) {
   shares_ = shares;
   force.resize(x.rows());
   parallel_blocks(x.rows(), [&](Eigen::Index begin, Eigen::Index end) {
     HWY_DYNAMIC_DISPATCH(Look)(table_, x, shares, begin, end, entries_, force, diagonal_);
   });
+  stabilizers_.look(x, inverse_mass, shares, diagonal_);
 }
 
-void SpringLanes::multiply(const LaneVectors& x, const LaneVectors& v, Eigen::Index begin, Eigen::Index end,
-                           LaneVectors& product) const {
-  HWY_DYNAMIC_DISPATCH(Multiply)(table_, entries_, shares_, x, v, begin, end, product);
+void SpringLanes::multiply_rows(const LaneVectors& x, const LaneVectors& v, Eigen::Index begin, Eigen::Index end,
+                                LaneVectors& product) const {
+  HWY_DYNAMIC_DISPATCH(MultiplyRows)(table_, entries_, x, v, begin, end, product);
+  stabilizers_.add_product(begin, end, product);
 }
 
-void SpringLanes::multiply(const LaneVectors& x, const LaneVectors& v, LaneVectors& product) const {
+void SpringLanes::multiply(const LaneVectors& x, const LaneVectors& v, LaneVectors& product) {
   product.resize(x.rows());
-  parallel_blocks(x.rows(), [&](Eigen::Index begin, Eigen::Index end) { multiply(x, v, begin, end, product); });
+  begin_product(v);
+  parallel_blocks(x.rows(), [&](Eigen::Index begin, Eigen::Index end) { multiply_rows(x, v, begin, end, product); });
 }
 
 double SpringLanes::row_sum(VertexId i) const {
   const auto block = static_cast<std::size_t>(i / kLanes), lane = static_cast<std::size_t>(i % kLanes);
-  double own = 0, others = 0;
+  double along = 0;
   for (std::size_t slot = table_.begin[block]; slot < table_.begin[block + 1]; ++slot) {
     const std::size_t entry = kLanes * slot + lane;
-    const double along =
-        shares_.damping_s * entries_.damping_n_s_m[entry] + shares_.stiffness_s2 * entries_.stiffness_n_m[entry];
-    const double across =
-        shares_.damping_s * entries_.stabilizing_n_s_m[entry] + shares_.stiffness_s2 * entries_.stabilizing_n_m[entry];
-    own += along + across;
-    others += along + std::abs(across);
+    along += shares_.damping_s * entries_.damping_n_s_m[entry] + shares_.stiffness_s2 * entries_.stiffness_n_m[entry];
   }
-  return own + others;
+  return 2 * along + stabilizers_.row_sum(i);
 }
 
 }  // namespace selvage::sim

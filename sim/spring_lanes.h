@@ -4,26 +4,18 @@
 
 #include <vector>
 
+#include "sim/impulse_shares.h"
 #include "sim/lane_table.h"
 #include "sim/spring.h"
-#include "sim/stabilizer.h"
+#include "sim/stabilizer_lanes.h"
 
 namespace selvage::sim {
 
-/// How much of each matrix there is in B, which maps velocities to the impulses that oppose them: damping over a time,
-/// and stiffness where velocities displace the ends.
-struct ImpulseShares {
-  double damping_s = 0, stiffness_s2 = 0;
-};
-
-/// What a spring and a stabiliser between the same two vertices do, by entry of a table. The coefficients of
-/// stabilisers are those of pairs, of either sign.
+/// What a spring does, by entry of a table, and the elastic forces of stabilisers between the same two vertices.
 struct SpringEntries {
   std::vector<double> pull_n_m, slack_pull_n;  ///< of both, force by length; of the spring, less at any length
   std::vector<double> stiffness_n_m, damping_n_s_m;
-  std::vector<double> stabilizing_n_m, stabilizing_n_s_m;
   std::vector<double> along;  ///< of the springs in B, by length squared; set by look()
-  std::vector<double> all_stabilizing_n_m, all_stabilizing_n_s_m;  ///< sums by vertex, in whole blocks
 };
 
 /// Every spring is looked at from both its ends, which find the same bits with opposite signs: forces and impulses are
@@ -36,14 +28,20 @@ class SpringLanes {
 
   /// Looks at the springs at x: `force` becomes the elastic forces in N, and B is that of `shares` from now on. Two
   /// vertices at the same place, or so near that their squared distance is subnormal, do not pull at each other.
-  void look(const LaneVectors& x, const ImpulseShares& shares, LaneVectors& force);
+  void look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,
+            LaneVectors& force);
 
-  /// Rows [begin, end) of B v: row i is the sum over its springs of c n n^T (v_i - v_other) with c = damping_s d +
-  /// stiffness_s2 k, and the same of the stabilisers without n n^T. B is symmetric and positive semidefinite, and its
-  /// rows sum to zero. REQUIRES the x that look() saw last, and begin a multiple of kLanes.
-  void multiply(const LaneVectors& x, const LaneVectors& v, Eigen::Index begin, Eigen::Index end,
-                LaneVectors& product) const;
-  void multiply(const LaneVectors& x, const LaneVectors& v, LaneVectors& product) const;  ///< all rows
+  /// B v: row i is the sum over its springs of c n n^T (v_i - v_other) with c = damping_s d + stiffness_s2 k, and what
+  /// stabilisers add (stabilizer_lanes.h). B is symmetric and positive semidefinite, and its rows sum to zero. REQUIRES
+  /// the x that look() saw last.
+  void multiply(const LaneVectors& x, const LaneVectors& v, LaneVectors& product);
+  /// The same in two parts, for who goes on with rows while they are at hand: all of v is looked at, then rows [begin,
+  /// end) are found, in any order. REQUIRES begin a multiple of kLanes.
+  void begin_product(const LaneVectors& v) { stabilizers_.oppose(v); }
+  /// Where v corrects what the last product was of, and stabilisers are weak, they are left out.
+  void begin_correction(const LaneVectors& v) { stabilizers_.oppose_correction(v); }
+  void multiply_rows(const LaneVectors& x, const LaneVectors& v, Eigen::Index begin, Eigen::Index end,
+                     LaneVectors& product) const;
 
   /// The diagonal of B.
   [[nodiscard]] const LaneVectors& diagonal() const { return diagonal_; }
@@ -54,6 +52,7 @@ class SpringLanes {
  private:
   LaneTable table_;
   SpringEntries entries_;
+  StabilizerLanes stabilizers_;
   ImpulseShares shares_;
   LaneVectors diagonal_;
 };

@@ -12,74 +12,75 @@
 
 namespace selvage::sim {
 
-/// A spring of rest length 0 between two material points: its vector is sum_i weights[i] x_i, its energy k/2
-/// |vector|^2. On a grid the points are the middle node and the midpoint of its two neighbours, {1, -1/2, -1/2}; on a
+/// A spring of rest length 0 between two material points: its vector, the bow, is sum_i weights[i] x_i, its energy k/2
+/// |bow|^2. On a grid the points are the middle node and the midpoint of its two neighbours, {1, -1/2, -1/2}; on a
 /// mesh they lie on an inner edge and on the line between the two vertices opposite it, where these cross when the pair
 /// is unfolded.
+///
+/// It is damped as all springs are, along its line: by d n n^T times the rate of the bow, n = bow / |bow|, which a
+/// rigid rotation does not change, and which has no torque. Where the bow is nearly straight n is what rounding makes
+/// it, and damping fades: n n^T is bow bow^T / (|bow|^2 + straight_m^2).
 struct Stabilizer {
   std::array<VertexId, 4> vertices{};  ///< different; unused ones have weight 0
   std::array<double, 4> weights{};     ///< sum 0
-  double stiffness_n_m = 0;            ///< force per length of the vector
-  double damping_n_s_m = 0;            ///< force per rate of the vector
+  double stiffness_n_m = 0;            ///< force per length of the bow
+  double damping_n_s_m = 0;            ///< force per rate of that length
+  double straight_m = 0;               ///< >= 0
 };
 
-/// The sum of all stabilisers, as constant coefficients c_ij of pairs: the force on i is sum_j c_ij (x_i - x_j) with
-/// c_ij = c_ji to the bit. Each pair's forces are opposite, so linear momentum is kept to rounding, and angular
-/// momentum by the elastic part, which acts along the line between the vertices. Damping does not: where its vector is
-/// not 0 a stabiliser is damped in a rigid rotation as well (docs/numerics.md). Deterministic for any thread count.
+/// The bow at x, or its rate at the velocities x.
+[[nodiscard]] inline Vec3 bow_of(const Stabilizer& s, const Positions& x) {
+  Vec3 bow = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (s.weights[k] != 0) bow += s.weights[k] * x.row(s.vertices[k]).transpose();
+  }
+  return bow;
+}
+
+/// Stabilisers with the list of those at each vertex, and the sum of their elastic forces as constant coefficients c_ij
+/// of pairs: the force on i is sum_j c_ij (x_i - x_j) with c_ij = c_ji to the bit. Each pair's forces are opposite and
+/// along the line between the vertices, so both momenta are kept to rounding. Deterministic for any thread count.
 class StabilizerSystem {
  public:
   StabilizerSystem() = default;
   /// REQUIRES vertices with weight in [0, vertex_count).
-  StabilizerSystem(std::span<const Stabilizer> stabilizers, std::int32_t vertex_count);
+  StabilizerSystem(std::vector<Stabilizer> stabilizers, std::int32_t vertex_count);
 
-  [[nodiscard]] bool empty() const { return neighbours_.empty(); }
-  [[nodiscard]] std::int32_t count() const { return count_; }
+  [[nodiscard]] bool empty() const { return stabilizers_.empty(); }
+  [[nodiscard]] const std::vector<Stabilizer>& stabilizers() const { return stabilizers_; }
 
-  /// Adds minus (stiffness_share K + damping_share D) X to rows [0, vertex_count) of `result`: elastic forces at X with
-  /// shares (1, 0), damping forces at the velocities X with (0, 1).
-  void add_forces(const Positions& X, double stiffness_share, double damping_share, Positions& result) const;
-  /// What it adds to row i.
-  [[nodiscard]] Eigen::RowVector3d force_at(const Positions& X, VertexId i, double stiffness_share,
-                                            double damping_share) const {
-    if (empty()) return Eigen::RowVector3d::Zero();
-    const auto row = static_cast<std::size_t>(i);
-    const double* const X_i = X.data() + 3 * std::ptrdiff_t{i};
-    const double x_i = X_i[0], y_i = X_i[1], z_i = X_i[2];
-    double x = 0, y = 0, z = 0;
-    for (std::size_t n = begin_[row]; n < begin_[row + 1]; ++n) {
-      const Neighbour& neighbour = neighbours_[n];
-      const double* const X_j = X.data() + 3 * std::ptrdiff_t{neighbour.vertex};
-      const double c = stiffness_share * neighbour.stiffness + damping_share * neighbour.damping;
-      x += c * (x_i - X_j[0]);
-      y += c * (y_i - X_j[1]);
-      z += c * (z_i - X_j[2]);
-    }
-    return {x, y, z};
-  }
-  /// Element (i, i) of stiffness_share K + damping_share D, one for all three axes.
-  [[nodiscard]] double diagonal(VertexId i, double stiffness_share, double damping_share) const;
-  /// Sum of the magnitudes of row i of the same matrix: Gershgorin's bound.
-  [[nodiscard]] double row_sum(VertexId i, double stiffness_share, double damping_share) const;
-  /// Calls visit(j, stiffness, damping) with both parts of c_ij for every j that vertex i shares a stabiliser with, in
-  /// increasing order.
-  template <class Visit>
-  void for_each_at(VertexId i, Visit visit) const {
-    if (empty()) return;
-    const auto row = static_cast<std::size_t>(i);
-    for (std::size_t n = begin_[row]; n < begin_[row + 1]; ++n) {
-      visit(neighbours_[n].vertex, neighbours_[n].stiffness, neighbours_[n].damping);
-    }
-  }
+  /// What a vertex is to a stabiliser.
+  struct End {
+    std::int32_t stabilizer, point;  ///< vertices[point] of it
+  };
+  /// Those at vertex i, in the order of their numbers; none where there are no stabilisers at all.
+  [[nodiscard]] std::span<const End> ends_at(VertexId i) const { return ends_.row(i); }
 
- private:
+  /// The stiffness of a pair of vertices.
   struct Neighbour {
     VertexId vertex;
-    double stiffness, damping;  ///< c_ij
+    double coefficient_n_m;  ///< c_ij
   };
-  std::int32_t count_ = 0;
-  std::vector<std::size_t> begin_;  ///< those of vertex i are neighbours_[begin_[i] .. begin_[i + 1])
-  std::vector<Neighbour> neighbours_;
+  /// Those of vertex i, in increasing order.
+  [[nodiscard]] std::span<const Neighbour> neighbours_of(VertexId i) const { return neighbours_.row(i); }
+  /// Sum of the magnitudes of row i of their matrix: Gershgorin's bound.
+  [[nodiscard]] double row_sum_n_m(VertexId i) const;
+
+ private:
+  template <class Item>
+  struct Rows {
+    std::vector<std::size_t> begin{0};  ///< those of vertex i are items[begin[i] .. begin[i + 1])
+    std::vector<Item> items;
+    [[nodiscard]] std::span<const Item> row(VertexId i) const {
+      if (items.empty()) return {};
+      const auto at = static_cast<std::size_t>(i);
+      return {items.data() + begin[at], begin[at + 1] - begin[at]};
+    }
+  };
+
+  std::vector<Stabilizer> stabilizers_;
+  Rows<End> ends_;
+  Rows<Neighbour> neighbours_;
 };
 
 }  // namespace selvage::sim

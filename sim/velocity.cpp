@@ -30,9 +30,10 @@ VelocitySolver::Norms VelocitySolver::begin(const VelocitySystem& system, const 
     const double w = system.inverse_mass[static_cast<std::size_t>(i)];
     if (w > 0) v.row(i) = (rhs.row(i) - w * impulses.row(i)) / drag;
   });
+  system.springs.begin_product(v);
   return parallel_sum(rows, partial_norms_, [&](Eigen::Index first, Eigen::Index end) {
     Norms norms;
-    system.springs.multiply(system.x, v, first, end, product_);
+    system.springs.multiply_rows(system.x, v, first, end, product_);
     for (Eigen::Index i = first; i < end; ++i) {
       const double w = system.inverse_mass[static_cast<std::size_t>(i)];
       Row inverse_diagonal = Row::Zero();
@@ -59,9 +60,10 @@ std::int32_t VelocitySolver::solve(const VelocitySystem& system, const LaneVecto
   std::int32_t iteration = 0;
   // Written so that NaN ends the loop: the caller finds it in the velocity.
   while (iteration < kMaxIterations && energy > limit) {
+    system.springs.begin_correction(step_);
     const double curvature = parallel_sum(rhs.rows(), partial_, [&](Eigen::Index first, Eigen::Index end) {
       double sum = 0;
-      system.springs.multiply(system.x, step_, first, end, product_);
+      system.springs.multiply_rows(system.x, step_, first, end, product_);
       for (Eigen::Index i = first; i < end; ++i) {
         const double w = system.inverse_mass[static_cast<std::size_t>(i)];
         const Row step = step_.row(i);

@@ -9,7 +9,7 @@
 namespace selvage::sim {
 
 struct VelocitySystem {
-  const SpringLanes& springs;
+  SpringLanes& springs;
   const LaneVectors& x;  ///< what they looked at last
   std::span<const double> inverse_mass;
   double drag_1_s = 0;  ///< acceleration -drag v, on top of the springs

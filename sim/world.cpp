@@ -107,7 +107,7 @@ class WorldBuilder {
                 cloth_vertex_count,
                 std::move(inverse_mass_),
                 SpringSystem(std::move(springs_), cloth_vertex_count),
-                stabilizers_.empty() ? StabilizerSystem() : StabilizerSystem(stabilizers_, cloth_vertex_count),
+                StabilizerSystem(std::move(stabilizers_), cloth_vertex_count),
                 std::move(bodies_),
                 0,
                 take_contacts(),
@@ -267,7 +267,7 @@ std::string describe(const Scene& scene, const World& world) {
   line("springs", fmt::format("{} structural", count(SpringKind::kStructural)));
   if (count(SpringKind::kShear) > 0) line("", fmt::format("{} shear", count(SpringKind::kShear)));
   if (count(SpringKind::kBending) > 0) line("", fmt::format("{} bending", count(SpringKind::kBending)));
-  if (!world.stabilizers.empty()) line("", fmt::format("{} stabilising", world.stabilizers.count()));
+  if (!world.stabilizers.empty()) line("", fmt::format("{} stabilising", world.stabilizers.stabilizers().size()));
   if (scene.strain.strain > 0) line("limits", fmt::format("strain {:g}", scene.strain.strain));
   if (scene.strain.strain_rate > 0) line("limits", fmt::format("strain rate {:g} a step", scene.strain.strain_rate));
   if (scene.gravity_m_s2 != Vec3::Zero()) {

@@ -15,8 +15,9 @@ struct PlainForces {
   std::vector<double> elastic_magnitude, damping_magnitude;
 };
 
+/// Stabilisers are damped along their bows at `x_of_bows`.
 inline PlainForces plain_forces(const sim::SpringSystem& springs, const std::vector<sim::Stabilizer>& stabilizers,
-                                const Positions& x, const Positions& v) {
+                                const Positions& x, const Positions& v, const Positions& x_of_bows) {
   const auto rows = static_cast<std::size_t>(x.rows());
   PlainForces sum{Positions::Zero(x.rows(), 3), Positions::Zero(x.rows(), 3), std::vector<double>(rows),
                   std::vector<double>(rows)};
@@ -37,18 +38,20 @@ inline PlainForces plain_forces(const sim::SpringSystem& springs, const std::vec
     add(spring.b, -pull, -drag);
   }
   for (const sim::Stabilizer& s : stabilizers) {
-    Eigen::RowVector3d bow = Eigen::RowVector3d::Zero(), rate = bow;
+    const Eigen::RowVector3d bow = bow_of(s, x).transpose(), along = bow_of(s, x_of_bows).transpose();
+    const double squared = along.squaredNorm() + s.straight_m * s.straight_m;
+    const double rate = squared > 0 ? along.dot(bow_of(s, v)) / squared : 0;
+    const Eigen::RowVector3d drag = s.damping_n_s_m * rate * along;
     for (std::size_t k = 0; k < 4; ++k) {
-      if (s.weights[k] == 0) continue;
-      bow += s.weights[k] * x.row(s.vertices[k]);
-      rate += s.weights[k] * v.row(s.vertices[k]);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (s.weights[k] == 0) continue;
-      add(s.vertices[k], -s.weights[k] * s.stiffness_n_m * bow, -s.weights[k] * s.damping_n_s_m * rate);
+      if (s.weights[k] != 0) add(s.vertices[k], -s.weights[k] * s.stiffness_n_m * bow, -s.weights[k] * drag);
     }
   }
   return sum;
+}
+
+inline PlainForces plain_forces(const sim::SpringSystem& springs, const std::vector<sim::Stabilizer>& stabilizers,
+                                const Positions& x, const Positions& v) {
+  return plain_forces(springs, stabilizers, x, v, x);
 }
 
 inline sim::LaneVectors to_lanes(const Positions& x) {
@@ -71,7 +74,8 @@ inline LaneForces lane_forces(const sim::SpringSystem& springs, const sim::Stabi
   sim::SpringLanes lanes(springs, stabilizers);
   const sim::LaneVectors x_lanes = to_lanes(x), v_lanes = to_lanes(v);
   sim::LaneVectors force, impulses;
-  lanes.look(x_lanes, {1, 0}, force);
+  const std::vector<double> inverse_mass(static_cast<std::size_t>(x.rows()), 1);
+  lanes.look(x_lanes, inverse_mass, {1, 0}, force);
   lanes.multiply(x_lanes, v_lanes, impulses);
   return {from_lanes(force), -from_lanes(impulses)};
 }

@@ -45,6 +45,20 @@ inline RandomCloth random_cloth(std::uint32_t seed, std::int32_t side = 9, doubl
   return cloth;
 }
 
+/// What keeps the same sheet flat, all alike.
+inline std::vector<sim::Stabilizer> sheet_stabilizers(std::int32_t side, double stiffness_n_m, double damping_n_s_m) {
+  sim::ClothSpec spec;
+  spec.surface = sim::SheetSpec{side, side, 1, 1};
+  spec.stabilize_n_m = 1;
+  const sim::Shape rest = sim::make_sheet(side, side, 1, 1);
+  auto made = sim::make_stabilizers(spec, rest, std::vector<double>(static_cast<std::size_t>(rest.x.rows()), 1));
+  for (sim::Stabilizer& s : made) {
+    s.stiffness_n_m = stiffness_n_m;
+    s.damping_n_s_m = damping_n_s_m;
+  }
+  return made;
+}
+
 inline Vec3 linear_momentum(const RandomCloth& cloth, const Positions& v) {
   Vec3 sum = Vec3::Zero();
   for (Eigen::Index i = 0; i < v.rows(); ++i) {

@@ -118,8 +118,13 @@ struct AnyNumbering {
     }
     cloth.springs = SpringSystem(springs, count);
     cloth.x.row(springs.back().a) = cloth.x.row(springs.back().b);
-    for (VertexId i = 0; i + 2 < count; i += 2)
-      stabilizers.push_back({{i + 1, i, i + 2, 0}, {1, -0.5, -0.5, 0}, 3, 0.02});
+    if (side >= 3) stabilizers = testing::sheet_stabilizers(side, 3, 0.02);
+    for (Stabilizer& s : stabilizers) {
+      s.straight_m = 0.01;
+      for (std::size_t k = 0; k < 3; ++k) s.vertices[k] = number[static_cast<std::size_t>(s.vertices[k])];
+    }
+    // One of four points, as on a mesh, without a spring between any two of them.
+    if (side >= 9) stabilizers.push_back({{0, 5, 40, 77}, {0.25, 0.75, -0.5, -0.5}, 2, 0.03, 0});
   }
 };
 
@@ -158,7 +163,8 @@ TEST(SpringLanes, DiagonalAndRowSumAreThoseOfTheMatrix) {
   SpringLanes lanes(any.cloth.springs, &stabilizers);
   const LaneVectors x = testing::to_lanes(any.cloth.x);
   LaneVectors force, product;
-  lanes.look(x, {0.3, 0.05}, force);
+  const std::vector<double> light(25, 1e9);
+  lanes.look(x, light, {0.3, 0.05}, force);
   for (Eigen::Index i = 0; i < 25; ++i) {
     double strongest = 0;
     for (Eigen::Index k = 0; k < 3; ++k) {
