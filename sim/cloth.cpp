@@ -73,10 +73,6 @@ std::map<std::array<VertexId, 2>, std::vector<VertexId>> edges_of(const io::Tria
   }
   return opposite_of;
 }
-// Part of what a stabiliser spans below which its bow has no direction worth damping along: it moves by that in what
-// rounding makes of a flat sheet, and is not seen there.
-constexpr double kStraight = 1e-6;
-
 bool is_hinge(const std::vector<VertexId>& opposite) { return opposite.size() == 2 && opposite[0] != opposite[1]; }
 
 void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
@@ -85,6 +81,10 @@ void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
     if (is_hinge(opposite)) builder.add(SpringKind::kBending, opposite[0], opposite[1]);
   }
 }
+
+// Stabilizer::straight_m, as a part of what a stabiliser spans: far above what rounding bends a flat sheet by, far below
+// what is seen.
+constexpr double kStraight = 1e-6;
 
 // With the two faces unfolded into one plane, the line between c and d crosses the line of a and b: the two material
 // points are where it does. Nothing for faces without area.

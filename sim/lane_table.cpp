@@ -58,8 +58,7 @@ class TableBuilder {
 
   void add_slot(const Slot& slot, std::int32_t first) {
     table_.first.push_back(first);
-    const VertexId any =
-        (*std::find_if(slot.begin(), slot.end(), [](const auto* found) { return found != nullptr; }))->vertex;
+    const VertexId any = (*std::ranges::find_if(slot, [](const auto* found) { return found != nullptr; }))->vertex;
     for (const LaneNeighbour* neighbour : slot) {
       table_.neighbour.push_back(neighbour != nullptr ? neighbour->vertex : any);
       table_.item.push_back(neighbour != nullptr ? neighbour->item : LaneTable::kNone);
