@@ -8,6 +8,7 @@
 #include "sim/central_differences.h"
 #include "sim/held_contacts.h"
 #include "sim/implicit_dynamics.h"
+#include "sim/spring_energy.h"
 #include "sim/spring_strain.h"
 
 namespace selvage::sim {
@@ -43,6 +44,13 @@ constexpr std::int64_t kGoodShare = 8;
 // the step again spares little. At 3 m/s contact overstrains 121 springs in 2.1 ms, and 36 in each half of them
 // (sim/scenes/curtain.toml, 2.84 s). docs/simulator-speed.md says what it is worth.
 constexpr std::int64_t kMostBorne = 4;
+
+// What a collision step may put into the springs, of the energy that springs and motion have after the dynamics, and
+// the step's own fall; otherwise the dynamics runs once more and holds what was met. A step that is long beside the
+// swing of stiff springs displaces vertices by more than these would let it. Eleven of 27 sheets without any damping
+// had more energy on the way than at the start, up to 9.5 times as much; with 0.1, 0.08 and 0.03 none had. It costs
+// sim/scenes/curtain.toml at full quality 1 % of its processor time, with 1/16 7 % (docs/stability.md).
+constexpr double kEnergyBorne = 0.08;
 
 // How often the dynamics runs again with the contacts that the collision step met. Two sheets that meet at 12 m/s leave
 // 214 collisions, 31, 12; folds of sim/scenes/curtain.toml at full quality in steps of 1/60 s some 1,000, 50, 2.
@@ -164,8 +172,11 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     tried.failed = can_halve() && tried.safe.report.cut_candidates > 0;
     if (tried.failed) return tried;
     tried.failed = tried.safe.report.status == StepStatus::kAbandoned || (can_halve() && overstrains(tried, candidate));
-    if (!tried.failed || is_last) return tried;
-    if (tried.safe.met.empty()) round = kHoldingRounds - 1;  // another round would do the same
+    if (is_last || !(tried.failed || (round == 0 && energizes(tried, candidate)))) return tried;
+    if (tried.safe.met.empty()) {  // another round would do the same
+      if (!tried.failed) return tried;
+      round = kHoldingRounds - 1;
+    }
     held.insert(held.end(), tried.safe.met.begin(), tried.safe.met.end());
   }
 }
@@ -248,6 +259,19 @@ bool Simulation::overstrains(const Try& tried, const Positions& candidate) const
   return tried.safe.report.status == StepStatus::kSafe && (touched(tried.safe.report) || tried.held.repulsions > 0) &&
          springs_overstrained(world_.springs, scene_.strain.strain, {x_, candidate, tried.safe.x}) >
              borne() * patience_.collisions;
+}
+
+bool Simulation::energizes(const Try& tried, const Positions& candidate) const {
+  if (tried.safe.report.status != StepStatus::kSafe || !touched(tried.safe.report)) return false;
+  const double before_j = elastic_energy_j(world_.springs, candidate);
+  const double gain_j = elastic_energy_j(world_.springs, tried.safe.x) - before_j;
+  const double fall_m_s = clock_.dt_s() * scene_.gravity_m_s2.norm();
+  double kinetic_j = 0;
+  for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
+    const double w = inverse_mass_[static_cast<std::size_t>(i)];
+    if (w > 0) kinetic_j += (tried.end.v.row(i).squaredNorm() + fall_m_s * fall_m_s) / (2 * w);
+  }
+  return gain_j > kEnergyBorne * (before_j + kinetic_j);
 }
 
 void Simulation::commit(const CollisionStepResult& safe, Motion end) {

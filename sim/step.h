@@ -75,6 +75,8 @@ class Simulation {
   [[nodiscard]] std::int64_t borne() const;
   /// Whether contact presses more springs than are borne.
   [[nodiscard]] bool overstrains(const Try& tried, const Positions& candidate) const;
+  /// Whether the collision step put more energy into the springs than is borne.
+  [[nodiscard]] bool energizes(const Try& tried, const Positions& candidate) const;
   void commit(const CollisionStepResult& safe, Motion end);
 
   Scene scene_;
