@@ -82,8 +82,8 @@ void add_mesh_springs(const io::Triangles& triangles, SpringBuilder& builder) {
   }
 }
 
-// Stabilizer::straight_m, as a part of what a stabiliser spans: far above what rounding bends a flat sheet by, far below
-// what is seen.
+// Stabilizer::straight_m, as a part of what a stabiliser spans: far above what rounding in double precision bends a
+// flat sheet by (6e-8 of it for 64 x 64 vertices; 5 times it in float32), far below what is seen.
 constexpr double kStraight = 1e-6;
 
 // With the two faces unfolded into one plane, the line between c and d crosses the line of a and b: the two material

@@ -15,7 +15,7 @@ struct LaneTable {
 
   std::vector<std::uint32_t> begin{0};  ///< the slots of block b are [begin[b], begin[b + 1]), and in those before
   std::vector<std::uint32_t> run_end;   ///< run_end[b] the neighbour of lane k is first + k, where there is one
-  std::vector<std::int32_t> first;      ///< by slot; at most kLanes - 1 beside the vertices that there are
+  std::vector<std::int32_t> first;  ///< by slot before run_end; at most kLanes - 1 beside the vertices that there are
   std::vector<std::int32_t> neighbour;  ///< by entry; another lane's where there is none
   std::vector<std::int32_t> item;       ///< by entry; kNone where there is none
 

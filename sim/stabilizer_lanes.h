@@ -40,7 +40,8 @@ class StabilizerLanes {
   /// Finds what each opposes to v. add_product() adds rows [begin, end) of B v, of that v; begin is a multiple of
   /// kLanes.
   void oppose(const LaneVectors& v);
-  /// The same for a correction of v, to which they answer nothing where they are weak.
+  /// The same for a correction of v, to which they answer nothing where they are weak: where they oppose less than a
+  /// 32nd of the momentum that there is.
   void oppose_correction(const LaneVectors& v);
   void add_product(Eigen::Index begin, Eigen::Index end, LaneVectors& product) const;
   /// At least the sum of the magnitudes of row i of B, whatever the directions.

@@ -16,7 +16,7 @@ class StageStabilizers {
  public:
   explicit StageStabilizers(const StabilizerSystem& stabilizers);  ///< outlives it
 
-  /// Adds the vertices that vertex i shares a stabiliser with to `neighbours`; some of them twice.
+  /// Adds the vertices that vertex i shares a stabiliser with to `neighbours`, which may hold them already.
   void list_neighbours(VertexId i, std::vector<VertexId>& neighbours) const;
   /// Finds their blocks. REQUIRES those neighbours in `matrix`.
   void find_slots(const BlockMatrix& matrix);

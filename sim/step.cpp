@@ -6,9 +6,9 @@
 #include "kernel/assert.h"
 #include "sim/catch_up.h"
 #include "sim/central_differences.h"
+#include "sim/contact_energy.h"
 #include "sim/held_contacts.h"
 #include "sim/implicit_dynamics.h"
-#include "sim/spring_energy.h"
 #include "sim/spring_strain.h"
 
 namespace selvage::sim {
@@ -45,12 +45,10 @@ constexpr std::int64_t kGoodShare = 8;
 // (sim/scenes/curtain.toml, 2.84 s). docs/simulator-speed.md says what it is worth.
 constexpr std::int64_t kMostBorne = 4;
 
-// What a collision step may put into the springs, of the energy that springs and motion have after the dynamics, and
-// the step's own fall; otherwise the dynamics runs once more and holds what was met. A step that is long beside the
-// swing of stiff springs displaces vertices by more than these would let it. Eleven of 27 sheets without any damping
-// had more energy on the way than at the start, up to 9.5 times as much; with 0.1, 0.08 and 0.03 none had. It costs
-// sim/scenes/curtain.toml at full quality 1 % of its processor time, with 1/16 7 % (docs/stability.md).
-constexpr double kEnergyBorne = 0.08;
+// What a collision step may put into springs, of the energy that there is where it acts: otherwise the dynamics runs
+// once more, and holds what was met. A step that is long beside the swing of stiff springs displaces vertices by more
+// than these would let it. docs/stability.md says what it is worth, and what it costs.
+constexpr double kEnergyBorne = 0.3;
 
 // How often the dynamics runs again with the contacts that the collision step met. Two sheets that meet at 12 m/s leave
 // 214 collisions, 31, 12; folds of sim/scenes/curtain.toml at full quality in steps of 1/60 s some 1,000, 50, 2.
@@ -126,7 +124,8 @@ bool Simulation::others_wait(Try& tried) {
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are
-// borne, or strains springs, the dynamics runs again and holds what it met as well.
+// borne, or strains springs, or, the first time, puts energy into them, the dynamics runs again and holds what it met
+// as well.
 Simulation::Try Simulation::try_step(StepResult& result) {
   Try tried;
   const double dt_s = clock_.dt_s();
@@ -172,11 +171,10 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     tried.failed = can_halve() && tried.safe.report.cut_candidates > 0;
     if (tried.failed) return tried;
     tried.failed = tried.safe.report.status == StepStatus::kAbandoned || (can_halve() && overstrains(tried, candidate));
-    if (is_last || !(tried.failed || (round == 0 && energizes(tried, candidate)))) return tried;
-    if (tried.safe.met.empty()) {  // another round would do the same
-      if (!tried.failed) return tried;
-      round = kHoldingRounds - 1;
-    }
+    const bool is_all_held = tried.safe.met.empty();  // another round would do the same
+    const bool runs_again = tried.failed || (round == 0 && !is_all_held && energizes(tried));
+    if (is_last || !runs_again) return tried;
+    if (is_all_held) round = kHoldingRounds - 1;
     held.insert(held.end(), tried.safe.met.begin(), tried.safe.met.end());
   }
 }
@@ -261,17 +259,12 @@ bool Simulation::overstrains(const Try& tried, const Positions& candidate) const
              borne() * patience_.collisions;
 }
 
-bool Simulation::energizes(const Try& tried, const Positions& candidate) const {
-  if (tried.safe.report.status != StepStatus::kSafe || !touched(tried.safe.report)) return false;
-  const double before_j = elastic_energy_j(world_.springs, candidate);
-  const double gain_j = elastic_energy_j(world_.springs, tried.safe.x) - before_j;
+// Under the implicit solver nearly all contacts are held in the first run, and another costs as much as a step.
+bool Simulation::energizes(const Try& tried) const {
+  if (scene_.solver != Solver::kExplicit || tried.safe.report.status != StepStatus::kSafe) return false;
   const double fall_m_s = clock_.dt_s() * scene_.gravity_m_s2.norm();
-  double kinetic_j = 0;
-  for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
-    const double w = inverse_mass_[static_cast<std::size_t>(i)];
-    if (w > 0) kinetic_j += (tried.end.v.row(i).squaredNorm() + fall_m_s * fall_m_s) / (2 * w);
-  }
-  return gain_j > kEnergyBorne * (before_j + kinetic_j);
+  const ContactEnergy energy = contact_energy(world_.springs, inverse_mass_, tried.end, tried.safe.x, fall_m_s);
+  return energy.gain_j > kEnergyBorne * energy.before_j;
 }
 
 void Simulation::commit(const CollisionStepResult& safe, Motion end) {

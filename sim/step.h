@@ -76,7 +76,7 @@ class Simulation {
   /// Whether contact presses more springs than are borne.
   [[nodiscard]] bool overstrains(const Try& tried, const Positions& candidate) const;
   /// Whether the collision step put more energy into the springs than is borne.
-  [[nodiscard]] bool energizes(const Try& tried, const Positions& candidate) const;
+  [[nodiscard]] bool energizes(const Try& tried) const;
   void commit(const CollisionStepResult& safe, Motion end);
 
   Scene scene_;

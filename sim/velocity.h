@@ -16,15 +16,17 @@ struct VelocitySystem {
 };
 
 /// Ends when the residual, in the norm of the preconditioner, is this part of the damping impulses, or of the momentum.
-/// What is left is an error of damping alone. Measured on a frame of the folded curtain (150 x 150, 79 steps): against
-/// 1e-9 velocities change by 1.8 mm/s (root of the mean square), against steps half as long by 25, of 2.2 m/s.
+/// What is left is an error of damping, or of what stands in B for springs that move within the step. Measured on a
+/// frame of the folded curtain (150 x 150, 79 steps): against 1e-9 velocities change by 1.8 mm/s (root of the mean
+/// square), against steps half as long by 25, of 2.2 m/s.
 inline constexpr double kVelocityResidual = 1e-2;
 
 /// Solves (I + dt drag) v + M^-1 B v = rhs for v, where B is that of the springs, on the rows with inverse mass > 0;
 /// the other rows of v are given and kept. Multiplied by M the matrix is symmetric positive definite, so conjugate
 /// gradients with the diagonal as preconditioner apply. The impulses of the solution are summed up along the way and
 /// applied to rhs: they are sums of equal and opposite ones, so momenta are kept to rounding whatever is left of the
-/// residual. Deterministic for any thread count.
+/// residual. Weak stabilisers (stabilizer_lanes.h) oppose the first guess in place of v. Deterministic for any thread
+/// count.
 class VelocitySolver {
  public:
   /// `impulses` holds a guess at B v, which zero is; it becomes B v. Returns the number of iterations, at most 200.
