@@ -1,10 +1,5 @@
 #include "sim/contact_energy.h"
 
-#include <cstdint>
-#include <vector>
-
-#include "sim/parallel.h"
-
 namespace selvage::sim {
 namespace {
 
@@ -15,27 +10,22 @@ double elastic_j(const Spring& spring, const PositionsRef& x) {
 
 }  // namespace
 
-ContactEnergy contact_energy(const SpringSystem& springs, std::span<const double> inverse_mass, const Motion& end,
-                             const PositionsRef& x_t1, double fall_m_s) {
-  std::vector<std::uint8_t> is_moved(static_cast<std::size_t>(springs.vertex_count()));
-  parallel_each(std::ssize(is_moved),
-                [&](Eigen::Index i) { is_moved[static_cast<std::size_t>(i)] = end.x.row(i) != x_t1.row(i) ? 1 : 0; });
-  std::vector<std::uint8_t> is_end = is_moved;
-  ContactEnergy sum;
+std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, std::span<const std::int32_t> cloth_of,
+                                            std::span<const double> inverse_mass, const Motion& end,
+                                            const PositionsRef& x_t1, double fall_m_s) {
+  std::vector<ContactEnergy> energies(cloth_of.empty() ? 0 : static_cast<std::size_t>(cloth_of.back()) + 1);
   for (const Spring& spring : springs.springs()) {
-    const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
-    if ((is_moved[a] | is_moved[b]) == 0) continue;
-    is_end[a] = is_end[b] = 1;
+    ContactEnergy& of_cloth = energies[static_cast<std::size_t>(cloth_of[static_cast<std::size_t>(spring.a)])];
     const double before_j = elastic_j(spring, end.x);
-    sum.before_j += before_j;
-    sum.gain_j += elastic_j(spring, x_t1) - before_j;
+    of_cloth.before_j += before_j;
+    of_cloth.gain_j += elastic_j(spring, x_t1) - before_j;
   }
-  for (std::size_t i = 0; i < is_end.size(); ++i) {
-    if (is_end[i] == 0 || inverse_mass[i] == 0) continue;
+  for (std::size_t i = 0; i < cloth_of.size(); ++i) {
+    if (inverse_mass[i] == 0) continue;
     const double squared = end.v.row(static_cast<Eigen::Index>(i)).squaredNorm() + fall_m_s * fall_m_s;
-    sum.before_j += squared / (2 * inverse_mass[i]);
+    energies[static_cast<std::size_t>(cloth_of[i])].before_j += squared / (2 * inverse_mass[i]);
   }
-  return sum;
+  return energies;
 }
 
 }  // namespace selvage::sim
