@@ -10,20 +10,20 @@ double elastic_j(const Spring& spring, const PositionsRef& x) {
 
 }  // namespace
 
-std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, std::span<const std::int32_t> cloth_of,
+std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, const SurfaceParts& parts,
                                             std::span<const double> inverse_mass, const Motion& end,
                                             const PositionsRef& x_t1, double fall_m_s) {
-  std::vector<ContactEnergy> energies(cloth_of.empty() ? 0 : static_cast<std::size_t>(cloth_of.back()) + 1);
+  std::vector<ContactEnergy> energies(static_cast<std::size_t>(springs.vertex_count()));
+  const auto of_part = [&](VertexId i) -> ContactEnergy& { return energies[static_cast<std::size_t>(parts.part(i))]; };
   for (const Spring& spring : springs.springs()) {
-    ContactEnergy& of_cloth = energies[static_cast<std::size_t>(cloth_of[static_cast<std::size_t>(spring.a)])];
+    ContactEnergy& energy = of_part(spring.a);
     const double before_j = elastic_j(spring, end.x);
-    of_cloth.before_j += before_j;
-    of_cloth.gain_j += elastic_j(spring, x_t1) - before_j;
+    energy.before_j += before_j;
+    energy.gain_j += elastic_j(spring, x_t1) - before_j;
   }
-  for (std::size_t i = 0; i < cloth_of.size(); ++i) {
-    if (inverse_mass[i] == 0) continue;
-    const double squared = end.v.row(static_cast<Eigen::Index>(i)).squaredNorm() + fall_m_s * fall_m_s;
-    energies[static_cast<std::size_t>(cloth_of[i])].before_j += squared / (2 * inverse_mass[i]);
+  for (VertexId i = 0; i < springs.vertex_count(); ++i) {
+    const double w = inverse_mass[static_cast<std::size_t>(i)];
+    if (w > 0) of_part(i).before_j += (end.v.row(i).squaredNorm() + fall_m_s * fall_m_s) / (2 * w);
   }
   return energies;
 }

@@ -16,21 +16,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
 
-HWY_INLINE Value ReadWeights(const LaneWeights& weight, std::size_t entry) {
-  const double all = weight.of_slot[entry / kLanes];
-  return all != 0 ? hn::Set(Real(), all) : ReadEntries(weight.of_entry, entry);
-}
-
 /// The sum of weight times row over the entries from `row` on.
-HWY_INLINE Vector WeightedSum(const LaneTable& table, const LaneWeights& weight, const Axes& from, Eigen::Index row) {
+HWY_INLINE Vector WeightedSum(const LaneTable& table, const std::vector<double>& weight, const Axes& from,
+                              Eigen::Index row) {
   Vector sum = ZeroRows();
   ForEachSlot(table, row, [&](std::size_t entry, auto read) HWY_ATTR SELVAGE_INLINE_LAMBDA {
-    sum = lanes::Plus<Real>(sum, lanes::Times<Real>(ReadWeights(weight, entry), read(from)));
+    sum = lanes::Plus<Real>(sum, lanes::Times<Real>(ReadEntries(weight, entry), read(from)));
   });
   return sum;
 }
 
-void LookAtBows(const LaneTable& points, const LaneWeights& weight, const StabilizerColumns& columns,
+void LookAtBows(const LaneTable& points, const std::vector<double>& weight, const StabilizerColumns& columns,
                 const ImpulseShares& shares, const LaneVectors& positions, Eigen::Index begin, Eigen::Index end,
                 LaneVectors& scaled) {
   const Real d;
@@ -48,13 +44,13 @@ void LookAtBows(const LaneTable& points, const LaneWeights& weight, const Stabil
   }
 }
 
-void AddDiagonal(const LaneTable& ends, const LaneWeights& weight, const LaneVectors& bows, Eigen::Index begin,
+void AddDiagonal(const LaneTable& ends, const std::vector<double>& weight, const LaneVectors& bows, Eigen::Index begin,
                  Eigen::Index end, LaneVectors& diagonal) {
   const Axes bow(bows), before(diagonal);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     Vector sum = ReadRows(before, row);
     ForEachSlot(ends, row, [&](std::size_t entry, auto read) HWY_ATTR SELVAGE_INLINE_LAMBDA {
-      const Vector share = lanes::Times<Real>(ReadWeights(weight, entry), read(bow));
+      const Vector share = lanes::Times<Real>(ReadEntries(weight, entry), read(bow));
       sum.x = hn::Add(sum.x, hn::Mul(share.x, share.x));
       sum.y = hn::Add(sum.y, hn::Mul(share.y, share.y));
       sum.z = hn::Add(sum.z, hn::Mul(share.z, share.z));
@@ -63,8 +59,8 @@ void AddDiagonal(const LaneTable& ends, const LaneWeights& weight, const LaneVec
   }
 }
 
-void Oppose(const LaneTable& points, const LaneWeights& weight, const LaneVectors& bows, const LaneVectors& velocities,
-            Eigen::Index begin, Eigen::Index end, LaneVectors& impulse) {
+void Oppose(const LaneTable& points, const std::vector<double>& weight, const LaneVectors& bows,
+            const LaneVectors& velocities, Eigen::Index begin, Eigen::Index end, LaneVectors& impulse) {
   const Axes v(velocities), bow(bows);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     const Vector along = ReadRows(bow, row);
@@ -73,8 +69,8 @@ void Oppose(const LaneTable& points, const LaneWeights& weight, const LaneVector
   }
 }
 
-void AddProduct(const LaneTable& ends, const LaneWeights& weight, const LaneVectors& impulses, Eigen::Index begin,
-                Eigen::Index end, LaneVectors& product) {
+void AddProduct(const LaneTable& ends, const std::vector<double>& weight, const LaneVectors& impulses,
+                Eigen::Index begin, Eigen::Index end, LaneVectors& product) {
   const Axes impulse(impulses), before(product);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     WriteRows(lanes::Plus<Real>(ReadRows(before, row), WeightedSum(ends, weight, impulse, row)), product, row);
@@ -100,13 +96,6 @@ HWY_EXPORT(AddDiagonal);
 HWY_EXPORT(Oppose);
 HWY_EXPORT(AddProduct);
 
-LaneWeights::LaneWeights(const LaneTable& table, const std::vector<double>& weights) : of_entry(table.spread(weights)) {
-  for (std::size_t slot = 0; slot < table.first.size(); ++slot) {
-    const auto first = of_entry.begin() + static_cast<std::ptrdiff_t>(kLanes * slot);
-    of_slot.push_back(std::all_of(first, first + kLanes, [&](double weight) { return weight == *first; }) ? *first : 0);
-  }
-}
-
 StabilizerLanes::StabilizerLanes(const StabilizerSystem& stabilizers, std::int32_t vertex_count)
     : row_sum_n_m_(static_cast<std::size_t>(vertex_count)), row_sum_n_s_m_(row_sum_n_m_.size()) {
   const std::vector<Stabilizer>& all = stabilizers.stabilizers();
@@ -119,7 +108,6 @@ StabilizerLanes::StabilizerLanes(const StabilizerSystem& stabilizers, std::int32
     columns_.stiffness_n_m[n] = s.stiffness_n_m;
     columns_.damping_n_s_m[n] = s.damping_n_s_m;
     columns_.straight_m2[n] = s.straight_m * s.straight_m;
-    is_damped_ = is_damped_ || s.damping_n_s_m > 0;
     double reach = 0;
     for (const double weight : s.weights) reach += std::abs(weight);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -135,17 +123,19 @@ StabilizerLanes::StabilizerLanes(const StabilizerSystem& stabilizers, std::int32
   }
   points_ = make_lane_table(points);
   ends_ = make_lane_table(ends);
-  point_weight_ = LaneWeights(points_, weights);
-  end_weight_ = LaneWeights(ends_, weights);
+  point_weight_ = points_.spread(weights);
+  end_weight_ = ends_.spread(weights);
   for (LaneVectors* by_stabilizer : {&bow_, &impulse_}) by_stabilizer->resize(static_cast<Eigen::Index>(all.size()));
 }
 
 StabilizerLanes::Strength StabilizerLanes::find_strength(std::span<const double> inverse_mass) const {
-  if (bow_.rows() == 0 || !(is_damped_ || shares_.stiffness_s2 > 0)) return Strength::kNone;
+  Strength strength = Strength::kNone;
   for (std::size_t i = 0; i < row_sum_n_m_.size(); ++i) {
-    if (!(inverse_mass[i] * row_sum(static_cast<VertexId>(i)) <= kWeak)) return Strength::kFull;
+    const double opposed = inverse_mass[i] * row_sum(static_cast<VertexId>(i));
+    if (!(opposed <= kWeak)) return Strength::kFull;
+    if (opposed > 0) strength = Strength::kWeak;
   }
-  return Strength::kWeak;
+  return strength;
 }
 
 void StabilizerLanes::look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,

@@ -16,15 +16,6 @@ struct StabilizerColumns {
   std::vector<double> straight_m2;  ///< squared
 };
 
-/// Weights by entry of a table. On a grid all lanes of nearly every slot have the same: then that one number is read.
-struct LaneWeights {
-  LaneWeights() = default;
-  LaneWeights(const LaneTable& table, const std::vector<double>& weights);  ///< by item
-
-  std::vector<double> of_slot;  ///< zero where lanes differ
-  std::vector<double> of_entry;
-};
-
 /// Their part of B (spring_lanes.h): the sum of c n n^T between their material points, with n n^T that of Stabilizer
 /// and c = damping_s d + stiffness_s2 k, as of a spring along the bow. So impulses have no torque, and keep both
 /// momenta to rounding. Each vertex sums up in an order that does not change: same bits for any thread count and vector
@@ -51,11 +42,10 @@ class StabilizerLanes {
   enum class Strength { kNone, kWeak, kFull };
   [[nodiscard]] Strength find_strength(std::span<const double> inverse_mass) const;
 
-  LaneTable points_, ends_;  ///< the vertices of a stabiliser; the stabilisers at a vertex
-  LaneWeights point_weight_, end_weight_;
+  LaneTable points_, ends_;                        ///< the vertices of a stabiliser; the stabilisers at a vertex
+  std::vector<double> point_weight_, end_weight_;  ///< by entry of both
   StabilizerColumns columns_;
   std::vector<double> row_sum_n_m_, row_sum_n_s_m_;  ///< by vertex
-  bool is_damped_ = false;
   ImpulseShares shares_;
   Strength strength_ = Strength::kNone;  ///< of B
   bool answers_ = false;                 ///< to what was to be opposed last

@@ -45,9 +45,9 @@ constexpr std::int64_t kGoodShare = 8;
 // (sim/scenes/curtain.toml, 2.84 s). docs/simulator-speed.md says what it is worth.
 constexpr std::int64_t kMostBorne = 4;
 
-// What a collision step may put into the springs of a cloth, of the energy that it has: otherwise the dynamics runs
-// once more, and holds what was met. A step that is long beside the swing of stiff springs displaces vertices by more
-// than these would let it. docs/stability.md says what it is worth, and what it costs.
+// What a collision step may put into the springs of a part of the cloth, of the energy that this has: otherwise the
+// dynamics runs once more, and holds what was met. A step that is long beside the swing of stiff springs displaces
+// vertices by more than these would let it. docs/stability.md says what it is worth, and what it costs.
 constexpr double kEnergyBorne = 0.08;
 
 // How often the dynamics runs again with the contacts that the collision step met. Two sheets that meet at 12 m/s leave
@@ -76,6 +76,7 @@ Simulation::Simulation(const Scene& scene)
       dynamics_(make_dynamics(scene_, world_, lengths_.dynamics_s())),
       collision_step_(world_.mesh, scene_.collision, world_.contacts),
       vertex_faces_(world_.mesh),
+      parts_(world_.mesh),
       x_(world_.x_t0),
       v_(world_.v_t0),
       patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
@@ -263,8 +264,7 @@ bool Simulation::overstrains(const Try& tried, const Positions& candidate) const
 bool Simulation::energizes(const Try& tried) const {
   if (scene_.solver != Solver::kExplicit || tried.safe.report.status != StepStatus::kSafe) return false;
   const double fall_m_s = clock_.dt_s() * scene_.gravity_m_s2.norm();
-  const auto energies =
-      contact_energies(world_.springs, world_.cloth_of, inverse_mass_, tried.end, tried.safe.x, fall_m_s);
+  const auto energies = contact_energies(world_.springs, parts_, inverse_mass_, tried.end, tried.safe.x, fall_m_s);
   return std::ranges::any_of(
       energies, [](const ContactEnergy& energy) { return energy.gain_j > kEnergyBorne * energy.before_j; });
 }

@@ -10,6 +10,7 @@
 #include "sim/repulsion_contact.h"
 #include "sim/scene.h"
 #include "sim/step_lengths.h"
+#include "sim/surface_parts.h"
 #include "sim/time_step.h"
 #include "sim/vertex_faces.h"
 #include "sim/world.h"
@@ -75,7 +76,7 @@ class Simulation {
   [[nodiscard]] std::int64_t borne() const;
   /// Whether contact presses more springs than are borne.
   [[nodiscard]] bool overstrains(const Try& tried, const Positions& candidate) const;
-  /// Whether the collision step put more energy into the springs than is borne.
+  /// Whether the collision step put more energy into the springs of a part than is borne.
   [[nodiscard]] bool energizes(const Try& tried) const;
   void commit(const CollisionStepResult& safe, Motion end);
 
@@ -87,6 +88,7 @@ class Simulation {
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
   VertexFaces vertex_faces_;
+  SurfaceParts parts_;
   Positions x_, v_;
   std::vector<ContactLoad> loads_;
   Patience patience_;                 ///< while the step can be halved

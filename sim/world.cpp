@@ -71,8 +71,6 @@ class WorldBuilder {
     add_contact(spec.contact);
     if (scene_.collision.repulsion) add_rest_pairs(rest, begin, spec.contact);
     v_.bottomRows(rest.x.rows()).rowwise() = spec.velocity_m_s.transpose();
-    const std::int32_t cloth = cloth_of_.empty() ? 0 : cloth_of_.back() + 1;
-    cloth_of_.resize(static_cast<std::size_t>(x_.rows()), cloth);
     for (const double mass : mass_kg) inverse_mass_.push_back(1 / mass);
     for (Spring spring : make_springs(spec, rest, mass_kg)) {
       spring.a += begin;
@@ -107,7 +105,6 @@ class WorldBuilder {
                 std::move(groups_),
                 {},
                 cloth_vertex_count,
-                std::move(cloth_of_),
                 std::move(inverse_mass_),
                 SpringSystem(std::move(springs_), cloth_vertex_count),
                 StabilizerSystem(std::move(stabilizers_), cloth_vertex_count),
@@ -205,7 +202,6 @@ class WorldBuilder {
   std::vector<double> inverse_mass_;
   std::vector<Spring> springs_;
   std::vector<Stabilizer> stabilizers_;
-  std::vector<std::int32_t> cloth_of_;
   std::vector<Collider> bodies_, pins_;
   std::vector<Linkage> linkages_;  ///< of the bodies
   ContactSurfaces contacts_;

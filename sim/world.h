@@ -18,15 +18,14 @@ struct World {
   std::vector<io::Group> groups;  ///< one per cloth and per body
   Mesh mesh;
   std::int32_t cloth_vertex_count = 0;
-  std::vector<std::int32_t> cloth_of;  ///< of each cloth vertex: which cloth of the scene it is part of, copies counted
-  std::vector<double> inverse_mass;    ///< #V, 1/kg; pins do not show here, as they may be released; 0 for bodies
-  SpringSystem springs;                ///< of the cloth vertices
-  StabilizerSystem stabilizers;        ///< of the cloth vertices
-  std::vector<Collider> colliders;     ///< the bodies, then the pins; the index is the collision step's body id
-  std::int32_t body_count = 0;         ///< of the colliders
-  ContactSurfaces contacts;            ///< empty where no part has properties of its own, and no rest pairs
-  double stable_step_s = 0;            ///< of the springs
-  Positions x_t0, v_t0;                ///< #V by 3 at time 0, on the lattice of the scene's precision
+  std::vector<double> inverse_mass;  ///< #V, 1/kg; pins do not show here, as they may be released; 0 for bodies
+  SpringSystem springs;              ///< of the cloth vertices
+  StabilizerSystem stabilizers;      ///< of the cloth vertices
+  std::vector<Collider> colliders;   ///< the bodies, then the pins; the index is the collision step's body id
+  std::int32_t body_count = 0;       ///< of the colliders
+  ContactSurfaces contacts;          ///< empty where no part has properties of its own, and no rest pairs
+  double stable_step_s = 0;          ///< of the springs
+  Positions x_t0, v_t0;              ///< #V by 3 at time 0, on the lattice of the scene's precision
 };
 
 /// Reads the mesh files and builds. Throws io::Error: a bad mesh, a vertex without mass, a pinned vertex out of range.

@@ -123,6 +123,8 @@ struct AnyNumbering {
       s.straight_m = 0.01;
       for (std::size_t k = 0; k < 3; ++k) s.vertices[k] = number[static_cast<std::size_t>(s.vertices[k])];
     }
+    for (VertexId i = 0; i + 2 < count; i += 2)
+      stabilizers.push_back({{i + 1, i, i + 2, 0}, {1, -0.5, -0.5, 0}, 3, 0.02, 0});
     // One of four points, as on a mesh, without a spring between any two of them.
     if (side >= 9) stabilizers.push_back({{0, 5, 40, 77}, {0.25, 0.75, -0.5, -0.5}, 2, 0.03, 0});
   }
