@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "sim/dynamics.h"
@@ -15,7 +16,10 @@ struct CentralDifferencesOptions {
   Vec3 gravity_m_s2 = Vec3::Zero();
   double drag_1_s = 0;  ///< acceleration -drag v: still air, proportional to mass
   StrainLimits strain;
-  double step_s = 0;                              ///< longest internal step; REQUIRES > 0 and below stable_step_s()
+  double step_s = 0;  ///< longest internal step; REQUIRES > 0 and below stable_step_s()
+  /// stable_step_s() of the springs. Where contacts are held, and springs are stretched, internal steps are a part of
+  /// it. REQUIRES > 0
+  double stable_step_s = std::numeric_limits<double>::infinity();
   const StabilizerSystem* stabilizers = nullptr;  ///< none, or outlives the dynamics
   /// Air drag that grows with the square of the speed: acceleration -quadratic_drag_1_m |v| v. Damping is not linear
   /// then, and the velocity marches (velocity_march.h) instead of being solved for.
@@ -29,7 +33,7 @@ class CentralDifferences : public Dynamics {
  public:
   CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options);  ///< springs outlive it
 
-  /// As many equal internal steps as options.step_s asks for.
+  /// As many equal internal steps as the options ask for.
   DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
                          double dt_s, HeldContacts* contacts = nullptr) override;
   /// Where the collision step is made of several internal ones: one that is one leaves contacts to the repulsions,
@@ -50,6 +54,7 @@ class CentralDifferences : public Dynamics {
 
  private:
   [[nodiscard]] int step_count(double dt_s) const { return static_cast<int>(std::ceil(dt_s / options_.step_s)); }
+  [[nodiscard]] int step_count_in_contact(double dt_s, const PositionsRef& x) const;
   /// Half a step of all forces but springs' elongation within it, from v at x; the limits; and x at the end of the
   /// step.
   void explicit_half_kick(std::span<const double> inverse_mass, double h);
@@ -58,6 +63,7 @@ class CentralDifferences : public Dynamics {
   void march(const VelocitySystem& system, double time_s);
 
   CentralDifferencesOptions options_;
+  const SpringSystem& system_;
   SpringLanes springs_;
   LaneVectors x_, v_;
   LaneVectors force_;     ///< elastic, at x_

@@ -18,9 +18,11 @@ constexpr double kLimitsBorneInAll = 3;
 // their length (tests/sim/step_test.cpp).
 constexpr double kGrowth = 0.2;
 
-double strain(const Spring& spring, const PositionsRef& x) {
-  return std::abs((x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1);
+double elongation(const Spring& spring, const PositionsRef& x) {
+  return (x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1;
 }
+
+double strain(const Spring& spring, const PositionsRef& x) { return std::abs(elongation(spring, x)); }
 
 /// For parallel_sum(): the "sum" of two is the larger.
 struct Largest {
@@ -30,6 +32,21 @@ struct Largest {
     return *this;
   }
 };
+
+/// Of what is asked of structural and shear springs; 0 at least.
+double largest(const SpringSystem& springs, const PositionsRef& x, double (*of)(const Spring&, const PositionsRef&)) {
+  const auto& all = springs.springs();
+  std::vector<Largest> partial;
+  const Largest whole = parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
+    Largest most;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const Spring& spring = all[static_cast<std::size_t>(i)];
+      if (spring.kind != SpringKind::kBending) most += {of(spring, x)};
+    }
+    return most;
+  });
+  return whole.value;
+}
 
 }  // namespace
 
@@ -52,18 +69,10 @@ std::int64_t springs_overstrained(const SpringSystem& springs, double strain_lim
   });
 }
 
-double largest_strain(const SpringSystem& springs, const PositionsRef& x) {
-  const auto& all = springs.springs();
-  std::vector<Largest> partial;
-  const Largest whole = parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
-    Largest largest;
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const Spring& spring = all[static_cast<std::size_t>(i)];
-      if (spring.kind != SpringKind::kBending) largest += {strain(spring, x)};
-    }
-    return largest;
-  });
-  return whole.value;
+double largest_strain(const SpringSystem& springs, const PositionsRef& x) { return largest(springs, x, strain); }
+
+double largest_elongation(const SpringSystem& springs, const PositionsRef& x) {
+  return largest(springs, x, elongation);
 }
 
 }  // namespace selvage::sim

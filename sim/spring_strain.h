@@ -21,4 +21,7 @@ struct StrainedMotion {
 /// O(springs), in parallel.
 [[nodiscard]] double largest_strain(const SpringSystem& springs, const PositionsRef& x);
 
+/// The same without those that are shorter than at rest.
+[[nodiscard]] double largest_elongation(const SpringSystem& springs, const PositionsRef& x);
+
 }  // namespace selvage::sim

@@ -29,6 +29,7 @@ std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world, 
   options.strain = scene.strain;
   options.stabilizers = stabilizers;
   options.step_s = step_s;
+  options.stable_step_s = world.stable_step_s;
   return std::make_unique<CentralDifferences>(world.springs, options);
 }
 

@@ -12,7 +12,7 @@
 namespace selvage::bench {
 namespace {
 
-// As in scenes that do not name a dynamics step (sim/step.cpp).
+// As in scenes that do not name a dynamics step (sim/step_lengths.cpp).
 constexpr double kStableShare = 0.9;
 
 Faces faces_of(const io::Triangles& triangles) {

@@ -387,15 +387,14 @@ const std::string kBall = "sphere = {radius_m = 0.1, subdivisions = 2}\nposition
 const std::string kBox =
     "box = {size_m = [0.2, 0.2, 0.2]}\nposition_m = [0.03, 0.02, 0.11]\nrotation_deg = [10, 20, 30]\n";
 
-/// Its energy after every step is at most a hundredth more than at the start.
-void expect_no_gain(const std::string& text, std::int64_t least_contacts) {
-  Simulation simulation(parse_scene(text, "stiff.toml"));
-  const double start_j = energy_j(simulation, kStiffSide * kStiffSide);
+/// The energy of the first `count` vertices after every step is at most a hundredth more than at the start.
+void expect_no_gain(const std::string& text, std::int64_t least_contacts, VertexId count = kStiffSide * kStiffSide) {
+  Simulation simulation(parse_scene(text, "gain.toml"));
+  const double start_j = energy_j(simulation, count);
   std::int64_t contacts = 0;
-  while (simulation.clock().time_s() < 0.4 - 1e-9) {
+  while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
     contacts += simulation.step().report.repulsions;
-    EXPECT_LT(energy_j(simulation, kStiffSide * kStiffSide), 1.01 * start_j) << simulation.clock().time_s() << " s\n"
-                                                                             << text;
+    EXPECT_LT(energy_j(simulation, count), 1.01 * start_j) << simulation.clock().time_s() << " s\n" << text;
   }
   EXPECT_GT(contacts, least_contacts) << text;
 }
@@ -416,6 +415,20 @@ TEST(Physics, StiffClothWithoutDampingGainsNoEnergyInContact) {
       }
     }
   }
+}
+
+TEST(Physics, SoftClothThatACornerStrainsGainsNoEnergyInContact) {
+  // At 12 m/s on the corners of a box, whose top is as small as six springs, in steps that move it by half a spring.
+  // With steps of the dynamics at nine tenths of the stable one throughout it had 2.6 times as much on the way.
+  constexpr VertexId kSide = 40;
+  const std::string text =
+      "gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.0666666666666667\n"
+      "max_step_s = 0.0167\nmin_step_s = 0.00052\n[collision]\nthickness_m = 0.003\nfriction_static = 0.3\n"
+      "friction_kinetic = 0.25\n[[cloth]]\nsheet = {nx = 40, ny = 40, width_m = 0.42, height_m = 0.42}\n"
+      "position_m = [0, 0, 0.72]\nvelocity_m_s = [0, 0, -12]\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\n"
+      "bend_n_m = 0.6\nstabilize_n_m = 0.2\ndamping_ratio = 0.1\n[[body]]\nbox = {size_m = [0.07, 0.07, 0.7]}\n"
+      "position_m = [0, 0, 0.36]\n";
+  expect_no_gain(text, 1000, kSide * kSide);
 }
 
 TEST(Physics, WhatElseMovesDoesNotHideEnergyThatContactGains) {

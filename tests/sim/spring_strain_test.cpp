@@ -42,6 +42,8 @@ TEST(SpringStrain, TheLargestIsOfStructuralAndShearSpringsStretchedOrPressed) {
   EXPECT_NEAR(largest_strain(SpringSystem(springs, 6), x), 0.2, 1e-15);
   EXPECT_NEAR(largest_strain(SpringSystem({springs[0]}, 6), x), 0.1, 1e-15);
   EXPECT_EQ(largest_strain(SpringSystem({springs[2]}, 6), x), 0);
+  EXPECT_NEAR(largest_elongation(SpringSystem(springs, 6), x), 0.1, 1e-15);
+  EXPECT_EQ(largest_elongation(SpringSystem({springs[1], springs[2]}, 6), x), 0);
 }
 
 }  // namespace selvage::sim
