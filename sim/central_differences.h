@@ -17,8 +17,8 @@ struct CentralDifferencesOptions {
   double drag_1_s = 0;  ///< acceleration -drag v: still air, proportional to mass
   StrainLimits strain;
   double step_s = 0;  ///< longest internal step; REQUIRES > 0 and below stable_step_s()
-  /// stable_step_s() of the springs. Where contacts are held, and springs are stretched, internal steps are a part of
-  /// it. REQUIRES > 0
+  /// stable_step_s() of the springs. Where contacts are held, and a spring is longer by more than 0.3, internal steps
+  /// are at most 0.9 of this over its length in units of that at rest, or 0.35 of it. REQUIRES > 0
   double stable_step_s = std::numeric_limits<double>::infinity();
   const StabilizerSystem* stabilizers = nullptr;  ///< none, or outlives the dynamics
   /// Air drag that grows with the square of the speed: acceleration -quadratic_drag_1_m |v| v. Damping is not linear
@@ -38,7 +38,9 @@ class CentralDifferences : public Dynamics {
                          double dt_s, HeldContacts* contacts = nullptr) override;
   /// Where the collision step is made of several internal ones: one that is one leaves contacts to the repulsions,
   /// which are the same then.
-  [[nodiscard]] bool holds_contacts(double dt_s) const override { return step_count(dt_s) > 1; }
+  [[nodiscard]] bool holds_contacts(double dt_s, const PositionsRef& x) const override {
+    return step_count_in_contact(dt_s, x) > 1;
+  }
 
   /// v(n+1) of the line above. After an advance() in several internal steps the collision step has changed an average
   /// velocity; the cloth's own at the end of the step is another, which the average must not take the place of: where
@@ -53,7 +55,9 @@ class CentralDifferences : public Dynamics {
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
-  [[nodiscard]] int step_count(double dt_s) const { return static_cast<int>(std::ceil(dt_s / options_.step_s)); }
+  [[nodiscard]] static int step_count(double dt_s, double longest_s) {
+    return static_cast<int>(std::ceil(dt_s / longest_s));
+  }
   [[nodiscard]] int step_count_in_contact(double dt_s, const PositionsRef& x) const;
   /// Half a step of all forces but springs' elongation within it, from v at x; the limits; and x at the end of the
   /// step.

@@ -34,8 +34,8 @@ class Dynamics {
   virtual DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1,
                                  std::span<const double> inverse_mass, double dt_s,
                                  HeldContacts* contacts = nullptr) = 0;
-  /// Whether contacts act in advance().
-  [[nodiscard]] virtual bool holds_contacts(double dt_s) const = 0;
+  /// Whether contacts act in advance() from x.
+  [[nodiscard]] virtual bool holds_contacts(double dt_s, const PositionsRef& x) const = 0;
 
   /// Section 7.6: the velocity at the end of a step with contacts, from the positions there and the mean velocity
   /// that the collision step left in motion.v. Rows with inverse mass 0 are kept.

@@ -40,7 +40,7 @@ class ImplicitDynamics : public Dynamics {
   /// 6,000 N/m and steps of 1/240 s held at most 5 J of elastic energy without it, and 1,100 J after 0.9 s with it).
   DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
                          double dt_s, HeldContacts* contacts = nullptr) override;
-  [[nodiscard]] bool holds_contacts(double) const override { return true; }
+  [[nodiscard]] bool holds_contacts(double, const PositionsRef&) const override { return true; }
 
   /// Adds to the velocity at the end what the collision step changed in the mean velocity. REQUIRES advance() before.
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;

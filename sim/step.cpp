@@ -131,7 +131,7 @@ bool Simulation::others_wait(Try& tried) {
 Simulation::Try Simulation::try_step(StepResult& result) {
   Try tried;
   const double dt_s = clock_.dt_s();
-  const bool holds = dynamics_->holds_contacts(dt_s);
+  const bool holds = dynamics_->holds_contacts(dt_s, x_.topRows(world_.cloth_vertex_count));
   Positions candidate = scripted_positions();
   std::vector<RepulsionContact> held;
   if (holds) {

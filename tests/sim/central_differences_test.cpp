@@ -188,6 +188,24 @@ TEST(CentralDifferences, HeldVerticesReachTheirScriptExactly) {
   EXPECT_EQ(Vec3(motion.x.row(3)), Vec3(script.row(3)));
 }
 
+TEST(CentralDifferences, StepsThatHoldContactsAreShorterWhereSpringsAreStretched) {
+  const auto is_more_than_one = [](double length, double dt_s, double stable_step_s) {
+    const Hanging hanging(length);
+    CentralDifferencesOptions options = hanging.options(0.009);
+    options.stable_step_s = stable_step_s;
+    return CentralDifferences(hanging.springs, options).holds_contacts(dt_s, hanging.motion.x);
+  };
+  EXPECT_TRUE(is_more_than_one(1, 0.0091, 0.01));
+  EXPECT_FALSE(is_more_than_one(0.5, 0.0089, 0.01)) << "not where they are shorter";
+  EXPECT_FALSE(is_more_than_one(1.29, 0.0089, 0.01));
+  EXPECT_TRUE(is_more_than_one(1.31, 0.0089, 0.01));
+  EXPECT_FALSE(is_more_than_one(1.5, 0.0059, 0.01));
+  EXPECT_TRUE(is_more_than_one(1.5, 0.0061, 0.01));
+  EXPECT_FALSE(is_more_than_one(9, 0.0034, 0.01));
+  EXPECT_TRUE(is_more_than_one(9, 0.0036, 0.01));
+  EXPECT_FALSE(is_more_than_one(9, 0.0089, 0.1)) << "they are short";
+}
+
 TEST(CentralDifferences, FinalVelocityIsTheHalfKickForShortSteps) {
   // Section 7.6 for one oscillator: v + dt/2 (g - k/m elongation), plus terms of second order in dt.
   Hanging hanging(1.01);
