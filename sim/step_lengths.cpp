@@ -5,11 +5,6 @@
 namespace selvage::sim {
 namespace {
 
-// Where no dynamics step is given: this part of the limit that Gershgorin's bound leaves. Springs that are compressed
-// or turn within the step are not in the bound; nine tenths was stable in every scene tried. Where contact holds
-// stretched cloth they are shorter (central_differences.cpp).
-constexpr double kStableShare = 0.9;
-
 // Implicit dynamics have no stable step to name the shortest collision step. In an eighth of the longest, cloth that
 // moves at 1 m/s against 1/60 s has 2 mm to go, which is about the thickness that repulsions reach.
 constexpr double kShortestImplicitShare = 1.0 / 8;

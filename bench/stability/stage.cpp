@@ -8,12 +8,10 @@
 #include <Eigen/Geometry>
 
 #include "sim/cloth.h"
+#include "sim/step_lengths.h"
 
 namespace selvage::bench {
 namespace {
-
-// As in scenes that do not name a dynamics step (sim/step_lengths.cpp).
-constexpr double kStableShare = 0.9;
 
 Faces faces_of(const io::Triangles& triangles) {
   Faces faces(static_cast<Eigen::Index>(triangles.size()), 3);
@@ -114,7 +112,7 @@ Stage::Stage(Trial& trial, StageSetup setup)
   options.gravity_m_s2 = setup_.gravity_m_s2;
   options.drag_1_s = setup_.drag_1_s;
   options.strain = setup_.strain;
-  options.step_s = std::min(kStableShare * sim::stable_step_s(springs_, setup_.inverse_mass), setup_.dt_s);
+  options.step_s = std::min(sim::kStableShare * sim::stable_step_s(springs_, setup_.inverse_mass), setup_.dt_s);
   dynamics_ = std::make_unique<sim::CentralDifferences>(springs_, options);
   for (const StageSetup::Scripted& scripted : setup_.scripted) {
     paths_.emplace_back(scripted.keys, sim::Interpolation::kLinear);
