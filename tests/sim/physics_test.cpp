@@ -423,7 +423,7 @@ TEST(Physics, StiffClothWithoutDampingGainsNoEnergyInContact) {
 TEST(Physics, SoftClothThatACornerStretchesGainsNoEnergyInContact) {
   // Edges of 10.8 mm on the corners of a box, in steps in which they go half of that or more. Where steps of the
   // dynamics were as long there as elsewhere (at 0.52 ms two of 0.7 of the limit each, and in the softer cloth one of
-  // 0.9) the three came to 2.6, 8.8 and 4.6 times their energy and 14, 31 and 56 times the length of their springs.
+  // 0.9) the three came to 2.5, 8.8 and 4.6 times their energy and 14, 31 and 56 times the length of their springs.
   struct Case {
     VertexId side;
     double speed_m_s, stretch_n_m, most_strain;
