@@ -108,6 +108,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     }
   }
   internal_step_s_ = h;
+  strain_.forget();
   x_.copy(motion.x);
   v_.copy(motion.v);
   springs_.look(x_, inverse_mass, {h / 2, 0}, force_);
@@ -115,9 +116,11 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   for (int step = 0; step < count; ++step) {
     explicit_half_kick(inverse_mass, h);
     const LimitedMotion limited{x_, h, v_, x_t1_};
+    const MidstepMotion held{h, double(step + 1) / count, x_t1_, v_};
+    if (contacts != nullptr) contacts->bear(held);
     strain_.limit_strain(inverse_mass, limited);
     strain_.limit_strain_rate(inverse_mass, limited);
-    if (contacts != nullptr) contacts->hold({h, double(step + 1) / count, x_t1_, v_});
+    if (contacts != nullptr) contacts->hold(held);
     std::swap(x_, x_t1_);
     if (step + 1 == count) last_midstep_v_ = v_;
     springs_.look(x_, inverse_mass, {h / 2, 0}, force_);

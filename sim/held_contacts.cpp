@@ -125,9 +125,12 @@ void HeldContacts::set(Line& line) const {
   }
 }
 
-void HeldContacts::hold(const MidstepMotion& step) {
+void HeldContacts::bear(const MidstepMotion& step) {
   for (std::size_t at = vf_count_; at < lines_.size(); ++at) lines_[at].did = {};
   vf_.each(false, [&](std::size_t i, const Reach& reach) { return bear(lines_[i], reach, step); });
+}
+
+void HeldContacts::hold(const MidstepMotion& step) {
   for (int sweep = 1; sweep <= sweeps_; ++sweep) {
     const bool is_last = sweep == sweeps_;
     vf_.each(backwards_, [&](std::size_t i, const Reach& reach) { return hold(lines_[i], reach, is_last, step); });

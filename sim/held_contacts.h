@@ -43,7 +43,11 @@ class HeldContacts {
   HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
                const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
-  /// The loads with their friction, then sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3).
+  /// The loads with their friction, where the contacts are now: before the limits on strain, which else see cloth fall
+  /// that is borne, and have it pull on what bears it (docs/numerics.md).
+  void bear(const MidstepMotion& step);
+
+  /// After bear(): sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3).
   /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
   /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
   /// friction that it began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it.

@@ -127,6 +127,7 @@ void ImplicitDynamics::limit(const Positions& x_t0, std::span<const double> inve
   x_t0_.copy(x_t0);
   x_t1_.copy(motion.x);
   mean_v_.copy((motion.x - x_t0) / h);
+  strain_.forget();
   if (strain_.limit_strain(inverse_mass, {x_t0_, h, mean_v_, x_t1_}) == 0) return;
   x_t1_.copy_to(motion.x);
   mean_v_.copy_to(motion.v);

@@ -26,6 +26,17 @@ SpringMotion motion_of(const Spring& spring, const LimitedMotion& step) {
   return motion;
 }
 
+/// How much farther than the longest it goes along the spring; no more than it moves.
+double too_long(const SpringMotion& motion, double longest) {
+  const double along = std::sqrt(std::max(0.0, longest * longest - motion.across_squared));
+  return motion.along - std::max(motion.length_t0, along);
+}
+
+double too_short(const SpringMotion& motion, double shortest) {
+  const double along = std::sqrt(std::max(0.0, shortest * shortest - motion.across_squared));
+  return std::min(motion.length_t0, along) - motion.along;
+}
+
 // The change of `along` that brings the length into [shortest, longest]; where the motion across is too long for that,
 // the change that leaves the least length. Never reverses the approach: it stops at no relative motion along the
 // spring.
@@ -53,7 +64,8 @@ StrainLimiter::StrainLimiter(const SpringSystem& springs, const StrainLimits& li
       limits_(limits),
       check_(springs),
       is_suspect_(springs.springs().size()),
-      active_count_(static_cast<std::size_t>(springs.vertex_count())) {}
+      projection_(springs.vertex_count()),
+      borne_n_s_(springs.springs().size()) {}
 
 void StrainLimiter::apply(const Spring& spring, const Eigen::RowVector3d& impulse, std::span<const double> inverse_mass,
                           const LimitedMotion& motion) const {
@@ -64,36 +76,57 @@ void StrainLimiter::apply(const Spring& spring, const Eigen::RowVector3d& impuls
   }
 }
 
+void StrainLimiter::forget() {
+  for (const std::size_t spring : bearing_) borne_n_s_[spring] = 0;
+  bearing_.clear();
+}
+
+bool StrainLimiter::find_pairs(std::span<const double> inverse_mass, const LimitedMotion& motion) {
+  for (const std::size_t s : bearing_) is_suspect_[s] = 1;
+  pairs_.clear();
+  limited_.clear();
+  bool finds_others = false;
+  for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
+    const Spring& spring = springs_.springs()[s];
+    const double w_a = inverse_mass[static_cast<std::size_t>(spring.a)];
+    const double w_b = inverse_mass[static_cast<std::size_t>(spring.b)];
+    if (!(w_a + w_b > 0)) continue;
+    const SpringMotion spring_motion = motion_of(spring, motion);
+    const double longest = std::max((1 + limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
+    const double shortest = std::min((1 - limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
+    const double borne = borne_n_s_[s];
+    const bool is_long = borne == 0 ? spring_motion.length_t1() > longest : borne > 0;
+    const double too_far = is_long ? too_long(spring_motion, longest) : too_short(spring_motion, shortest);
+    if (borne == 0 && !(too_far > 0)) continue;
+    finds_others = finds_others || borne == 0;
+    const Vec3 towards_b = spring_motion.direction.transpose();
+    pairs_.push_back(
+        {spring.a, spring.b, w_a, w_b, is_long ? towards_b : Vec3(-towards_b), too_far / motion.dt_s, std::abs(borne)});
+    limited_.push_back({s, is_long});
+  }
+  return finds_others;
+}
+
 std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, const LimitedMotion& motion) {
   if (limits_.strain == 0) return 0;
   std::int64_t impulses = 0;
-  for (std::int32_t iteration = 0; iteration < limits_.strain_iterations; ++iteration) {
+  for (const auto start : {ImpulseProjection::Start::kGuess, ImpulseProjection::Start::kActing}) {
     check_.find_outside(motion.x_t0, motion.x_t1, LengthCheck::Reference::kRestLength, limits_.strain, is_suspect_);
-    active_.clear();
-    for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
-      const Spring& spring = springs_.springs()[s];
-      const auto a = static_cast<std::size_t>(spring.a), b = static_cast<std::size_t>(spring.b);
-      if (!(inverse_mass[a] + inverse_mass[b] > 0)) continue;
-      const SpringMotion spring_motion = motion_of(spring, motion);
-      const double longest = std::max((1 + limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
-      const double shortest = std::min((1 - limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
-      const double along = correction(spring_motion, shortest, longest);
-      if (along == 0) continue;
-      active_.push_back({s, along / motion.dt_s / (inverse_mass[a] + inverse_mass[b]) * spring_motion.direction});
-      ++active_count_[a];
-      ++active_count_[b];
-    }
-    if (active_.empty()) break;
-    impulses += static_cast<std::int64_t>(active_.size());
-    for (const Active& active : active_) {
-      const Spring& spring = springs_.springs()[active.spring];
-      const std::int32_t count = std::max(active_count_[static_cast<std::size_t>(spring.a)],
-                                          active_count_[static_cast<std::size_t>(spring.b)]);
-      apply(spring, (1.0 / count) * active.impulse, inverse_mass, motion);
-    }
-    for (const Active& active : active_) {
-      active_count_[static_cast<std::size_t>(springs_.springs()[active.spring].a)] = 0;
-      active_count_[static_cast<std::size_t>(springs_.springs()[active.spring].b)] = 0;
+    const bool finds_others = find_pairs(inverse_mass, motion);
+    const bool is_first = start == ImpulseProjection::Start::kGuess;
+    if (pairs_.empty() || !(is_first || finds_others)) break;
+    projection_.solve(pairs_, start, limits_.strain_iterations);
+    forget();
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const BoundedPair& pair = pairs_[i];
+      const auto [s, is_long] = limited_[i];
+      if (pair.change_n_s != 0) {
+        apply(springs_.springs()[s], -pair.change_n_s * pair.direction.transpose(), inverse_mass, motion);
+        ++impulses;
+      }
+      if (!(pair.impulse_n_s > 0)) continue;
+      bearing_.push_back(s);
+      borne_n_s_[s] = is_long ? pair.impulse_n_s : -pair.impulse_n_s;
     }
   }
   return impulses;

@@ -32,6 +32,11 @@ struct Ground {
   }
 };
 
+void act(HeldContacts& held, const MidstepMotion& step) {
+  held.bear(step);
+  held.hold(step);
+}
+
 /// The face of the contact alone.
 Ground one_face() { return {Faces{{1, 2, 3}}, std::vector<double>(4, 0.0)}; }
 
@@ -60,7 +65,7 @@ struct OneContact {
     const ContactLoad load{
         contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
     HeldContacts held(contacts, {load}, ground.surface(cloth_count), V_t0, V_t1, kStep, sweeps);
-    held.hold({kStep, 1, x, v});
+    act(held, {kStep, 1, x, v});
     loads = held.loads();
     return held.count();
   }
@@ -86,7 +91,7 @@ Vec3 friction_of(const ContactLoad& load) { return Vec3(load.friction_m_s2.data(
 void move_and_hold(OneContact& one, HeldContacts& held, const Eigen::RowVector3d& v, double share) {
   one.v.row(0) = v;
   one.x.row(0) += kStep * v;
-  held.hold({kStep, share, one.x, one.v});
+  act(held, {kStep, share, one.x, one.v});
 }
 
 /// A vertex a thickness above the middle of a face of a body, which moves by `moved` within the step.
@@ -157,7 +162,7 @@ struct Column {
         v.row(i).z() -= kShort * kGravity;
         x.row(i) += kShort * v.row(i);
       }
-      held.hold({kShort, double(step) / kSteps, x, v});
+      act(held, {kShort, double(step) / kSteps, x, v});
       for (int i = 0; i < kCount; ++i) {
         const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kThickness;
         highest = std::max(highest, gap);
@@ -284,7 +289,7 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
     v.set_zero();
     const Ground ground(Faces{{2, 3, 0}}, {1, 0, 0, 0});
     HeldContacts held({contact}, {}, ground.surface(1), V, V_t1, kStep, sweeps);
-    held.hold({kStep, 1, x, v});
+    act(held, {kStep, 1, x, v});
     const double moved = x.row(0).z() - V(0, 2);
     EXPECT_NEAR(moved, kMaxLever * kRise, 1e-3 * kRise) << sweeps;
     EXPECT_TRUE(held.loads().empty());
@@ -310,7 +315,7 @@ TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
     v.row(0) = Eigen::RowVector3d(0, 0, 1);
     x.row(0) += kStep * v.row(0);
     HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(3), V, V, kStep, 1);
-    held.hold({kStep, 1, x, v});
+    act(held, {kStep, 1, x, v});
     EXPECT_EQ(Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(0, 0, 1));
     EXPECT_EQ(held.count().repulsions, 0);
   }
@@ -346,10 +351,10 @@ TEST(HeldContacts, AreGivenOnAsTheyWereLastLookedAt) {
   HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kStep, 1);
   EXPECT_EQ(held.contacts().front().normal, one.contact.normal);
   one.x.row(0) += kStep * one.v.row(0);
-  held.hold({kStep, 0.5, one.x, one.v});
+  act(held, {kStep, 0.5, one.x, one.v});
   one.v.row(0) = Eigen::RowVector3d(0, 0, -1);
   one.x.row(0) += kStep * one.v.row(0);
-  held.hold({kStep, 1, one.x, one.v});
+  act(held, {kStep, 1, one.x, one.v});
   const RepulsionContact now = held.contacts().front();
   EXPECT_LT((now.normal - Vec3(0, -0.1, kThickness).normalized()).norm(), 1e-12);
   EXPECT_NEAR(now.distance, (Vec3(0, 0, kThickness) - Vec3(0, -2, 0)).dot(now.normal), 1e-12);

