@@ -12,6 +12,7 @@
 
 #include "kernel/fp_env.h"
 #include "kernel/types.h"
+#include "sim/lane_vectors.h"
 
 namespace selvage::sim {
 
@@ -21,6 +22,9 @@ class ContactGroups {
     std::array<VertexId, 4> vertices;  ///< -1 for those that do not move: any contacts may share them
     Vec3 at;                           ///< contacts near each other share vertices more often than others
   };
+
+  /// Of those in a group that share a vertex: as they are given, or nearly so, which fills packs better.
+  enum class Order { kAsGiven, kNearly };
 
   /// Which vertices a contact may read and write now. All may read those that do not move.
   class Reach {
@@ -44,29 +48,40 @@ class ContactGroups {
   /// REQUIRES vertices below `vertex_count`, and |at| <= 2 kMaxCoordinate. O(n log n), n = #members, and
   /// O(vertex_count) time and memory for each round: each takes a fifth of what is left or more (contact_groups.cpp),
   /// so there are 1 + 4.5 ln(n / 512) at most, and eight where 20,000 contacts press in a heap.
-  ContactGroups(std::span<const Member> members, Eigen::Index vertex_count);
+  ContactGroups(std::span<const Member> members, Eigen::Index vertex_count, Order order);
 
-  /// All members, in the order in which they act, but for those that leave their group: laid out so in memory they are
-  /// read one after the other.
+  /// All members in the order in which they act, but for those that have left: kLanes a pack, from pack * kLanes on.
+  /// Those of a pack share no vertex, and act at once. Places without a member are kNobody.
   [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
+  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
-  /// Calls act(place in order(), reach) for each: rounds of groups that share no vertex, the groups of a round in
-  /// parallel, then those left over, alone, in whose reach is all; or all that backwards. Where act() needs what is not
-  /// in its reach it must change nothing and return false: it is called again after all others, and from then on
-  /// always alone. Same bits for any number of threads.
+  /// Those of a pack that act with it.
+  [[nodiscard]] Lanes together(std::size_t pack) const { return together_[pack]; }
+
+  /// Of those asked to act, whom act() has left as they were.
+  struct Refused {
+    Lanes out_of_reach = 0;  ///< need what is not in their reach
+    Lanes at_once = 0;       ///< share a vertex with one of their pack
+  };
+
+  /// Calls act(pack, lanes, reach), which says who refused, for all: rounds of groups that share no vertex, the groups
+  /// of a round in parallel, then those left over, alone, in whose reach is all; or all that backwards. Who refuses
+  /// acts after the packs of its group, or, out of reach, after all others; one by one, and so from then on. Same bits
+  /// for any number of threads.
   template <typename Act>
   void each(bool backwards, const Act& act) {
-    if (backwards) act_alone(backwards, act);
+    if (backwards) act_group(alone_, Reach::all(), backwards, act);
     for (std::size_t k = 0; k < rounds_.size(); ++k) {
       act_round(rounds_[backwards ? rounds_.size() - 1 - k : k], backwards, act);
     }
-    if (!backwards) act_alone(backwards, act);
+    if (!backwards) act_group(alone_, Reach::all(), backwards, act);
     for (Round& round : rounds_) act_leaving(round, act);
   }
 
  private:
   struct Group {
-    std::size_t begin = 0, end = 0;    ///< in order()
+    std::size_t begin = 0, end = 0;    ///< packs
+    std::vector<std::size_t> singles;  ///< places of those that act one by one
     std::vector<std::size_t> leaving;  ///< in this pass
   };
   struct Round {
@@ -74,39 +89,55 @@ class ContactGroups {
     std::vector<std::int32_t> owner;  ///< #V: which of the groups, or -1
   };
 
+  /// `packs_of` has zero for each vertex.
+  [[nodiscard]] Group add_group(std::span<const Member> members, std::span<const std::size_t> group, Order order,
+                                std::vector<std::uint64_t>& packs_of);
+
   template <typename Act>
   void act_round(Round& round, bool backwards, const Act& act) {
     tbb::parallel_for(std::size_t{0}, round.groups.size(), [&](std::size_t id) {
       const FpEnvGuard guard;
-      Group& group = round.groups[id];
-      const Reach reach(round.owner, id);
-      for (std::size_t k = 0; k < group.end - group.begin; ++k) {
-        const std::size_t place = backwards ? group.end - 1 - k : group.begin + k;
-        if (has_left_[place] == 0 && !act(place, reach)) group.leaving.push_back(place);
-      }
+      act_group(round.groups[id], Reach(round.owner, id), backwards, act);
     });
   }
 
   template <typename Act>
-  void act_alone(bool backwards, const Act& act) const {
-    for (std::size_t k = 0; k < alone_.size(); ++k) act(alone_[backwards ? alone_.size() - 1 - k : k], Reach::all());
+  void act_group(Group& group, const Reach& reach, bool backwards, const Act& act) {
+    for (std::size_t k = 0; k < group.end - group.begin; ++k) {
+      const std::size_t pack = backwards ? group.end - 1 - k : group.begin + k;
+      if (together_[pack] == 0) continue;
+      const Refused refused = act(pack, together_[pack], reach);
+      together_[pack] &= static_cast<Lanes>(~(refused.out_of_reach | refused.at_once));
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (refused.out_of_reach >> lane & 1U) group.leaving.push_back(pack * kLanes + lane);
+        if (refused.at_once >> lane & 1U) group.singles.push_back(pack * kLanes + lane);
+      }
+    }
+    std::erase_if(group.singles, [&](std::size_t place) {
+      const bool leaves = act_single(place, reach, act).out_of_reach != 0;
+      if (leaves) group.leaving.push_back(place);
+      return leaves;
+    });
+  }
+
+  template <typename Act>
+  static Refused act_single(std::size_t place, const Reach& reach, const Act& act) {
+    return act(place / kLanes, static_cast<Lanes>(1U << place % kLanes), reach);
   }
 
   template <typename Act>
   void act_leaving(Round& round, const Act& act) {
     for (Group& group : round.groups) {
-      for (const std::size_t place : group.leaving) {
-        act(place, Reach::all());
-        has_left_[place] = 1;
-      }
-      alone_.insert(alone_.end(), group.leaving.begin(), group.leaving.end());
+      for (const std::size_t place : group.leaving) act_single(place, Reach::all(), act);
+      alone_.singles.insert(alone_.singles.end(), group.leaving.begin(), group.leaving.end());
       group.leaving.clear();
     }
   }
 
   std::vector<Round> rounds_;
-  std::vector<std::size_t> order_, alone_;  ///< alone: places in order()
-  std::vector<std::uint8_t> has_left_;      ///< of a place: its group
+  Group alone_;
+  std::vector<std::size_t> order_;
+  std::vector<Lanes> together_;  ///< by pack
 };
 
 }  // namespace selvage::sim

@@ -13,9 +13,6 @@
 namespace selvage::sim {
 namespace {
 
-/// Share by which rounding may raise an energy.
-constexpr double kRounding = 0x1p-40;
-
 /// The rigid rotations of a closed pair's four vertices.
 void add_rotation(const Interaction& interaction, const PairVectors& x_t0, SlipGeometry& slip) {
   double mass_sum = 0;
@@ -132,7 +129,7 @@ bool adds_energy(const Interaction& interaction, const PairVectors& displacement
     added += change[i].dot(2 * own + change[i]) / interaction.mobility[i];
     energy += own.squaredNorm() / interaction.mobility[i];
   }
-  return !(added <= kRounding * energy);
+  return !(added <= kFrictionRounding * energy);
 }
 
 }  // namespace
@@ -183,7 +180,8 @@ PairVectors begin_friction(const Interaction& interaction, const PairVectors& x_
   const SlipGeometry slip = make_slip_geometry(interaction, x_t0, normal, mobility);
   const Vec3 impulse = share / mobility;
   PairVectors changes = changes_by(interaction, slip, impulse);
-  if (!(energy(interaction, changes) <= (1 + kRounding) * mobility * impulse.squaredNorm())) return zero_vectors();
+  if (!(energy(interaction, changes) <= (1 + kFrictionRounding) * mobility * impulse.squaredNorm()))
+    return zero_vectors();
   load.slip = slip;
   load.rubbed = load.pressed * impulse;
   for (Vec3& change : changes) change *= load.pressed;

@@ -15,6 +15,9 @@
 
 namespace selvage::sim {
 
+/// Share by which rounding may raise an energy; what would raise it by more is left out.
+inline constexpr double kFrictionRounding = 0x1p-40;
+
 struct FrictionCoefficients {
   double on_static = 0;   ///< sticks while the impulse needed is at most this times the normal impulse
   double on_kinetic = 0;  ///< slides with this times the normal impulse, never past rest

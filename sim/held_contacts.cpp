@@ -1,12 +1,11 @@
 #include "sim/held_contacts.h"
 
 #include <algorithm>
-#include <limits>
+#include <bit>
 #include <utility>
 
 #include "kernel/assert.h"
 #include "sim/parallel.h"
-#include "sim/quick_proximity.h"
 
 namespace selvage::sim {
 namespace {
@@ -28,44 +27,50 @@ constexpr double kNearer = 1 - 1e-6;
 
 constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
 
-void move_vertex(VertexId vertex, const Vec3& change, const MidstepMotion& step) {
-  step.x_t1.row(vertex) += change.transpose();
-  step.v.row(vertex) += change.transpose() / step.h;
-}
-
-FrictionCoefficients friction_of(const RepulsionContact& contact) {
-  return {contact.properties.friction_static, contact.properties.friction_kinetic};
-}
-
 std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.vertex, load.face}; }
+
+bool has(Lanes lanes, std::size_t lane) { return (lanes >> lane & 1U) != 0; }
+Lanes only(std::size_t lane) { return static_cast<Lanes>(1U << lane); }
+
+template <class Columns>
+Vec3 vector_in(const Columns& columns, std::size_t lane) {
+  return {columns[0][lane], columns[1][lane], columns[2][lane]};
+}
+
+/// Of those whose column is above zero.
+Lanes above_zero(const LaneColumn<double>& column) {
+  Lanes result = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only(lane) : Lanes{0};
+  return result;
+}
+
+/// Packs are read one after the other, and all of them take more than a core's cache.
+void fetch_ahead(const ContactPack* pack) {
+  for (std::size_t k = 0; k < sizeof(ContactPack); k += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack) + k);
+}
 
 }  // namespace
 
 HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
                            const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s,
                            int sweeps)
-    : surface_(surface), V_t0_(V_t0), V_t1_(V_t1), dt_s_(dt_s), sweeps_(sweeps) {
-  lines_.resize(contacts.size());
-  for (const PairKind kind : {PairKind::kVf, PairKind::kEe}) set_lines(kind, contacts);
-  SELVAGE_ASSERT(vf_count_ + ee_.order().size() == lines_.size());
-  parallel_each(static_cast<Eigen::Index>(vf_count_), [&](Eigen::Index at) {
-    Line& line = lines_[static_cast<std::size_t>(at)];
-    if (const ContactLoad* const load = load_of(line.contact, loads)) {
-      line.load_m_s2 = load->acceleration_m_s2;
-      line.friction_m_s2 = Vec3(load->friction_m_s2.data());
-    }
-  });
+    : surface_(surface), V_t0_(V_t0), V_t1_(V_t1), dt_s_(dt_s), sweeps_(sweeps), place_of_(contacts.size()) {
+  const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
+  scripted_t0_.copy(V_t0.bottomRows(scripted));
+  scripted_way_.copy(V_t1.bottomRows(scripted) - V_t0.bottomRows(scripted));
+  for (Kind* kind : {&vf_, &ee_}) add_kind(*kind, contacts);
+  begin_with(loads);
 }
 
 /// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on through all
 /// layers: as cubes the fifty of sim/scenes/stack.toml as a draft came as near as 0.6 mm of 3, as columns 1.7
 /// (docs/simulator-speed.md).
-void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>& contacts) {
+void HeldContacts::add_kind(Kind& kind, const std::vector<RepulsionContact>& contacts) {
   const Vec3 down = surface_.gravity_m_s2.stableNormalized();
   std::vector<std::size_t> of_kind;
   std::vector<ContactGroups::Member> members;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (contacts[i].kind != kind) continue;
+    if (contacts[i].kind != kind.kind) continue;
     of_kind.push_back(i);
     std::array<VertexId, 4> vertices = contacts[i].interaction.vertices;
     const Vec3 at = V_t0_.row(vertices.front());
@@ -73,15 +78,49 @@ void HeldContacts::set_lines(PairKind kind, const std::vector<RepulsionContact>&
         vertices, [&](VertexId v) { return !is_cloth(v); }, -1);
     members.push_back({vertices, at - down.dot(at) * down});
   }
-  const bool is_vf = kind == PairKind::kVf;
-  if (is_vf) vf_count_ = of_kind.size();
-  ContactGroups& groups = is_vf ? vf_ : ee_;
-  groups = ContactGroups(members, surface_.cloth_count);
-  parallel_each(std::ssize(of_kind), [&](Eigen::Index at) {
-    Line& line = lines_[static_cast<std::size_t>(at) + (is_vf ? 0 : vf_count_)];
-    line.given = of_kind[groups.order()[static_cast<std::size_t>(at)]];
-    line.contact = contacts[line.given];
-    set(line);
+  const bool is_vf = kind.kind == PairKind::kVf;
+  kind.groups = ContactGroups(members, surface_.cloth_count,
+                              is_vf ? ContactGroups::Order::kAsGiven : ContactGroups::Order::kNearly);
+  kind.first_pack = packs_.size();
+  const std::vector<std::size_t>& order = kind.groups.order();
+  packs_.resize(packs_.size() + order.size() / kLanes);
+  contacts_.resize(packs_.size() * kLanes);
+  parallel_each(std::ssize(order), [&](Eigen::Index at) {
+    const std::size_t member = order[static_cast<std::size_t>(at)];
+    if (member == ContactGroups::kNobody) return;
+    const std::size_t place = kind.first_pack * kLanes + static_cast<std::size_t>(at);
+    contacts_[place] = contacts[of_kind[member]];
+    place_of_[of_kind[member]] = place;
+    set_lane(place);
+  });
+}
+
+/// The lane of contacts_[place].
+void HeldContacts::set_lane(std::size_t place) {
+  const RepulsionContact& contact = contacts_[place];
+  ContactPack& pack = packs_[place / kLanes];
+  const std::size_t lane = place % kLanes;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const VertexId vertex = contact.interaction.vertices[i];
+    pack.vertices[i][lane] = is_cloth(vertex) ? vertex : ~(vertex - static_cast<VertexId>(surface_.cloth_count));
+    pack.weights[i][lane] = contact.interaction.weights[i];
+    pack.mobility[i][lane] = contact.interaction.mobility[i];
+  }
+  for (int k = 0; k < 3; ++k) pack.normal[static_cast<std::size_t>(k)][lane] = contact.normal[k];
+  pack.thickness_m[lane] = contact.properties.thickness_m;
+  pack.friction_static[lane] = contact.properties.friction_static;
+  pack.friction_kinetic[lane] = contact.properties.friction_kinetic;
+}
+
+void HeldContacts::begin_with(const std::vector<ContactLoad>& loads) {
+  parallel_each(std::ssize(place_of_), [&](Eigen::Index i) {
+    const std::size_t place = place_of_[static_cast<std::size_t>(i)];
+    if (contacts_[place].kind != PairKind::kVf) return;
+    const ContactLoad* const load = load_of(contacts_[place], loads);
+    if (load == nullptr) return;
+    ContactPack& pack = packs_[place / kLanes];
+    pack.load_m_s2[place % kLanes] = load->acceleration_m_s2;
+    for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][place % kLanes] = load->friction_m_s2[k];
   });
 }
 
@@ -102,146 +141,131 @@ bool HeldContacts::touch(FaceId a, FaceId b) const {
   return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
-void HeldContacts::set(Line& line) const {
-  const Interaction& interaction = line.contact.interaction;
-  const Vec3& normal = line.contact.normal;
-  const PairVectors unit = distribute(interaction, normal);
-  line.lever_share = lever_share(interaction);
-  const auto cloth = std::ranges::find_if(interaction.vertices, [&](VertexId v) { return is_cloth(v); });
-  SELVAGE_ASSERT(cloth != interaction.vertices.end());
-  line.vertices.fill(*cloth);
-  line.weights = line.shares = {};
-  line.scripted_t0 = line.scripted_t1 = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const VertexId vertex = interaction.vertices[i];
-    if (is_cloth(vertex)) {
-      line.vertices[i] = vertex;
-      line.weights[i] = interaction.weights[i];
-      line.shares[i] = unit[i].dot(normal);
-    } else {
-      line.scripted_t0 += interaction.weights[i] * V_t0_.row(vertex).dot(normal);
-      line.scripted_t1 += interaction.weights[i] * V_t1_.row(vertex).dot(normal);
-    }
-  }
+ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
+  const double step_share = step.h / dt_s_;
+  return {step.x_t1, step.v, scripted_t0_, scripted_way_, step.h, step.share - step_share, step_share};
 }
 
 void HeldContacts::bear(const MidstepMotion& step) {
-  for (std::size_t at = vf_count_; at < lines_.size(); ++at) lines_[at].did = {};
-  vf_.each(false, [&](std::size_t i, const Reach& reach) { return bear(lines_[i], reach, step); });
+  for (ContactPack& pack : packs_) {
+    pack.pressed = {};
+    pack.rubbed = {};
+  }
+  vf_.groups.each(false,
+                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
 }
 
 void HeldContacts::hold(const MidstepMotion& step) {
   for (int sweep = 1; sweep <= sweeps_; ++sweep) {
     const bool is_last = sweep == sweeps_;
-    vf_.each(backwards_, [&](std::size_t i, const Reach& reach) { return hold(lines_[i], reach, is_last, step); });
-    ee_.each(backwards_,
-             [&](std::size_t i, const Reach& reach) { return hold(lines_[vf_count_ + i], reach, is_last, step); });
+    for (Kind* kind : {&vf_, &ee_}) {
+      kind->groups.each(backwards_, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
+        return hold(*kind, pack, lanes, reach, is_last, step);
+      });
+    }
     backwards_ = !backwards_;
   }
-  parallel_each(static_cast<Eigen::Index>(vf_count_),
-                [&](Eigen::Index i) { learn(lines_[static_cast<std::size_t>(i)], step); });
+  parallel_each(static_cast<Eigen::Index>(ee_.first_pack),
+                [&](Eigen::Index pack) { learn_loads(kLearning, step.h, packs_[static_cast<std::size_t>(pack)]); });
 }
 
-/// What it bore in the last step, before anything else, where it is now.
-bool HeldContacts::bear(Line& line, const Reach& reach, const MidstepMotion& step) const {
-  line.did = {};
-  if (!(line.load_m_s2 > 0)) return true;
-  const Answer acts = look_again(line, reach, step);
-  if (acts == Answer::kOutOfReach) return false;
-  if (acts == Answer::kNo) {
-    line.load_m_s2 = 0;
-    line.friction_m_s2.setZero();
-    return true;
+/// What they bore in the last step, before anything else, where they are now.
+HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
+  ContactPack& pack = packs_[vf_.first_pack + id];
+  fetch_ahead(&pack + 1);
+  lanes &= above_zero(pack.load_m_s2);
+  if (lanes == 0) return {};
+  PackMotion read;
+  read_motion(pack, lanes, motion_of(step), read);
+  Lanes acting = lanes;
+  const Refused refused = look_again(vf_, id, reach, step, read, acting);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!has(lanes, lane) || has(acting | refused.out_of_reach | refused.at_once, lane)) continue;
+    pack.load_m_s2[lane] = 0;
+    for (auto& column : pack.friction_m_s2) column[lane] = 0;
   }
-  if (line.lever_share < 1) return true;  // pushed once, in the last sweep
-  push(line, line.load_m_s2 * step.h * step.h, step);
-  const RepulsionContact& contact = line.contact;
-  if (!(line.did.pressed > 0)) return true;
-  const Vec3 friction_m = step.h * step.h * line.friction_m_s2;
-  move(line,
-       begin_friction(contact.interaction, contact.x_t0, contact.normal, friction_of(contact), friction_m, line.did),
-       step);
-  return true;
+  if (acting != 0) bear_loads(read, acting, pack, motion_of(step));
+  return refused;
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
-bool HeldContacts::hold(Line& line, const Reach& reach, bool is_last, const MidstepMotion& step) const {
-  double change = excess(line, step);
-  if (!(line.load_m_s2 > 0 || line.did.pressed > 0)) {  // else it has been looked at in this step
-    if (!(change > 0)) return true;
-    const Answer acts = look_again(line, reach, step);
-    if (acts == Answer::kOutOfReach) return false;
-    if (acts == Answer::kNo) return true;
-    change = excess(line, step);
-  }
-  if (!is_last && line.lever_share < 1) return true;  // once, or the limit of its lever would not hold
-  push(line, change > 0 ? (is_last ? 1 : kOverRelaxation) * change : std::max(change, -line.did.pressed), step);
-  if (is_last) {
-    rub(line, step);
-    line.repelled = line.repelled || line.did.pressed > 0;
-    line.rubbed = line.rubbed || line.did.rubbed != Vec3::Zero();
-  }
-  return true;
+HeldContacts::Refused HeldContacts::hold(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach, bool is_last,
+                                         const MidstepMotion& step) {
+  ContactPack& pack = packs_[kind.first_pack + id];
+  fetch_ahead(&pack + 1);
+  PackMotion read;
+  read_motion(pack, lanes, motion_of(step), read);
+  const Lanes looked_at = lanes & (above_zero(pack.load_m_s2) | above_zero(pack.pressed));
+  Lanes pressed = newly_pressed(pack, read, lanes);
+  const Refused refused = pressed == 0 ? Refused{} : look_again(kind, id, reach, step, read, pressed);
+  const Lanes acting = looked_at | pressed;
+  const double relaxation = is_last ? 1 : kOverRelaxation;
+  if (acting != 0) press(read, acting, relaxation, is_last, pack, motion_of(step));
+  return refused;
 }
 
-/// Friction where the vertex can move: cloth that the edge of a box carried by a vertex of its own swung about that by
-/// 0.7 mm for ever, and rests since the vertices of bodies do not remember (docs/simulator-speed.md).
-void HeldContacts::learn(Line& line, const MidstepMotion& step) {
-  if (!(line.did.pressed > 0 && line.lever_share == 1)) {
-    line.load_m_s2 = 0;
-    line.friction_m_s2.setZero();
-    return;
+/// The pairs' nearest points now, seen from the side on which they are while they are farther apart than the thickness;
+/// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
+/// that cannot move do not act.
+HeldContacts::Refused HeldContacts::look_again(Kind& kind, std::size_t id, const Reach& reach,
+                                               const MidstepMotion& step, PackMotion& read, Lanes& lanes) {
+  ContactPack& pack = packs_[kind.first_pack + id];
+  PackNearest nearest;
+  find_nearest(kind.kind, read, nearest);
+  Refused refused;
+  if (kind.kind == PairKind::kVf && (lanes & nearest.on_border) != 0) {
+    bool slides = false;
+    refused = slide(kind, id, lanes & nearest.on_border, reach, step, slides);
+    if (slides) {
+      read_motion(pack, lanes, motion_of(step), read);
+      find_nearest(kind.kind, read, nearest);
+    }
   }
-  const double squared_s2 = step.h * step.h;
-  const double now_m_s2 = std::min(line.did.pressed / squared_s2, std::numeric_limits<double>::max());
-  Vec3 friction_m_s2 = effective_mobility(line.contact.interaction) / squared_s2 * line.did.rubbed;
-  if (!friction_m_s2.allFinite() || line.contact.interaction.mobility[0] == 0) friction_m_s2.setZero();
-  line.load_m_s2 += kLearning * (now_m_s2 - line.load_m_s2);
-  line.friction_m_s2 = (1 - kLearning) * line.friction_m_s2 + kLearning * friction_m_s2;
+  lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(refused.out_of_reach | refused.at_once)), pack);
+  return refused;
 }
 
-void HeldContacts::push(Line& line, double change, const MidstepMotion& step) {
-  line.did.pressed += line.lever_share * change;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (line.shares[i] != 0) move_vertex(line.vertices[i], change * line.shares[i] * line.contact.normal, step);
-  }
-}
-
-/// How much of the approach in this step is too much; below 0 how much more there may be.
-double HeldContacts::excess(const Line& line, const MidstepMotion& step) const {
-  const Vec3& normal = line.contact.normal;
-  const double scripted = line.scripted_t1 - line.scripted_t0;
-  double distance = line.scripted_t0 + step.share * scripted;
-  for (std::size_t i = 0; i < 4; ++i) distance += line.weights[i] * step.x_t1.row(line.vertices[i]).dot(normal);
-  const double overlap = line.contact.properties.thickness_m - distance;
-  if (line.did.pressed == 0 && !(overlap > 0)) return overlap;
-  double approach = -step.h / dt_s_ * scripted;
-  for (std::size_t i = 0; i < 4; ++i) approach -= step.h * line.weights[i] * step.v.row(line.vertices[i]).dot(normal);
-  return std::min(overlap, approach);
-}
-
-/// The pair's nearest points now, seen from the side on which they are while they are farther apart than the thickness;
-/// what has passed through nearer than that is held on the side it came from. Whether the line can act: not where the
-/// points are all on vertices that cannot move.
-HeldContacts::Answer HeldContacts::look_again(Line& line, const Reach& reach, const MidstepMotion& step) const {
-  RepulsionContact now = line.contact;
-  QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
-  Answer slides = Answer::kYes;
-  while (slides == Answer::kYes) slides = slides_on(now, nearest, reach, step);
-  if (slides == Answer::kOutOfReach) return slides;
-  const bool is_near = !(nearest.distance > now.properties.thickness_m);
-  if (is_near && !(nearest.direction.dot(line.contact.normal) > 0)) return Answer::kYes;
-  if (now.second != line.contact.second) {
+/// Each of the lanes on to the face on which its vertex is.
+HeldContacts::Refused HeldContacts::slide(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach,
+                                          const MidstepMotion& step, bool& slides) {
+  Refused refused;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!has(lanes, lane)) continue;
+    const std::size_t place = (kind.first_pack + id) * kLanes + lane;
+    RepulsionContact now = contacts_[place];
+    QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
+    Answer answer = Answer::kYes;
+    while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, step);
+    if (answer == Answer::kOutOfReach) refused.out_of_reach |= only(lane);
+    if (answer == Answer::kOutOfReach || now.second == contacts_[place].second) continue;
+    now.normal = vector_in(packs_[place / kLanes].normal, lane);
+    const bool is_near = !(nearest.distance > now.properties.thickness_m);
+    if (is_near && !(nearest.direction.dot(now.normal) > 0)) continue;
+    slides = true;
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
+    now.interaction.weights = nearest.weights;
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
+    contacts_[place] = now;
+    set_lane(place);
+    const Lanes together = kind.groups.together(id);
+    if (has(together, lane) && shares_vertex(place, together)) refused.at_once |= only(lane);
   }
-  now.x_t0 = positions(now.interaction.vertices, step);
-  now.normal = nearest.direction;
-  now.interaction.weights = nearest.weights;
-  if (!(effective_mobility(now.interaction) > 0)) return Answer::kNo;
-  line.contact = now;
-  set(line);
-  return Answer::kYes;
+  return refused;
+}
+
+/// A vertex of cloth, with one of the others of its pack.
+bool HeldContacts::shares_vertex(std::size_t place, Lanes with) const {
+  const ContactPack& pack = packs_[place / kLanes];
+  const std::size_t own = place % kLanes;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (lane == own || !has(with, lane)) continue;
+    for (const auto& a : pack.vertices) {
+      for (const auto& b : pack.vertices) {
+        if (a[own] >= 0 && a[own] == b[lane]) return true;
+      }
+    }
+  }
+  return false;
 }
 
 /// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is
@@ -275,30 +299,6 @@ bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& 
   return std::ranges::all_of(face, [&](VertexId v) { return !is_cloth(v) || reach.has(v); });
 }
 
-/// What it rubbed before in this step is found anew: its direction is that of the slip without it, its cone that of
-/// what presses now.
-void HeldContacts::rub(Line& line, const MidstepMotion& step) const {
-  if (!(line.did.pressed > 0) && line.did.rubbed == Vec3::Zero()) return;
-  const RepulsionContact& contact = line.contact;
-  const bool had_begun = line.did.rubbed != Vec3::Zero();
-  PairVectors change = take_back(contact.interaction, line.did);
-  PairVectors displacement = displacements(line, step);
-  for (std::size_t i = 0; i < 4; ++i) displacement[i] += change[i];
-  const auto friction =
-      friction_change(contact.interaction, contact.x_t0, displacement, contact.normal, friction_of(contact), line.did);
-  if (friction) {
-    for (std::size_t i = 0; i < 4; ++i) change[i] += (*friction)[i];
-  }
-  if (friction || had_begun) move(line, change, step);
-}
-
-void HeldContacts::move(const Line& line, const PairVectors& changes, const MidstepMotion& step) const {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const VertexId vertex = line.contact.interaction.vertices[i];
-    if (is_cloth(vertex)) move_vertex(vertex, changes[i], step);
-  }
-}
-
 PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const {
   PairVectors x;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -312,33 +312,30 @@ PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, con
   return x;
 }
 
-PairVectors HeldContacts::displacements(const Line& line, const MidstepMotion& step) const {
-  PairVectors moved;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const VertexId vertex = line.contact.interaction.vertices[i];
-    if (is_cloth(vertex)) {
-      moved[i] = step.h * step.v.row(vertex);
-    } else {
-      moved[i] = step.h / dt_s_ * (V_t1_.row(vertex) - V_t0_.row(vertex));
-    }
-  }
-  return moved;
+double HeldContacts::load_m_s2(std::size_t i) const {
+  const std::size_t place = place_of_[i];
+  return packs_[place / kLanes].load_m_s2[place % kLanes];
 }
 
 void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
-  Line& line = lines_[i];
-  line.load_m_s2 = load_m_s2;
-  line.friction_m_s2.setZero();
-  line.repelled = line.repelled || load_m_s2 > 0;
-  line.rubbed = line.rubbed || rubbed;
+  const std::size_t lane = place_of_[i] % kLanes;
+  ContactPack& pack = packs_[place_of_[i] / kLanes];
+  pack.load_m_s2[lane] = load_m_s2;
+  for (auto& column : pack.friction_m_s2) column[lane] = 0;
+  if (load_m_s2 > 0) pack.ever_repelled |= only(lane);
+  if (rubbed) pack.ever_rubbed |= only(lane);
 }
 
 std::vector<RepulsionContact> HeldContacts::contacts() const {
-  std::vector<RepulsionContact> result(lines_.size());
-  parallel_each(std::ssize(lines_), [&](Eigen::Index i) {
-    const Line& line = lines_[static_cast<std::size_t>(i)];
-    RepulsionContact& contact = result[line.given];
-    contact = line.contact;
+  std::vector<RepulsionContact> result(size());
+  parallel_each(std::ssize(result), [&](Eigen::Index at) {
+    const auto i = static_cast<std::size_t>(at);
+    const std::size_t lane = place_of_[i] % kLanes;
+    const ContactPack& pack = packs_[place_of_[i] / kLanes];
+    RepulsionContact& contact = result[i];
+    contact = contacts_[place_of_[i]];
+    contact.normal = vector_in(pack.normal, lane);
+    for (std::size_t k = 0; k < 4; ++k) contact.interaction.weights[k] = pack.weights[k][lane];
     contact.x_t0 = gather(contact.interaction, V_t0_);
     contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
     contact.mobility = effective_mobility(contact.interaction);
@@ -347,17 +344,23 @@ std::vector<RepulsionContact> HeldContacts::contacts() const {
 }
 
 RepulsionCount HeldContacts::count() const {
-  return {std::ranges::count_if(lines_, &Line::repelled), std::ranges::count_if(lines_, &Line::rubbed)};
+  RepulsionCount result;
+  for (const ContactPack& pack : packs_) {
+    result.repulsions += std::popcount(pack.ever_repelled);
+    result.frictions += std::popcount(pack.ever_rubbed);
+  }
+  return result;
 }
 
 std::vector<ContactLoad> HeldContacts::loads() const {
   std::vector<ContactLoad> result;
-  for (std::size_t at = 0; at < vf_count_; ++at) {
-    const Line& line = lines_[at];
-    if (!(line.load_m_s2 > 0)) continue;
-    const Vec3& friction = line.friction_m_s2;
-    result.push_back(
-        {line.contact.first, line.contact.second, line.load_m_s2, {friction.x(), friction.y(), friction.z()}});
+  for (std::size_t place = 0; place < ee_.first_pack * kLanes; ++place) {
+    const ContactPack& pack = packs_[place / kLanes];
+    const std::size_t lane = place % kLanes;
+    if (!(pack.load_m_s2[lane] > 0)) continue;
+    const RepulsionContact& contact = contacts_[place];
+    const Vec3 friction = vector_in(pack.friction_m_s2, lane);
+    result.push_back({contact.first, contact.second, pack.load_m_s2[lane], {friction.x(), friction.y(), friction.z()}});
   }
   // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
   std::ranges::stable_sort(result, {}, pair_of);

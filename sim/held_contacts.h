@@ -9,8 +9,8 @@
 
 #include "sim/contact_groups.h"
 #include "sim/contact_load.h"
+#include "sim/contact_pack.h"
 #include "sim/contact_table.h"
-#include "sim/friction.h"
 #include "sim/lane_vectors.h"
 #include "sim/quick_proximity.h"
 #include "sim/repulsion_contact.h"
@@ -65,9 +65,9 @@ class HeldContacts {
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts, in any order, with the
   /// loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it. They do
   /// not learn its friction.
-  [[nodiscard]] std::size_t size() const { return lines_.size(); }
-  [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return lines_[i].contact; }
-  [[nodiscard]] double load_m_s2(std::size_t i) const { return lines_[i].load_m_s2; }
+  [[nodiscard]] std::size_t size() const { return place_of_.size(); }
+  [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[place_of_[i]]; }
+  [[nodiscard]] double load_m_s2(std::size_t i) const;
   void bore(std::size_t i, double load_m_s2, bool rubbed);
   /// Where a vertex that is not cloth is at `share` in [0, 1] of the collision step.
   [[nodiscard]] Vec3 scripted_at(VertexId vertex, double share) const {
@@ -75,8 +75,8 @@ class HeldContacts {
   }
   [[nodiscard]] bool is_cloth(VertexId vertex) const { return vertex < surface_.cloth_count; }
 
-  /// As they were last looked at, measured at V_t0, in the order in which they act: the collision step repels them
-  /// where they are at its end.
+  /// As they were last looked at, measured at V_t0, in the order in which they were given: the collision step repels
+  /// them where they are at its end.
   [[nodiscard]] std::vector<RepulsionContact> contacts() const;
 
   /// Those that repelled, and rubbed, in any step.
@@ -86,53 +86,50 @@ class HeldContacts {
   [[nodiscard]] std::vector<ContactLoad> loads() const;
 
  private:
-  /// A contact, and its distance along its direction as a function of the cloth and the time.
-  struct Line {
-    RepulsionContact contact;
-    std::size_t given = 0;                    ///< where it stood among the contacts given
-    std::array<VertexId, 4> vertices{};       ///< one that is, in place of those that are not cloth
-    std::array<double, 4> weights{};          ///< 0 for those
-    std::array<double, 4> shares{};           ///< that they take of a change of the distance; 0 for those
-    double scripted_t0 = 0, scripted_t1 = 0;  ///< what does not depend on the cloth, at the start and the end
-    double lever_share = 1;                   ///< of a change of the distance that is done
-    double load_m_s2 = 0;                     ///< as in ContactLoad; hold() leaves 0 for edges
-    Vec3 friction_m_s2 = Vec3::Zero();        ///< as in ContactLoad
-    FrictionLoad did{};                       ///< in this step of the dynamics
-    bool repelled = false, rubbed = false;
-  };
-
   using Reach = ContactGroups::Reach;
+  using Refused = ContactGroups::Refused;
   enum class Answer { kNo, kYes, kOutOfReach };
 
-  [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
-  void set_lines(PairKind kind, const std::vector<RepulsionContact>& contacts);
+  /// The packs of one kind of pair, from `first_pack` on in packs_.
+  struct Kind {
+    PairKind kind;
+    ContactGroups groups;
+    std::size_t first_pack = 0;
+  };
+
+  void add_kind(Kind& kind, const std::vector<RepulsionContact>& contacts);
+  void set_lane(std::size_t place);
+  void begin_with(const std::vector<ContactLoad>& loads);
   [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact,
                                            const std::vector<ContactLoad>& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
-  void set(Line& line) const;
-  /// False where they need what is not in reach: nothing has been done then.
-  [[nodiscard]] bool bear(Line& line, const Reach& reach, const MidstepMotion& step) const;
-  [[nodiscard]] bool hold(Line& line, const Reach& reach, bool is_last, const MidstepMotion& step) const;
-  static void push(Line& line, double change, const MidstepMotion& step);
-  static void learn(Line& line, const MidstepMotion& step);
-  [[nodiscard]] double excess(const Line& line, const MidstepMotion& step) const;
-  [[nodiscard]] Answer look_again(Line& line, const Reach& reach, const MidstepMotion& step) const;
+
+  [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
+  [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
+  [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, bool is_last,
+                             const MidstepMotion& step);
+  /// Looks where the contacts are now; leaves in `lanes` those that can act.
+  [[nodiscard]] Refused look_again(Kind& kind, std::size_t pack, const Reach& reach, const MidstepMotion& step,
+                                   PackMotion& read, Lanes& lanes);
+  [[nodiscard]] Refused slide(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step,
+                              bool& slides);
+  [[nodiscard]] bool shares_vertex(std::size_t place, Lanes with) const;
   [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
                                  const MidstepMotion& step) const;
-  void rub(Line& line, const MidstepMotion& step) const;
-  void move(const Line& line, const PairVectors& changes, const MidstepMotion& step) const;
-  /// Of the contact's vertices at the start of the step, and what it moves them by.
+  [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
+  /// Of the contact's vertices at the start of the step.
   [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const;
-  [[nodiscard]] PairVectors displacements(const Line& line, const MidstepMotion& step) const;
 
-  std::vector<Line> lines_;
-  std::size_t vf_count_ = 0;  ///< lines of vf, then ee
-  ContactGroups vf_, ee_;
   HeldSurface surface_;
   const Positions& V_t0_;
   const Positions& V_t1_;
   double dt_s_;
   int sweeps_;
+  LaneVectors scripted_t0_, scripted_way_;  ///< of the vertices that are not cloth
+  Kind vf_{PairKind::kVf, {}}, ee_{PairKind::kEe, {}};
+  std::vector<ContactPack> packs_;          ///< of vf, then ee
+  std::vector<RepulsionContact> contacts_;  ///< kLanes a pack; weights and normals that changed since are in packs_
+  std::vector<std::size_t> place_of_;       ///< in contacts_, of each contact given
   bool backwards_ = false;
 };
 

@@ -1,12 +1,17 @@
 // Three numbers a vertex in columns, so that the vertices of a block of lanes are read and written at once.
 #pragma once
 
+#include <cstdint>
+
 #include "kernel/types.h"
 
 namespace selvage::sim {
 
 /// Vertices are taken in blocks of this many: a whole number of vectors on every vector unit.
 inline constexpr Eigen::Index kLanes = 8;
+
+/// Some of the lanes of a block: bit k is lane k.
+using Lanes = std::uint8_t;
 
 /// Zero in rows that were not set. Whole blocks may be read from kLanes rows before the first to kLanes after the last,
 /// and written where they hold one row at least.

@@ -3,14 +3,6 @@
 #include <Eigen/Eigenvalues>
 
 namespace selvage::sim {
-namespace {
-
-/// Above this share of the cube of the trace, a determinant says that the least eigenvalue is at least as large a share
-/// of the largest: cofactors then lose three digits of sixteen at most. Eigenvalues took 9 % of all processor time
-/// where 7,000 contacts rub (sim/scenes/curtain.toml at full quality, 2.83 s).
-constexpr double kFullRank = 1e-3;
-
-}  // namespace
 
 Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& matrix) {
   const double trace = matrix.trace();
