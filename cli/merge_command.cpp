@@ -11,6 +11,7 @@
 #include "cli/merge_campaigns.h"
 #include "cli/output_check.h"
 #include "cli/page/report_page.h"
+#include "cli/terminal.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
 #include "verify/merge.h"
@@ -70,6 +71,7 @@ ExitCode run(const Arguments& arguments) {
   print_report(verify::text_report(merged.report, merged.context, kListed), merged.report.verdict);
   return exit_code(merged.report);
 }
+  print_notes(merged.context.notes);
 
 }  // namespace
 

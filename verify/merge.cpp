@@ -1,6 +1,7 @@
 #include "verify/merge.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "verify/smallest_gap.h"
@@ -97,6 +98,12 @@ ParsedReport merge(std::vector<Part> parts) {
     merged.context.frame_names.merge(parts[i].parsed.context.frame_names);
   }
   if (report.end_frame != report.frame_count) {
+/// Parts are of one sequence: what is noted of it is mostly said by all of them.
+void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& of_part) {
+  std::ranges::copy_if(of_part, std::back_inserter(notes),
+                       [&notes](const std::string& note) { return std::ranges::find(notes, note) == notes.end(); });
+}
+
     throw MergeError("no part holds " + frames(report.end_frame, report.frame_count));
   }
   const bool has_motions = report.motions_expected > 0;
@@ -109,3 +116,4 @@ ParsedReport merge(std::vector<Part> parts) {
 }
 
 }  // namespace selvage::verify
+    add_notes(merged.context.notes, parts[i].parsed.context.notes);

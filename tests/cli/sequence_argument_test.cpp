@@ -1,6 +1,7 @@
 #include <map>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "tests/cli/run_program.h"
@@ -220,6 +221,44 @@ TEST(SequenceArgument, AFrameThatIsMissingInTheListOfAFolderIsSaid) {
   const auto result = run_program(folder, {"verify", folder.path() / "run"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("frame_000003.npy comes right after "), std::string::npos) << result.err;
+}
+
+TEST(SequenceArgument, NotesAreInTheReportsToo) {
+  const TemporaryFolder folder;
+  const auto json = folder.path() / "r.json", page = folder.path() / "r.html", merged = folder.path() / "m.json",
+             run = folder.path() / "run";
+  std::vector<std::string> files;
+  for (const char* name : {"f_1.obj", "f_2.obj", "f_4.obj"}) {
+    files.push_back(folder.path() / name);
+    spit(files.back(), kTwoFaces);
+  }
+  const auto notes_of = [](const std::filesystem::path& report) {
+    return nlohmann::json::parse(slurp(report))["notes"].get<std::vector<std::string>>();
+  };
+  const auto jumped = run_program(folder, {"verify", files[0], files[1], files[2], "--json", json, "--html", page});
+  ASSERT_EQ(notes_of(json).size(), 1U);
+  EXPECT_EQ(jumped.err, "selvage: note: " + notes_of(json)[0] + "\n");
+  EXPECT_NE(notes_of(json)[0].find("f_4.obj comes right after "), std::string::npos);
+  EXPECT_NE(slurp(page).find("<p>Note: " + notes_of(json)[0] + "</p>"), std::string::npos);
+
+  for (const char* part : {"1", "2"}) {
+    const auto report = folder.path() / (std::string(part) + ".part");
+    ASSERT_EQ(run_program(folder, {"verify", files[0], files[1], files[2], "--shard", std::string(part) + "/2",
+                                   "--json", report})
+                  .exit_code,
+              0);
+  }
+  const auto join = run_program(folder, {"merge", folder.path() / "1.part", folder.path() / "2.part", "-o", merged});
+  EXPECT_EQ(notes_of(merged), notes_of(json));
+  EXPECT_EQ(join.err, jumped.err);
+
+  ASSERT_EQ(run_program(folder, {"convert", files[0], files[1], "-o", run}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", run, "--json", json}).err, "");
+  EXPECT_EQ(notes_of(json), std::vector<std::string>());
+  spit(run / "frames.jsonl", slurp(run / "frames.jsonl") + "{\"file\"");
+  EXPECT_EQ(run_program(folder, {"verify", run, "--json", json}).exit_code, 0);
+  ASSERT_EQ(notes_of(json).size(), 1U);
+  EXPECT_NE(notes_of(json)[0].find("the last line has no end"), std::string::npos);
 }
 
 TEST(SequenceArgument, WhatCanBeReadOnceOnlyIsRefused) {
