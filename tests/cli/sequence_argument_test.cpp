@@ -261,6 +261,37 @@ TEST(SequenceArgument, NotesAreInTheReportsToo) {
   EXPECT_NE(notes_of(json)[0].find("the last line has no end"), std::string::npos);
 }
 
+TEST(SequenceArgument, PolygonsThatAreSplitAreCounted) {
+  const TemporaryFolder folder;
+  const auto obj = folder.path() / "a_1.obj", ply = folder.path() / "a.ply", next = folder.path() / "a_2.obj",
+             cache = folder.path() / "c.pc2", json = folder.path() / "r.json";
+  spit(obj, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4\nf 4 3 5\n");
+  spit(next, "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0 2 1\nf 1 2 3 4\nf 4 3 5\n");
+  spit(ply,
+       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n"
+       "5 0 1 2 3 4\n");
+  spit(cache, testing::pc2(5, 0, 1) + std::string(5 * 3 * sizeof(float), '\0'));
+  const std::string split = " more corners than three and is split into triangles around the first";
+  for (const auto& file : {obj, ply}) {
+    const auto result = run_program(folder, {"verify", file, "--json", json});
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+    EXPECT_NE(result.err.find(file.string() + ": 1 face has" + split), std::string::npos) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(slurp(json))["notes"].size(), 1U);
+  }
+  const auto both = run_program(folder, {"verify", obj, next});
+  EXPECT_NE(
+      both.err.find(obj.string() + " to " + next.string() + ": 2 faces have more corners than three and are split"),
+      std::string::npos)
+      << both.err;
+  const auto base = run_program(folder, {"verify", cache, "--base", obj});
+  EXPECT_NE(base.err.find("the base mesh of " + cache.string() + ": 1 face has" + split), std::string::npos)
+      << base.err;
+  const auto converted = run_program(folder, {"convert", obj, "-o", folder.path() / "run"});
+  EXPECT_NE(converted.err.find(": 1 face has" + split), std::string::npos) << converted.err;
+  EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).err, "") << "its faces are triangles";
+}
+
 TEST(SequenceArgument, WhatCanBeReadOnceOnlyIsRefused) {
   const TemporaryFolder folder;
   const auto pipe = folder.path() / "a.obj", cache = folder.path() / "a.pc2";
