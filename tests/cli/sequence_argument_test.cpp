@@ -159,6 +159,26 @@ TEST(SequenceArgument, NoPartOfACampaignIsOverwritten) {
   EXPECT_EQ(testing::slurp(ledger), before);
 }
 
+TEST(SequenceArgument, ALinkToWhatIsNotThereYetIsFollowed) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", link = folder.path() / "link", target = folder.path() / "deep" / "r.json",
+             circle = folder.path() / "circle";
+  spit(mesh, kTwoFaces);
+  std::filesystem::create_symlink("second", link);
+  std::filesystem::create_symlink("deep/r.json", folder.path() / "second");
+  std::filesystem::create_symlink("circle", circle);
+  const auto nowhere = run_program(folder, {"verify", mesh, "--json", link});
+  EXPECT_EQ(nowhere.exit_code, 4) << nowhere.out;
+  EXPECT_NE(nowhere.err.find(target.string() + ": cannot "), std::string::npos) << nowhere.err;
+  std::filesystem::create_directory(folder.path() / "deep");
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", link, "--html", target}).exit_code, 2) << "one file";
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", link}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(nlohmann::json::parse(slurp(target))["verdict"], "clean");
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", circle}).exit_code, 4);
+  EXPECT_TRUE(std::filesystem::is_symlink(circle));
+}
+
 TEST(SequenceArgument, TwoOutputsAreTwoFiles) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj", same = folder.path() / "same", part = folder.path() / "part.json";
