@@ -107,7 +107,9 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
                   "At most this much of meshes in the page: frames with violations first, then some of the others")
       ->check(CLI::Range(0, 2000))
       ->capture_default_str();
-  command.add_option("--cases", arguments.cases, "Write each listed violation as a case that selvage replay explains")
+  command
+      .add_option("--cases", arguments.cases,
+                  "Write each listed violation as a case that selvage replay explains; into a folder without cases")
       ->type_name("DIR");
   command
       .add_option("--max-violations", arguments.max_violations,
