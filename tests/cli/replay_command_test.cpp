@@ -96,6 +96,18 @@ TEST(ReplayCommand, CasesOfTwoChecksAreNotMixed) {
   EXPECT_EQ(run_program(folder, arguments).exit_code, 1);
 }
 
+TEST(ReplayCommand, AByteOrderMarkIsSkipped) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", cases = folder.path() / "cases";
+  spit(mesh, two_faces(0));
+  ASSERT_EQ(run_program(folder, {"verify", mesh, "--cases", cases}).exit_code, 1);
+  for (const auto& entry : std::filesystem::directory_iterator(cases)) {
+    spit(entry.path(), "\xef\xbb\xbf" + slurp(entry.path()));
+  }
+  const auto replayed = run_program(folder, {"replay", cases});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+}
+
 TEST(ReplayCommand, KeptCasesAgree) {
   const auto replayed = run_program({"replay", SELVAGE_SOURCE_DIR "/tests/fuzz/cases"});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
