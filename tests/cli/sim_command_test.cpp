@@ -268,6 +268,28 @@ TEST_F(SimCommand, NamesThatATerminalWouldObeyAreRefused) {
   }
 }
 
+TEST_F(SimCommand, AFolderOfOtherFilesIsRefused) {
+  const std::filesystem::path out = path("out");
+  std::filesystem::create_directory(out);
+  for (const char* name : {"thesis.txt", "frame_000000.npy"}) {
+    spit(out / name, "mine");
+    for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--resume"}}) {
+      const auto refused = sim(scene(1, 0.2, 0.2), options);
+      EXPECT_EQ(refused.exit_code, 4) << refused.out;
+      const std::string words =
+          out.string() + ": holds files that are no sequence (" + name + "); name an empty folder";
+      EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(slurp(out / name), "mine");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 1);
+    std::filesystem::remove(out / name);
+  }
+  spit(out / "faces.npy", "of a run that was killed before its header");
+  EXPECT_EQ(sim(scene(1, 0.2, 0.2)).exit_code, 0);
+  spit(out / "thesis.txt", "beside a sequence");
+  EXPECT_EQ(sim(scene(1, 0.2, 0.2), {"--resume"}).exit_code, 0);
+}
+
 TEST_F(SimCommand, ASecondRunDoesNotOverwriteTheFirst) {
   EXPECT_EQ(sim(scene(1, 0.2, 0.2)).exit_code, 0);
   const std::string before = slurp(path("out") + "/frame_000001.npy");
