@@ -79,6 +79,14 @@ TEST_F(SimCommand, ABadSceneNamesFileAndLine) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(SimCommand, AnUnstableStepNamesFileAndLine) {
+  std::string text = scene(1, 0.2, 0.2);
+  text.insert(text.find("max_step_s"), "dynamics_step_s = 0.0333\n");
+  const auto run = sim(text);
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("scene.toml:3: time: dynamics_step_s = 0.0333 is not stable"), std::string::npos) << run.err;
+}
+
 TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   const auto run = sim(scene(3, 0.3, 0.3));
   EXPECT_EQ(run.exit_code, 3);
