@@ -87,6 +87,13 @@ TEST_F(SimCommand, AnUnstableStepNamesFileAndLine) {
   EXPECT_NE(run.err.find("scene.toml:3: time: dynamics_step_s = 0.0333 is not stable"), std::string::npos) << run.err;
 }
 
+TEST_F(SimCommand, WhatRepelsIsNear) {
+  ASSERT_EQ(sim(scene(6, 0.2, 0.2)).exit_code, 0);
+  const auto run = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_GT(run["repulsions"], 0);
+  EXPECT_GE(run["proximities"], run["repulsions"]) << "a contact repels at most once a step";
+}
+
 TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   const auto run = sim(scene(3, 0.3, 0.3));
   EXPECT_EQ(run.exit_code, 3);
