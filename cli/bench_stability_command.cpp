@@ -48,7 +48,10 @@ ExitCode bench_stability(const StabilityArguments& arguments) {
     return !interrupted();
   };
   const auto finished = bench::run_stability(cases, options);
-  if (!finished) return ExitCode::kLimit;
+  if (!finished) {
+    fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+    return ExitCode::kInterrupted;
+  }
   const std::vector<bench::StabilityCaseReport>& reports = *finished;
   fmt::print("{}", bench::to_markdown(reports));
   if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports, arguments.quick));

@@ -12,6 +12,8 @@
 namespace selvage::cli {
 namespace {
 
+constexpr const char* kCaseExtension = ".case";
+
 std::string label(const verify::Violation& violation) {
   return fmt::format("{}-{}-{}-{}-{}", violation.motion ? "motion" : "frame", violation.frame,
                      verify::name_of(violation.event), violation.features[0], violation.features[1]);
@@ -48,7 +50,7 @@ std::string motion_text(const verify::Violation& violation, double min_distance)
 
 }  // namespace
 
-std::string case_name(const verify::Violation& violation) { return label(violation) + ".case"; }
+std::string case_name(const verify::Violation& violation) { return label(violation) + kCaseExtension; }
 
 std::string case_text(const verify::Violation& violation, double min_distance) {
   return violation.event == verify::EventKind::kOverlap ? overlap_text(violation)
@@ -59,6 +61,14 @@ void create_case_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw io::Error(io::ErrorKind::kFile, folder.string() + ": " + error.message());
+}
+
+void require_no_cases(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != kCaseExtension) continue;
+    throw io::Error(io::ErrorKind::kFile,
+                    folder.string() + ": there are cases already; remove them or name another folder");
+  }
 }
 
 void write_cases(const std::filesystem::path& folder, double min_distance, std::vector<verify::Violation>& violations) {

@@ -15,6 +15,8 @@ namespace selvage::cli {
 [[nodiscard]] std::string case_text(const verify::Violation& violation, double min_distance);
 /// Makes the folder if it is absent. Throws io::Error.
 void create_case_folder(const std::filesystem::path& folder);
+/// Throws io::Error where the folder holds cases: those of another run could not be told from those of this one.
+void require_no_cases(const std::filesystem::path& folder);
 /// Writes one file a violation into `folder`, which is made if it is absent, and notes its name in the violation.
 /// Throws io::Error.
 void write_cases(const std::filesystem::path& folder, double min_distance, std::vector<verify::Violation>& violations);

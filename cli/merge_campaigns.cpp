@@ -39,7 +39,8 @@ fuzz::Properties properties_of(const fuzz::Ledger& ledger) {
     return a.name == b.name && a.streams == b.streams && a.counters == b.counters;
   };
   if (!std::ranges::equal(blank.properties, ledger.properties, same)) {
-    throw io::Error(io::ErrorKind::kBadInput, "merge: the campaigns are of another version of this program");
+    throw io::Error(io::ErrorKind::kBadInput,
+                    "merge: the campaigns are of another version of this program; merge with that one");
   }
   return chosen;
 }

@@ -11,6 +11,7 @@
 #include "cli/merge_campaigns.h"
 #include "cli/output_check.h"
 #include "cli/page/report_page.h"
+#include "cli/terminal.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
 #include "verify/merge.h"
@@ -34,7 +35,11 @@ std::vector<fs::path> reports_in(const fs::path& folder, const fs::path& output)
       files.push_back(entry.path());
     }
   }
-  if (files.empty()) throw io::Error(io::ErrorKind::kBadInput, folder.string() + ": holds no report (*.json)");
+  if (files.empty()) {
+    throw io::Error(io::ErrorKind::kBadInput, folder.string() +
+                                                  ": holds no report (*.json); name the folder where "
+                                                  "selvage verify --shard i/N --json FILE wrote them");
+  }
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -66,6 +71,7 @@ ExitCode run(const Arguments& arguments) {
   if (!arguments.html.empty()) {
     io::write_atomically(arguments.html, report_page(merged.report, merged.context, nullptr, {}));
   }
+  print_notes(merged.context.notes);
   constexpr std::size_t kListed = 10;  // as selvage verify does on a terminal
   print_report(verify::text_report(merged.report, merged.context, kListed), merged.report.verdict);
   return exit_code(merged.report);

@@ -1,8 +1,10 @@
 #include "cli/number_check.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <utility>
@@ -12,10 +14,17 @@
 namespace selvage::cli {
 namespace {
 
+/// strtod says so of numbers below the least subnormal one; the command line would go on with a zero nobody asked for.
+bool rounds_to_zero(const std::string& text) {
+  errno = 0;
+  return std::strtod(text.c_str(), nullptr) == 0 && errno == ERANGE;
+}
+
 /// `words` are for the help and for the error.
 CLI::Validator finite_number(std::function<bool(double)> is_within, const std::string& words) {
   const auto check = [is_within = std::move(is_within), words](const std::string& text) {
     double value = 0;
+    if (rounds_to_zero(text)) return fmt::format("'{}' is too small: it would be rounded to 0", text);
     if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && is_within(value)) return std::string();
     return fmt::format("'{}' is not a number {}", text, words);
   };

@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <system_error>
-#include <utility>
 
 #include "cli/exit_code.h"
 #include "io/atomic_file.h"
@@ -23,7 +22,10 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, absent) && fs::is_regular_file(a, absent);
   }
   // Absolute first: a relative name of nothing stays relative.
-  return fs::weakly_canonical(fs::absolute(a, absent), absent) == fs::weakly_canonical(fs::absolute(b, absent), absent);
+  const auto place = [&](const fs::path& file) {
+    return fs::weakly_canonical(fs::absolute(io::behind_links(file), absent), absent);
+  };
+  return place(a) == place(b);
 }
 
 void require_no_dash(const fs::path& output) {
@@ -66,8 +68,7 @@ void require_writable(const std::vector<fs::path>& outputs) {
     std::error_code status;
     if (fs::is_directory(output, status)) io::file_error(output.string(), "open", EISDIR);
     if (fs::exists(output, status) && !fs::is_regular_file(output, status)) continue;  // opening a pipe would wait
-    fs::path target = fs::exists(output, status) ? fs::canonical(output, status) : output;
-    const io::AtomicFile trial(std::move(target));
+    const io::AtomicFile trial(io::behind_links(output));
   }
 }
 

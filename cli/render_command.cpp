@@ -14,6 +14,7 @@
 #include "cli/render/contact_sheet.h"
 #include "cli/sequence_argument.h"
 #include "cli/terminal.h"
+#include "io/extension.h"
 
 namespace selvage::cli {
 namespace {
@@ -65,7 +66,8 @@ void add_render_command(CLI::App& program, Job& job) {
       ->required()
       ->check(CLI::Validator(
           [](const std::string& name) {
-            return std::string(name.ends_with(".png") ? "" : name + ": only PNG is drawn; let the name end in .png");
+            return std::string(
+                io::has_extension(name, ".png") ? "" : name + ": only PNG is drawn; let the name end in .png");
           },
           "", ""));
   CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")

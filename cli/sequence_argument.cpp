@@ -2,12 +2,12 @@
 
 #include <string_view>
 #include <system_error>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "cli/exit_code.h"
 #include "cli/frame_numbers.h"
 #include "cli/output_check.h"
+#include "cli/terminal.h"
 #include "io/point_cache.h"
 #include "sim/recorder.h"
 
@@ -42,16 +42,19 @@ std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argume
     throw UsageError("--base is for a .pc2 or .mdd; " + argument.sources.front().string() + " has faces of its own");
   }
   auto sequence = io::open_sequence(argument.sources, argument.base);
-  if (const auto jump = jump_in_numbers(files_of(argument, *sequence)))
-    fmt::print(stderr, "selvage: note: {}\n", *jump);
-  if (const std::string remark = sequence->remark(); !remark.empty()) {
-    fmt::print(stderr, "selvage: note: {}\n", remark);
-  }
+  print_notes(notes_on(argument, *sequence));
   if (sequence->frame_count() == 0) {
     throw io::Error(io::ErrorKind::kBadInput,
                     argument.sources.front().string() + ": the sequence holds no frame; record one or name another");
   }
   return sequence;
+}
+
+std::vector<std::string> notes_on(const SequenceArgument& argument, const io::SequenceReader& sequence) {
+  std::vector<std::string> notes;
+  if (const auto jump = jump_in_numbers(files_of(argument, sequence))) notes.push_back(*jump);
+  if (std::string remark = sequence.remark(); !remark.empty()) notes.push_back(std::move(remark));
+  return notes;
 }
 
 void require_separate_outputs(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs) {

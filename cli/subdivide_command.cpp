@@ -48,12 +48,17 @@ std::vector<std::uint8_t> body_faces(std::size_t face_count, const std::vector<i
   return is_body;
 }
 
-/// Exactly; the stated number of pairs that intersect.
+/// Exactly; the stated number of pairs that intersect. Of no meaning once a signal has arrived.
 std::int64_t intersections(const io::Triangles& triangles, const std::vector<io::Group>& groups, const io::Points& V) {
   const std::vector<std::uint8_t> is_body = body_faces(triangles.size(), groups);
   verify::CheckOptions options;
   options.max_violations = 1;
-  return verify::check_frame(verify::Surface{triangles, is_body}, V, options).violations_total.total();
+  options.stop = interrupted;
+  try {
+    return verify::check_frame(verify::Surface{triangles, is_body}, V, options).violations_total.total();
+  } catch (const verify::Stopped&) {
+    return 0;
+  }
 }
 
 /// Throws io::Error where the kernel could not answer for the frame.
@@ -90,6 +95,7 @@ io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, cons
   return mesh;
 }
 
+/// Of no meaning once a signal has arrived.
 struct FineFrame {
   io::Points points;
   sim::SubdivisionCounts counts;
@@ -105,7 +111,8 @@ FineFrame subdivide(const sim::Subdivision& subdivision, const io::MeshData& mes
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     V.row(static_cast<Eigen::Index>(i)) << mesh.points[i][0], mesh.points[i][1], mesh.points[i][2];
   }
-  fine.points = sim::points_of(subdivision(V, fine.counts));
+  fine.points = sim::points_of(subdivision(V, fine.counts, interrupted));
+  if (interrupted()) return fine;
   fine.after = intersections(subdivision.triangles(), subdivision.groups(), fine.points);
   return fine;
 }
@@ -139,16 +146,16 @@ ExitCode run(const SubdivideArguments& arguments) {
   const auto batch = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   for (std::size_t frame = begin; frame < end; frame += batch) {
     bar.update(frame - begin, end - begin);
-    if (interrupted()) {
-      fmt::print(stderr, "selvage: interrupted; nothing was written\n");
-      return ExitCode::kInterrupted;
-    }
     std::vector<FineFrame> fine(std::min(batch, end - frame));
     // Read before, one by one: an error there would cancel the loops within the checks of the other frames.
     std::vector<io::MeshData> coarse;
     for (std::size_t k = 0; k < fine.size(); ++k) coarse.push_back(read_frame(*input, frame + k, first));
     tbb::parallel_for(std::size_t{0}, fine.size(),
                       [&](std::size_t k) { fine[k] = subdivide(subdivision, coarse[k], groups); });
+    if (interrupted()) {
+      fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+      return ExitCode::kInterrupted;
+    }
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before + fine[k].after > 0) {
         fmt::print("{}: {} pairs intersect {}; nothing is written\n", input->frame_name(frame + k),

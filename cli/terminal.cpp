@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace selvage::cli {
@@ -22,6 +23,10 @@ constexpr const char* kClearLine = "\r\033[K";
 bool is_terminal(int descriptor) { return isatty(descriptor) == 1 && environment("TERM") != "dumb"; }
 
 bool use_colour(int descriptor) { return is_terminal(descriptor) && environment("NO_COLOR").empty(); }
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "selvage: note: {}\n", note);
+}
 
 ProgressBar::ProgressBar(std::string label) : label_(std::move(label)), enabled_(is_terminal(STDERR_FILENO)) {}
 

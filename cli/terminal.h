@@ -1,9 +1,10 @@
-// Progress on stderr, only where a person watches.
+// What is said on stderr: notes, and progress where a person watches.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace selvage::cli {
 
@@ -11,6 +12,9 @@ namespace selvage::cli {
 [[nodiscard]] bool is_terminal(int descriptor);
 /// Whether to colour text on `descriptor`: a terminal, and NO_COLOR is unset or empty.
 [[nodiscard]] bool use_colour(int descriptor);
+
+/// On stderr, a line each: what a user should know and what is no error.
+void print_notes(const std::vector<std::string>& notes);
 
 /// One line on stderr that overwrites itself, at most ten times a second; nothing at all if stderr is no terminal.
 class ProgressBar {

@@ -28,12 +28,22 @@ io::Group parse_group(const std::string& text) {
   return group;
 }
 
+/// "A,B"; behind a backslash a comma or a backslash is part of a name.
 std::array<std::string, 2> parse_exemption(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  if (comma == text.npos || comma == 0 || comma + 1 == text.size() || text.find(',', comma + 1) != text.npos) {
-    throw UsageError("--exempt wants two groups, A,B (A,A for pairs within A); not '" + text + "'");
+  std::vector<std::string> names(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_escaped = text[i] == '\\' && i + 1 < text.size() && (text[i + 1] == ',' || text[i + 1] == '\\');
+    if (text[i] == ',') {
+      names.emplace_back();
+    } else {
+      names.back() += is_escaped ? text[++i] : text[i];
+    }
   }
-  return {text.substr(0, comma), text.substr(comma + 1)};
+  if (names.size() != 2 || names[0].empty() || names[1].empty()) {
+    throw UsageError("--exempt wants two groups, A,B (A,A for pairs within A; \\, for a comma in a name); not '" +
+                     text + "'");
+  }
+  return {names[0], names[1]};
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -53,7 +63,8 @@ void add_what_may_touch(CLI::App& command, VerifyArguments& arguments) {
                  "A group of faces by their numbers, half-open, besides those of the sequence; may be repeated")
       ->type_name("NAME=BEGIN:END");
   add_repeatable(command, "--exempt", arguments.exempt,
-                 "Faces of A and B may touch (sewn together); A,A: within A. Counted in the report; may be repeated")
+                 "Faces of A and B may touch (sewn together); A,A: within A; \\, is a comma in a name. Counted in the "
+                 "report; may be repeated")
       ->type_name("A,B");
   add_repeatable(command, "--ignore", arguments.ignore, "A is no part of the check; may be repeated")->type_name("A");
   command.add_flag("--weld", arguments.weld,
@@ -107,7 +118,9 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
                   "At most this much of meshes in the page: frames with violations first, then some of the others")
       ->check(CLI::Range(0, 2000))
       ->capture_default_str();
-  command.add_option("--cases", arguments.cases, "Write each listed violation as a case that selvage replay explains")
+  command
+      .add_option("--cases", arguments.cases,
+                  "Write each listed violation as a case that selvage replay explains; into a folder without cases")
       ->type_name("DIR");
   command
       .add_option("--max-violations", arguments.max_violations,

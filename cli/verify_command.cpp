@@ -27,6 +27,7 @@ verify::ReportContext report_context(const VerifyArguments& arguments, const io:
       std::string("selvage ") + SELVAGE_VERSION, {}, {}, recorded_options(arguments, options)};
   for (const std::filesystem::path& source : arguments.sequence.sources) context.sources.push_back(source.string());
   for (std::size_t i = 0; i < sequence.frame_count(); ++i) context.frame_names.emplace(i, sequence.frame_name(i));
+  context.notes = notes_on(arguments.sequence, sequence);
   return context;
 }
 
@@ -62,6 +63,7 @@ void require_outputs(const VerifyArguments& arguments) {
   require_writable({arguments.json, arguments.html});
   if (arguments.cases.empty()) return;
   create_case_folder(arguments.cases);
+  if (!arguments.resume && arguments.shard.empty()) require_no_cases(arguments.cases);  // else some are of this check
   require_writable({arguments.cases / "a.case"});
 }
 

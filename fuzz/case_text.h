@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/text.h"
+
 namespace selvage::fuzz {
 
 /// The shortest hex float that reads back as x; or nan, inf, -inf.
@@ -14,7 +16,7 @@ namespace selvage::fuzz {
 /// does not fit throws io::Error with the name and the line.
 class CaseLines {
  public:
-  CaseLines(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+  CaseLines(std::string_view text, const std::string& name) : rest_(io::without_byte_order_mark(text)), name_(name) {}
 
   /// The next line that is not empty; fails at the end of the text.
   void advance();

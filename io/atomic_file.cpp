@@ -50,15 +50,24 @@ void AtomicFile::commit() {
   sync_folder(target_.parent_path());
 }
 
-void write_atomically(const fs::path& file, std::string_view bytes) {
+fs::path behind_links(const fs::path& file) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
   std::error_code status;
   fs::path target = file;
-  if (const fs::file_status found = fs::status(file, status); fs::exists(found)) {
-    if (!fs::is_regular_file(found)) return write_in_place(file, bytes);
-    target = fs::canonical(file, status);
-    if (status) file_error(file.string(), "resolve", status.value());
+  for (int links = 0; fs::is_symlink(fs::symlink_status(target, status)); ++links) {
+    if (links == kMostLinks) file_error(file.string(), "resolve", ELOOP);
+    const fs::path next = fs::read_symlink(target, status);
+    if (status) file_error(target.string(), "resolve", status.value());
+    target = target.parent_path() / next;  // the link alone where that is absolute
   }
-  AtomicFile temporary(std::move(target));
+  return target;
+}
+
+void write_atomically(const fs::path& file, std::string_view bytes) {
+  std::error_code status;
+  const fs::file_status found = fs::status(file, status);
+  if (fs::exists(found) && !fs::is_regular_file(found)) return write_in_place(file, bytes);
+  AtomicFile temporary(behind_links(file));
   temporary.write(bytes);
   temporary.commit();
 }

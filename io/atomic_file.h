@@ -35,9 +35,13 @@ class AtomicFile {
   bool is_committed_ = false;
 };
 
+/// What `file` names behind links, whether it is there or not: what would be written. Throws Error(kFile) where links
+/// lead round in a circle.
+[[nodiscard]] std::filesystem::path behind_links(const std::filesystem::path& file);
+
 /// Replaces `file` by `bytes`; on disk when it returns. On failure throws Error(kFile) and leaves the old file intact.
-/// A kill leaves at most a file "NAME.tmp-..." beside it. A link is followed. What is no regular file (a pipe, a
-/// device) cannot be replaced and is written in place.
+/// A kill leaves at most a file "NAME.tmp-..." beside it. A link is followed, to what is not there yet as well. What is
+/// no regular file (a pipe, a device) cannot be replaced and is written in place.
 void write_atomically(const std::filesystem::path& file, std::string_view bytes);
 
 /// Whether `name` is what a killed write_atomically("NAME") leaves behind.

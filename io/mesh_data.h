@@ -28,6 +28,7 @@ struct MeshData {
   Triangles triangles;
   std::vector<Group> groups;  ///< empty: one anonymous cloth
   Precision precision = Precision::kFloat64;
+  std::int64_t split_polygons = 0;  ///< faces of the file with more corners than three: each became several triangles
 };
 
 }  // namespace selvage::io

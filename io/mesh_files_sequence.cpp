@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "io/mesh_reader.h"
+#include "io/polygon.h"
 #include "io/sequence_readers.h"
 
 namespace selvage::io {
@@ -15,6 +16,7 @@ class MeshFilesSequence final : public SequenceReader {
       MeshData mesh = read_mesh(files_[i]);
       if (mesh.precision == Precision::kFloat64) precision_ = Precision::kFloat64;
       if (i == 0) groups_ = std::move(mesh.groups);
+      split_polygons_ += mesh.split_polygons;
       same_faces_.push_back(i == 0 || mesh.triangles == previous);
       previous = std::move(mesh.triangles);
     }
@@ -27,12 +29,17 @@ class MeshFilesSequence final : public SequenceReader {
   std::string frame_name(std::size_t frame) const override { return files_.at(frame).string(); }
   double time(std::size_t frame) const override { return static_cast<double>(frame); }
   bool same_faces_as_previous(std::size_t frame) const override { return same_faces_.at(frame); }
+  std::string remark() const override {
+    const std::string last = files_.size() > 1 ? " to " + files_.back().string() : "";
+    return split_remark(files_.front().string() + last, split_polygons_);
+  }
   MeshData frame(std::size_t frame) const override { return read_mesh(files_.at(frame)); }
 
  private:
   std::vector<std::filesystem::path> files_;
   std::vector<bool> same_faces_;
   std::vector<Group> groups_;
+  std::int64_t split_polygons_ = 0;            ///< of all files
   Precision precision_ = Precision::kFloat32;  // of the frame that stores most
 };
 

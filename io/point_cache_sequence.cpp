@@ -10,6 +10,7 @@
 #include "io/fail.h"
 #include "io/fp_guard.h"
 #include "io/mesh_reader.h"
+#include "io/polygon.h"
 #include "io/sequence_readers.h"
 
 namespace selvage::io {
@@ -22,7 +23,8 @@ class PointCacheSequence final : public SequenceReader {
         name_(std::move(name)),
         header_(read_point_cache_header(*source_, format, name_)),
         triangles_(std::move(base.triangles)),
-        groups_(std::move(base.groups)) {
+        groups_(std::move(base.groups)),
+        split_polygons_(base.split_polygons) {
     if (header_.vertex_count == base.points.size()) return;
     bad_input(name_, std::to_string(header_.vertex_count) + " vertices, the base mesh has " +
                          std::to_string(base.points.size()) + "; name the mesh that the cache was made of");
@@ -35,6 +37,7 @@ class PointCacheSequence final : public SequenceReader {
   std::string frame_name(std::size_t frame) const override { return name_ + "[" + std::to_string(frame) + "]"; }
   double time(std::size_t frame) const override { return header_.times.at(frame); }
   bool same_faces_as_previous(std::size_t) const override { return true; }
+  std::string remark() const override { return split_remark("the base mesh of " + name_, split_polygons_); }
 
   MeshData frame(std::size_t frame) const override {
     const FpGuard guard;
@@ -63,6 +66,7 @@ class PointCacheSequence final : public SequenceReader {
   PointCacheHeader header_;
   Triangles triangles_;
   std::vector<Group> groups_;
+  std::int64_t split_polygons_;  ///< of the base mesh
 };
 
 }  // namespace

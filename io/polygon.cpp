@@ -15,4 +15,11 @@ std::string append_fan(std::vector<std::int32_t>& corners, Triangles& triangles)
   return "a face names the same vertex twice; remove the face";
 }
 
+std::string split_remark(const std::string& source, std::int64_t split_polygons) {
+  if (split_polygons == 0) return {};
+  return source + ": " + std::to_string(split_polygons) + (split_polygons == 1 ? " face has" : " faces have") +
+         " more corners than three and " + (split_polygons == 1 ? "is" : "are") +
+         " split into triangles around the first; faces are numbered after that";
+}
+
 }  // namespace selvage::io

@@ -18,4 +18,7 @@ inline constexpr std::size_t kMostElements = std::numeric_limits<std::int32_t>::
 /// corners, a repeated corner, more than kMostElements triangles. O(n log n); `corners` is used up.
 [[nodiscard]] std::string append_fan(std::vector<std::int32_t>& corners, Triangles& triangles);
 
+/// What a user should know where polygons were split, as a sentence; nothing where none was.
+[[nodiscard]] std::string split_remark(const std::string& source, std::int64_t split_polygons);
+
 }  // namespace selvage::io

@@ -35,7 +35,7 @@ class SequenceReader {
   [[nodiscard]] virtual bool same_faces_as_previous(std::size_t frame) const = 0;
   /// Throws Error. Checks shape, finiteness and, where the format has hashes, the hash.
   [[nodiscard]] virtual MeshData frame(std::size_t frame) const = 0;
-  /// What is there and is no part of it, as a sentence; nothing where there is none.
+  /// What is there and is no part of it, or what was changed, as a sentence; nothing where there is none.
   [[nodiscard]] virtual std::string remark() const { return {}; }
 };
 

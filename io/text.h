@@ -12,16 +12,20 @@ namespace selvage::io {
 /// Longest line any text format may hold: a polygon of some 100,000 corners.
 inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
+/// `text` without the byte order mark that some editors put at its start.
+[[nodiscard]] inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
 /// Walks through `bytes` line by line; LF and CRLF end a line, the last may have no end. A byte order mark at the start
 /// of the text is no part of it.
 class LineReader {
  public:
   /// `bytes` must outlive the reader. `name` appears in errors.
   LineReader(std::string_view bytes, std::string_view name, std::size_t first_line = 1)
-      : rest_(bytes), name_(name), next_line_(first_line) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
-  }
+      : rest_(without_byte_order_mark(bytes)), name_(name), next_line_(first_line) {}
 
   /// The next line without its end; nothing behind the last. Throws Error above kLongestLine.
   std::optional<std::string_view> next();

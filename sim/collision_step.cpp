@@ -144,7 +144,7 @@ void Attempt::repel() {
     contacts.repel(options_, dt_s_, sweeps, motion_);
   }
   met_ = contacts.pressed(held_.size());
-  report_.proximities = proximities_.count();
+  report_.proximities = std::ssize(held_) + proximities_.count();
   report_.repulsions = contacts.count().repulsions;
   report_.frictions = contacts.count().frictions;
 }

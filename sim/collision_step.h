@@ -79,7 +79,8 @@ struct CollisionStepReport {
   /// Candidates of cloth that were farther from their start than 1024 diagonals of the scene's box, and were cut back
   /// to that before anything else (travel_limit.h): the simulation has blown up.
   std::int64_t cut_candidates = 0;
-  std::int64_t proximities = 0;  ///< near at the start and approaching: StartProximities::count()
+  /// Contacts that are held, and other pairs that are near at the start and approaching (StartProximities::count()).
+  std::int64_t proximities = 0;
   std::int64_t repulsions = 0, frictions = 0;
   std::int64_t first_collisions = 0;  ///< left by the repulsions, before any impulse of section 7.4
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;

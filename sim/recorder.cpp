@@ -4,6 +4,7 @@
 
 #include "io/atomic_file.h"
 #include "io/fail.h"
+#include "io/sequence_json.h"
 #include "sim/points.h"
 
 namespace selvage::sim {
@@ -32,6 +33,23 @@ const char* name_of(RunEnd end) {
   return "";
 }
 
+/// Of a folder that holds no sequence, all but what a run leaves that is killed before it has written the header: files
+/// of somebody else, among which a sequence would be scattered, or frames would be replaced.
+std::filesystem::path require_own(std::filesystem::path folder) {
+  std::error_code status;
+  if (!std::filesystem::is_directory(folder, status) || std::filesystem::exists(folder / io::kHeaderFile, status)) {
+    return folder;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    if (file == io::kFacesFile || file == io::kFramesFile || io::is_temporary_name(file)) continue;
+    throw io::Error(io::ErrorKind::kFile, fmt::format("{}: holds files that are no sequence ({}); name an empty folder "
+                                                      "or a new one",
+                                                      folder.string(), file));
+  }
+  return folder;
+}
+
 // What a killed run left of the two files that are written here; the sequence's writer, which holds the lock, removes
 // its own. And what an earlier run said of its end, which this one would make untrue.
 void remove_leftovers(const std::filesystem::path& folder) {
@@ -50,7 +68,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
 
 Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
                    std::string producer)
-    : folder_(std::move(folder)),
+    : folder_(require_own(std::move(folder))),
       producer_(std::move(producer)),
       simulation_(simulation),
       kind_(kind),

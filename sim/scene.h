@@ -87,9 +87,10 @@ struct TimeSpec {
   double frames_per_s = 30;
   std::int64_t frame_count = 0;  ///< after the initial one
   std::optional<double>
-      dynamics_step_s;               ///< none: from the springs' stability limit, or the collision step where implicit
-  std::optional<double> min_step_s;  ///< none: the dynamics' step, or an eighth of max_step_s where implicit
-  std::optional<double> max_step_s;  ///< none: one frame
+      dynamics_step_s;  ///< none: from the springs' stability limit, or the collision step where implicit
+  std::size_t dynamics_step_line = 0;  ///< in the file; whether the step is stable shows only in the world
+  std::optional<double> min_step_s;    ///< none: the dynamics' step, or an eighth of max_step_s where implicit
+  std::optional<double> max_step_s;    ///< none: one frame
 };
 
 struct Scene {

@@ -207,6 +207,7 @@ TimeSpec read_time(TomlTable table) {
     return table.number(key, {kLeastStepShare * frame_s, longest_s});
   };
   time.dynamics_step_s = step("dynamics_step_s", frame_s);
+  time.dynamics_step_line = table.line("dynamics_step_s");
   time.max_step_s = step("max_step_s", frame_s);
   time.min_step_s = step("min_step_s", time.max_step_s.value_or(frame_s));
   table.finish();

@@ -82,10 +82,13 @@ const io::Triangles& Subdivision::triangles() const { return levels_.back()->rul
 
 std::int32_t Subdivision::vertex_count() const { return levels_.back()->mesh.vertex_count; }
 
-Positions Subdivision::operator()(const PositionsRef& V, SubdivisionCounts& counts) const {
+Positions Subdivision::operator()(const PositionsRef& V, SubdivisionCounts& counts,
+                                  const std::function<bool()>& stop) const {
   const FpEnvGuard guard;
+  const auto is_stopped = [&stop] { return stop && stop(); };
   Positions x = V;
   for (const auto& level : levels_) {
+    if (is_stopped()) return Positions(0, 3);
     StepMotion motion;
     motion.start(level->rules.midpoints(x), level->rules.smooth(x), CollisionOptions::Precision::kFloat64);
     const Positions way = motion.displacement();
@@ -96,6 +99,7 @@ Positions Subdivision::operator()(const PositionsRef& V, SubdivisionCounts& coun
     std::vector<double> share(static_cast<std::size_t>(level->mesh.vertex_count), 1);
     tracker.start(motion);
     while (tracker.has_motion_collision()) {
+      if (is_stopped()) return Positions(0, 3);
       ++counts.rounds;
       stop_before_touch(tracker, share, motion, way);
       tracker.update(motion);

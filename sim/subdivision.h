@@ -1,6 +1,7 @@
 // Collision-aware subdivision of recorded frames (paper, section 8): no frame depends on another.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,9 @@ class Subdivision {
   /// just before ("as if they had inelastically collided"), until nothing does. So every level is as free of
   /// intersections as its start; that midpoints are rounded, by half an ulp, is what an exact check of the result has
   /// to cover. May be called from several threads.
-  [[nodiscard]] Positions operator()(const PositionsRef& V, SubdivisionCounts& counts) const;
+  /// `stop` is asked in between; where it says so, the result is empty.
+  [[nodiscard]] Positions operator()(const PositionsRef& V, SubdivisionCounts& counts,
+                                     const std::function<bool()>& stop = {}) const;
 
  private:
   struct Level;

@@ -46,9 +46,15 @@ void TomlTable::fail_at(const toml::node& node, const std::string& message) cons
   io::bad_input_at_line(source_.file, node.source().begin.line, message);
 }
 
-void TomlTable::fail(std::string_view key, const std::string& message) const {
+const toml::node& TomlTable::node_or_table(std::string_view key) const {
   const toml::node* node = table_.get(key);
-  fail_at(node != nullptr ? *node : static_cast<const toml::node&>(table_), fmt::format("{}: {}", name_, message));
+  return node != nullptr ? *node : static_cast<const toml::node&>(table_);
+}
+
+std::size_t TomlTable::line(std::string_view key) const { return node_or_table(key).source().begin.line; }
+
+void TomlTable::fail(std::string_view key, const std::string& message) const {
+  fail_at(node_or_table(key), fmt::format("{}: {}", name_, message));
 }
 
 void TomlTable::fail(const std::string& message) const { fail_at(table_, fmt::format("{}: {}", name_, message)); }

@@ -58,6 +58,9 @@ class TomlTable {
   std::optional<TomlTable> table(std::string_view key);
   std::vector<TomlTable> tables(std::string_view key);
 
+  /// Of the key, where it is; of the table, where it is not.
+  [[nodiscard]] std::size_t line(std::string_view key) const;
+
   void rename(std::string name) { name_ = std::move(name); }
   /// Throws at the first key that nothing above asked for.
   void finish() const;
@@ -68,6 +71,7 @@ class TomlTable {
  private:
   using TwoNodes = std::pair<const toml::node*, const toml::node*>;
 
+  [[nodiscard]] const toml::node& node_or_table(std::string_view key) const;
   void note_asked(std::string_view key) const;
   const toml::node* find(std::string_view key, bool required, std::string_view what);
   const toml::node* find_for_quality(std::string_view key);

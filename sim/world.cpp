@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/fail.h"
 #include "io/mesh_reader.h"
 #include "sim/cloth.h"
 #include "sim/time_step.h"
@@ -212,10 +213,12 @@ class WorldBuilder {
 void require_stable_step(const Scene& scene, double stable_step_s) {
   const std::optional<double> given_s = scene.time.dynamics_step_s;
   if (given_s && !(*given_s < stable_step_s)) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: dynamics_step_s = {} is not stable for these springs; lower it below {:.3g} or "
-                                "leave it out, or set solver = \"implicit\"",
-                                scene.file.string(), *given_s, stable_step_s));
+    io::bad_input_at_line(
+        scene.file.string(), scene.time.dynamics_step_line,
+        fmt::format(
+            "time: dynamics_step_s = {} is not stable for these springs; lower it below {:.3g} or leave it out, "
+            "or set solver = \"implicit\"",
+            *given_s, stable_step_s));
   }
   if (!(stable_step_s >= kLeastStepShare / scene.time.frames_per_s)) {
     throw io::Error(io::ErrorKind::kBadInput,

@@ -24,6 +24,7 @@ struct ReportContext {
   std::map<std::int64_t, std::string> frame_names;  ///< by number
   /// What was asked for, by name: reports with other options are not about the same thing.
   std::vector<std::pair<std::string, std::string>> options = {};
+  std::vector<std::string> notes = {};  ///< what to know of the sequence before trusting the verdict, a sentence each
 };
 
 /// Several lines, the verdict first, the violations last: at most `max_listed`, and how many more there are.

@@ -129,6 +129,7 @@ std::string json_report(const SequenceReport& report, const ReportContext& conte
   json["schema"] = kReportSchema;
   json["program"] = context.program;
   json["sources"] = context.sources;
+  json["notes"] = context.notes;
   json["options"] = Json::object();
   for (const auto& [name, value] : context.options) json["options"][name] = value;
   json["verdict"] = name_of(report.verdict);

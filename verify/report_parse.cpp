@@ -182,6 +182,9 @@ ParsedReport parse(const Json& json) {
   SequenceReport& report = parsed.report;
   parsed.context.program = json.at("program");
   parsed.context.sources = json.at("sources").get<std::vector<std::string>>();
+  if (json.contains("notes")) {  // not in reports of earlier versions
+    parsed.context.notes = json.at("notes").get<std::vector<std::string>>();
+  }
   for (const auto& [name, value] : json.at("options").items()) parsed.context.options.emplace_back(name, value);
   report.verdict = named<Verdict, 3>(
       json.at("verdict"),

@@ -185,7 +185,7 @@ std::string report_page(const verify::SequenceReport& report, const verify::Repo
   const ReportScene shown = report_scene(report, sequence, options.scene_bytes);
   page::Page page(fmt::format("{}: {}", verify::name_of(report.verdict), source_names(context.sources)));
   page.add_header(header(report, context));
-  page.add_header(element("div", {{"id", "left-out"}}, left_out(report)));
+  page.add_header(element("div", {{"id", "left-out"}}, left_out(report, context.notes)));
   page.add_section("Timeline", report_timeline(report), "frames");
   const bool has_witnesses = !report.violations.empty();
   const Html view = page::view_box(page::UpAxis::kZ, below_view(has_witnesses));

@@ -100,8 +100,9 @@ Html facts(const verify::SequenceReport& report) {
   return element("dl", {{"class", "facts"}}, list);
 }
 
-Html left_out(const verify::SequenceReport& report) {
+Html left_out(const verify::SequenceReport& report, const std::vector<std::string>& notes) {
   Html list;
+  for (const std::string& note : notes) list += paragraph("Note: " + note);
   for (const std::string& what : report.unchecked) list += paragraph("Not checked: " + what);
   for (const auto& [groups, pairs] : report.exempted) {
     list += paragraph(fmt::format("Exempt: \"{}\" and \"{}\" may touch; {} were left out.", groups[0], groups[1],

@@ -21,8 +21,8 @@ namespace selvage::cli {
 [[nodiscard]] std::string verdict_sentence(const verify::SequenceReport& report);
 /// The counts of work and of what was found.
 [[nodiscard]] page::Html facts(const verify::SequenceReport& report);
-/// What the check leaves out, one paragraph each; empty where nothing is.
-[[nodiscard]] page::Html left_out(const verify::SequenceReport& report);
+/// What the check leaves out, and the notes on the sequence, one paragraph each; empty where nothing is.
+[[nodiscard]] page::Html left_out(const verify::SequenceReport& report, const std::vector<std::string>& notes);
 
 /// "vertex 3 and face 7"; "motion 12 to 13" or "frame 12"; "crosses".
 [[nodiscard]] std::string features_of(const verify::Violation& violation);

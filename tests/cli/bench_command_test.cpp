@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include <gtest/gtest.h>
 
 #include "tests/cli/run_program.h"
@@ -52,6 +54,16 @@ TEST(BenchCommand, TheTruthOfAFileThatTheExactCheckerContradictsIsNamed) {
     EXPECT_NE(wrong.err.find(file + line), std::string::npos) << wrong.err;
   }
   EXPECT_EQ(wrong.err.find(file + ":1:"), std::string::npos) << wrong.err;
+}
+
+TEST(BenchCommand, HardCasesThatAreInterruptedAre75) {
+  const TemporaryFolder folder;
+  const pid_t child = testing::start_program(folder.path(), {"bench", "stability", "--quick"});
+  testing::wait_until_signal_is_caught(child, SIGINT);
+  kill(child, SIGINT);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out;
+  EXPECT_NE(result.err.find("interrupted; nothing was written"), std::string::npos) << result.err;
 }
 
 }  // namespace selvage

@@ -32,6 +32,31 @@ TEST(FuzzCommand, AnInterruptedCampaignIs75WhateverItHasFound) {
   EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
 }
 
+TEST(FuzzCommand, ShardsThatDoNotFitTogetherAreNamedWithARemedy) {
+  const TemporaryFolder folder;
+  const auto shard = [&](const char* name, const char* part, const char* seed) {
+    const std::filesystem::path artifacts = folder.path() / name;
+    const auto run = testing::run_program(folder, {"fuzz", "ccd", "--cases", "1", "--jobs", "1", "--seed", seed,
+                                                   "--shard", part, "--artifacts", artifacts});
+    EXPECT_NE(slurp(artifacts / "campaign.json"), "") << run.err;
+    return artifacts.string();
+  };
+  const std::string first = shard("first", "1/2", "1"), other = shard("other", "2/2", "7");
+  const struct {
+    std::vector<std::string> folders;
+    const char* words;
+  } cases[] = {{{first}, "shard 2/2 is missing; run it with --shard 2/2, and name its folder too"},
+               {{first, first}, "shard 1 is there twice; name its folder once"},
+               {{first, other}, "shards 1 and 2 differ in --seed; run every shard with the same options"}};
+  for (const auto& c : cases) {
+    std::vector<std::string> arguments = {"merge", "-o", folder.path() / "whole"};
+    arguments.insert(arguments.end(), c.folders.begin(), c.folders.end());
+    const auto result = testing::run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    EXPECT_NE(result.err.find(c.words), std::string::npos) << result.err;
+  }
+}
+
 // Scripts beyond float32 occur in the first cases: they must be refused, and nobody goes on from what is refused.
 TEST(FuzzCommand, TheFirstCasesOfStepsAndSubdivisionHold) {
   for (const std::string property : {"step", "subdivision"}) {

@@ -93,6 +93,40 @@ TEST(LongRuns, ShardsMergeIntoTheWhole) {
   EXPECT_EQ(run_program(folder, {"merge", shards, "-o", merged}).exit_code, 3) << "other options";
 }
 
+TEST(LongRuns, WhatDoesNotFitTogetherIsNamedWithARemedy) {
+  const TemporaryFolder folder;
+  const auto files = sequence(folder.path(), 4, 2);
+  const auto shard = [&](const char* part, const char* name, std::vector<std::string> options) {
+    options.insert(options.end(), {"--shard", part, "--json", folder.path() / name});
+    ASSERT_EQ(run_program(folder, verify(files, options)).exit_code, 0);
+  };
+  shard("1/2", "first.json", {});
+  shard("2/2", "second.json", {});
+  shard("2/2", "far.json", {"--min-distance", "0.01"});
+  shard("2/2", "gap.json", {"--gap"});
+  shard("2/2", "few.json", {"--max-violations", "7"});
+  const struct {
+    std::vector<std::string> reports;
+    const char *what, *remedy;
+  } cases[] = {
+      {{"first.json", "far.json"}, "options.min_distance differ: \"none\" and \"0x1.47ae", "with the same options"},
+      {{"first.json", "gap.json"}, "options.gap differ: \"no\" and \"yes\"; ", "with the same options"},
+      {{"first.json", "few.json"}, "--max-violations differ: 100 and 7; ", "with the same options"},
+      {{"first.json"}, "no part holds frames 2 to 3; ", "run that shard (selvage verify --shard i/N)"},
+      {{"first.json", "first.json"}, "both hold frames 0 to 1; ", "name shards of one N, and each once"},
+      {{"none"}, "holds no report (*.json); ", "selvage verify --shard i/N --json FILE"},
+  };
+  std::filesystem::create_directory(folder.path() / "none");
+  for (const auto& c : cases) {
+    std::vector<std::string> arguments = {"merge", "-o", folder.path() / "m.json"};
+    for (const std::string& report : c.reports) arguments.push_back(folder.path() / report);
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 3) << c.what;
+    EXPECT_NE(result.err.find(c.what), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(c.remedy), std::string::npos) << result.err;
+  }
+}
+
 TEST(LongRuns, AShardIsNamedByHandOrBySlurm) {
   const TemporaryFolder folder;
   const auto files = sequence(folder.path(), 4, 2);

@@ -41,6 +41,20 @@ TEST(Options, ANumberIsFinite) {
   }
 }
 
+TEST(Options, ANumberThatWouldBeRoundedToZeroIsRefused) {
+  for (const std::string value : {"1e-400", "0x1p-1100", "1e-9999"}) {
+    const std::string words = "'" + value + "' is too small: it would be rounded to 0";
+    expect_usage_errors({
+        {{"verify", "none.obj", "--min-distance", value}, "--min-distance", words},
+        {{"bench", "ccd", "--tolerance", value}, "--tolerance", words},
+        {{"fuzz", "ccd", "--cases", "1", "--case-time", value}, "--case-time", words},
+    });
+  }
+  for (const std::string value : {"0", "0e-400", "5e-324", "1e-310"}) {
+    EXPECT_EQ(run_program({"verify", "none.obj", "--min-distance", value}).exit_code, 4) << value << ": no such file";
+  }
+}
+
 TEST(Options, TheRangeIsSaidInShort) {
   expect_usage_errors({
       {{"verify", "none.obj", "--max-violations", "-1"}, "--max-violations", "'-1' is not a number from 0 up"},

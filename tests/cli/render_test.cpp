@@ -147,6 +147,11 @@ TEST(RenderCommand, WritesASheetOfTheFramesAskedFor) {
   ASSERT_GT(png.size(), 24u);
   EXPECT_EQ(png.substr(1, 3), "PNG");
   EXPECT_EQ(static_cast<unsigned char>(png[19]), 200) << "width";
+  const std::string loud = (folder.path() / "SHEET.PNG").string();
+  const auto upper = testing::run_program(folder, {"render", mesh, "-o", loud, "--frames", "0", "--width", "200"});
+  EXPECT_EQ(upper.exit_code, 0) << upper.err;
+  EXPECT_EQ(testing::slurp(loud).substr(1, 3), "PNG");
+  EXPECT_EQ(testing::run_program(folder, {"render", mesh, "-o", sheet + ".jpg"}).exit_code, 2);
 }
 
 TEST(Render, ALargePictureIsDrawnInBandsWithoutASeam) {

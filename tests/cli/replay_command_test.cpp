@@ -76,6 +76,38 @@ TEST(ReplayCommand, EveryKindOfViolationBecomesACase) {
   EXPECT_NE(replayed.out.find("exact:    overlap"), std::string::npos) << replayed.out;
 }
 
+TEST(ReplayCommand, CasesOfTwoChecksAreNotMixed) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", cases = folder.path() / "cases";
+  spit(mesh, two_faces(0));
+  const std::vector<std::string> arguments = {"verify", mesh, "--cases", cases};
+  ASSERT_EQ(run_program(folder, arguments).exit_code, 1);
+  const auto again = run_program(folder, arguments);
+  EXPECT_EQ(again.exit_code, 4) << again.out;
+  EXPECT_NE(again.err.find(cases.string() + ": there are cases already; remove them"), std::string::npos) << again.err;
+  auto part = arguments;  // of one check, whose parts write side by side
+  part.insert(part.end(), {"--shard", "1/1"});
+  EXPECT_EQ(run_program(folder, part).exit_code, 1);
+  auto resumed = arguments;
+  resumed.insert(resumed.end(), {"--resume", "--json", folder.path() / "r.json"});
+  EXPECT_EQ(run_program(folder, resumed).exit_code, 1);
+  for (const auto& entry : std::filesystem::directory_iterator(cases)) std::filesystem::remove(entry.path());
+  spit(cases / "notes.txt", "mine");
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 1);
+}
+
+TEST(ReplayCommand, AByteOrderMarkIsSkipped) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", cases = folder.path() / "cases";
+  spit(mesh, two_faces(0));
+  ASSERT_EQ(run_program(folder, {"verify", mesh, "--cases", cases}).exit_code, 1);
+  for (const auto& entry : std::filesystem::directory_iterator(cases)) {
+    spit(entry.path(), "\xef\xbb\xbf" + slurp(entry.path()));
+  }
+  const auto replayed = run_program(folder, {"replay", cases});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+}
+
 TEST(ReplayCommand, KeptCasesAgree) {
   const auto replayed = run_program({"replay", SELVAGE_SOURCE_DIR "/tests/fuzz/cases"});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;

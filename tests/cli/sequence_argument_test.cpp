@@ -1,6 +1,7 @@
 #include <map>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "tests/cli/run_program.h"
@@ -158,6 +159,26 @@ TEST(SequenceArgument, NoPartOfACampaignIsOverwritten) {
   EXPECT_EQ(testing::slurp(ledger), before);
 }
 
+TEST(SequenceArgument, ALinkToWhatIsNotThereYetIsFollowed) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", link = folder.path() / "link", target = folder.path() / "deep" / "r.json",
+             circle = folder.path() / "circle";
+  spit(mesh, kTwoFaces);
+  std::filesystem::create_symlink("second", link);
+  std::filesystem::create_symlink("deep/r.json", folder.path() / "second");
+  std::filesystem::create_symlink("circle", circle);
+  const auto nowhere = run_program(folder, {"verify", mesh, "--json", link});
+  EXPECT_EQ(nowhere.exit_code, 4) << nowhere.out;
+  EXPECT_NE(nowhere.err.find(target.string() + ": cannot "), std::string::npos) << nowhere.err;
+  std::filesystem::create_directory(folder.path() / "deep");
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", link, "--html", target}).exit_code, 2) << "one file";
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", link}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(nlohmann::json::parse(slurp(target))["verdict"], "clean");
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", circle}).exit_code, 4);
+  EXPECT_TRUE(std::filesystem::is_symlink(circle));
+}
+
 TEST(SequenceArgument, TwoOutputsAreTwoFiles) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj", same = folder.path() / "same", part = folder.path() / "part.json";
@@ -220,6 +241,75 @@ TEST(SequenceArgument, AFrameThatIsMissingInTheListOfAFolderIsSaid) {
   const auto result = run_program(folder, {"verify", folder.path() / "run"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("frame_000003.npy comes right after "), std::string::npos) << result.err;
+}
+
+TEST(SequenceArgument, NotesAreInTheReportsToo) {
+  const TemporaryFolder folder;
+  const auto json = folder.path() / "r.json", page = folder.path() / "r.html", merged = folder.path() / "m.json",
+             run = folder.path() / "run";
+  std::vector<std::string> files;
+  for (const char* name : {"f_1.obj", "f_2.obj", "f_4.obj"}) {
+    files.push_back(folder.path() / name);
+    spit(files.back(), kTwoFaces);
+  }
+  const auto notes_of = [](const std::filesystem::path& report) {
+    return nlohmann::json::parse(slurp(report))["notes"].get<std::vector<std::string>>();
+  };
+  const auto jumped = run_program(folder, {"verify", files[0], files[1], files[2], "--json", json, "--html", page});
+  ASSERT_EQ(notes_of(json).size(), 1U);
+  EXPECT_EQ(jumped.err, "selvage: note: " + notes_of(json)[0] + "\n");
+  EXPECT_NE(notes_of(json)[0].find("f_4.obj comes right after "), std::string::npos);
+  EXPECT_NE(slurp(page).find("<p>Note: " + notes_of(json)[0] + "</p>"), std::string::npos);
+
+  for (const char* part : {"1", "2"}) {
+    const auto report = folder.path() / (std::string(part) + ".part");
+    ASSERT_EQ(run_program(folder, {"verify", files[0], files[1], files[2], "--shard", std::string(part) + "/2",
+                                   "--json", report})
+                  .exit_code,
+              0);
+  }
+  const auto join = run_program(folder, {"merge", folder.path() / "1.part", folder.path() / "2.part", "-o", merged});
+  EXPECT_EQ(notes_of(merged), notes_of(json));
+  EXPECT_EQ(join.err, jumped.err);
+
+  ASSERT_EQ(run_program(folder, {"convert", files[0], files[1], "-o", run}).exit_code, 0);
+  EXPECT_EQ(run_program(folder, {"verify", run, "--json", json}).err, "");
+  EXPECT_EQ(notes_of(json), std::vector<std::string>());
+  spit(run / "frames.jsonl", slurp(run / "frames.jsonl") + "{\"file\"");
+  EXPECT_EQ(run_program(folder, {"verify", run, "--json", json}).exit_code, 0);
+  ASSERT_EQ(notes_of(json).size(), 1U);
+  EXPECT_NE(notes_of(json)[0].find("the last line has no end"), std::string::npos);
+}
+
+TEST(SequenceArgument, PolygonsThatAreSplitAreCounted) {
+  const TemporaryFolder folder;
+  const auto obj = folder.path() / "a_1.obj", ply = folder.path() / "a.ply", next = folder.path() / "a_2.obj",
+             cache = folder.path() / "c.pc2", json = folder.path() / "r.json";
+  spit(obj, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4\nf 4 3 5\n");
+  spit(next, "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0 2 1\nf 1 2 3 4\nf 4 3 5\n");
+  spit(ply,
+       "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n"
+       "5 0 1 2 3 4\n");
+  spit(cache, testing::pc2(5, 0, 1) + std::string(5 * 3 * sizeof(float), '\0'));
+  const std::string split = " more corners than three and is split into triangles around the first";
+  for (const auto& file : {obj, ply}) {
+    const auto result = run_program(folder, {"verify", file, "--json", json});
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+    EXPECT_NE(result.err.find(file.string() + ": 1 face has" + split), std::string::npos) << result.err;
+    EXPECT_EQ(nlohmann::json::parse(slurp(json))["notes"].size(), 1U);
+  }
+  const auto both = run_program(folder, {"verify", obj, next});
+  EXPECT_NE(
+      both.err.find(obj.string() + " to " + next.string() + ": 2 faces have more corners than three and are split"),
+      std::string::npos)
+      << both.err;
+  const auto base = run_program(folder, {"verify", cache, "--base", obj});
+  EXPECT_NE(base.err.find("the base mesh of " + cache.string() + ": 1 face has" + split), std::string::npos)
+      << base.err;
+  const auto converted = run_program(folder, {"convert", obj, "-o", folder.path() / "run"});
+  EXPECT_NE(converted.err.find(": 1 face has" + split), std::string::npos) << converted.err;
+  EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).err, "") << "its faces are triangles";
 }
 
 TEST(SequenceArgument, WhatCanBeReadOnceOnlyIsRefused) {

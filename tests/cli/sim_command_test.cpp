@@ -79,6 +79,21 @@ TEST_F(SimCommand, ABadSceneNamesFileAndLine) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(SimCommand, AnUnstableStepNamesFileAndLine) {
+  std::string text = scene(1, 0.2, 0.2);
+  text.insert(text.find("max_step_s"), "dynamics_step_s = 0.0333\n");
+  const auto run = sim(text);
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("scene.toml:3: time: dynamics_step_s = 0.0333 is not stable"), std::string::npos) << run.err;
+}
+
+TEST_F(SimCommand, WhatRepelsIsNear) {
+  ASSERT_EQ(sim(scene(6, 0.2, 0.2)).exit_code, 0);
+  const auto run = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_GT(run["repulsions"], 0);
+  EXPECT_GE(run["proximities"], run["repulsions"]) << "a contact repels at most once a step";
+}
+
 TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   const auto run = sim(scene(3, 0.3, 0.3));
   EXPECT_EQ(run.exit_code, 3);
@@ -266,6 +281,28 @@ TEST_F(SimCommand, NamesThatATerminalWouldObeyAreRefused) {
     EXPECT_NE(result.err.find("scene.toml:7: cloth: name holds a control character"), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
   }
+}
+
+TEST_F(SimCommand, AFolderOfOtherFilesIsRefused) {
+  const std::filesystem::path out = path("out");
+  std::filesystem::create_directory(out);
+  for (const char* name : {"thesis.txt", "frame_000000.npy"}) {
+    spit(out / name, "mine");
+    for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--resume"}}) {
+      const auto refused = sim(scene(1, 0.2, 0.2), options);
+      EXPECT_EQ(refused.exit_code, 4) << refused.out;
+      const std::string words =
+          out.string() + ": holds files that are no sequence (" + name + "); name an empty folder";
+      EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(slurp(out / name), "mine");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 1);
+    std::filesystem::remove(out / name);
+  }
+  spit(out / "faces.npy", "of a run that was killed before its header");
+  EXPECT_EQ(sim(scene(1, 0.2, 0.2)).exit_code, 0);
+  spit(out / "thesis.txt", "beside a sequence");
+  EXPECT_EQ(sim(scene(1, 0.2, 0.2), {"--resume"}).exit_code, 0);
 }
 
 TEST_F(SimCommand, ASecondRunDoesNotOverwriteTheFirst) {

@@ -121,6 +121,33 @@ TEST(SubdivideCommand, ADamagedFrameLeavesNothingOfThoseBeforeIt) {
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
 }
 
+TEST(SubdivideCommand, ASignalEndsTheWorkOnAFrame) {
+  const TemporaryFolder folder;
+  constexpr int kSide = 20;
+  io::MeshData sheet;
+  for (int i = 0; i <= kSide; ++i) {
+    for (int j = 0; j <= kSide; ++j)
+      sheet.points.push_back({double(i), double(j), (7 * i * i + 3 * i * j) % 16 / 32.0});
+  }
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const int a = i * (kSide + 1) + j, b = a + kSide + 1;
+      sheet.triangles.insert(sheet.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+    }
+  }
+  io::SequenceWriter writer(folder.path() / "run",
+                            {sheet.triangles, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"});
+  writer.append(0, sheet.points);
+  const pid_t child = testing::start_program(
+      folder.path(), {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--levels", "6"});
+  for (int i = 0; i < 60000 && !fs::exists(folder.path() / "fine" / "sequence.json"); ++i) usleep(1000);
+  usleep(200'000);  // the only frame is begun, and takes seconds
+  kill(child, SIGTERM);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out;
+  EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
 TEST(SubdivideCommand, AnInterruptedRunLeavesNothing) {
   const TemporaryFolder folder;
   io::SequenceWriter writer(folder.path() / "run",

@@ -123,6 +123,22 @@ TEST(VerifyCommand, ChangingFacesAreUnknown) {
   EXPECT_NE(result.out.find("b.obj"), std::string::npos) << result.out;
 }
 
+TEST(VerifyCommand, ANameWithACommaCanBeExempt) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh,
+       "o shirt, left\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no a\\b\\\nv 1 1 0\nv 2 1 0\nv 1 2 0\nf 4 5 6\n"
+       "o button\nv 9 9 9\nv 9 9 8\nv 9 8 9\nf 7 8 9\n");
+  for (const std::string pair : {R"(shirt\, left,a\b\\)", R"(a\\b\\,shirt\, left)"}) {
+    const auto exempt = run_program(folder, {"verify", mesh, "--exempt", pair});
+    EXPECT_EQ(exempt.exit_code, 0) << pair << exempt.err;
+    EXPECT_NE(exempt.out.find("exempted:   1 pairs of "), std::string::npos) << exempt.out;
+  }
+  const auto bare = run_program(folder, {"verify", mesh, "--exempt", "shirt, left,shirt, left"});
+  EXPECT_EQ(bare.exit_code, 2);
+  EXPECT_NE(bare.err.find(R"(\, for a comma in a name)"), std::string::npos) << bare.err;
+}
+
 TEST(VerifyCommand, WhatMayTouchIsCountedAndMustExist) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj", json = folder.path() / "report.json";

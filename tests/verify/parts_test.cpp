@@ -223,9 +223,10 @@ TEST(Parts, NothingMissingDoubleOrForeignIsJoined) {
   const Part a = part(all, 0, 3), b = part(all, 3, 5), c = part(all, 5, 7);
   EXPECT_EQ(merge_error({a, b, c}), "");
   EXPECT_NE(merge_error({}), "");
-  EXPECT_EQ(merge_error({b, c}), "no part holds frames 0 to 2");
-  EXPECT_EQ(merge_error({a, c}), "no part holds frames 3 to 4");
-  EXPECT_EQ(merge_error({a, b}), "no part holds frames 5 to 6");
+  const std::string remedy = "; run that shard (selvage verify --shard i/N), and name its report too";
+  EXPECT_EQ(merge_error({b, c}), "no part holds frames 0 to 2" + remedy);
+  EXPECT_EQ(merge_error({a, c}), "no part holds frames 3 to 4" + remedy);
+  EXPECT_EQ(merge_error({a, b}), "no part holds frames 5 to 6" + remedy);
   EXPECT_NE(merge_error({a, b, b, c}).find("both hold frames 3 to 4"), std::string::npos);
   EXPECT_NE(merge_error({a, part(all, 2, 5), c}).find("both hold"), std::string::npos);
   Part foreign = b;
