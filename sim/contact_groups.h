@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -58,7 +59,7 @@ class ContactGroups {
   /// Those of a pack that act with it.
   [[nodiscard]] Lanes together(std::size_t pack) const { return together_[pack]; }
 
-  /// Of those asked to act, whom act() has left as they were.
+  /// Of those asked to act, who have not.
   struct Refused {
     Lanes out_of_reach = 0;  ///< need what is not in their reach
     Lanes at_once = 0;       ///< share a vertex with one of their pack
@@ -113,11 +114,12 @@ class ContactGroups {
         if (refused.at_once >> lane & 1U) group.singles.push_back(pack * kLanes + lane);
       }
     }
-    std::erase_if(group.singles, [&](std::size_t place) {
+    std::vector<std::size_t> stay;
+    for (const std::size_t place : group.singles) {
       const bool leaves = act_single(place, reach, act).out_of_reach != 0;
-      if (leaves) group.leaving.push_back(place);
-      return leaves;
-    });
+      (leaves ? group.leaving : stay).push_back(place);
+    }
+    group.singles = std::move(stay);
   }
 
   template <typename Act>

@@ -16,8 +16,8 @@ namespace selvage::sim::HWY_NAMESPACE {
 
 HWY_INLINE std::size_t VectorLanes() { return hn::Lanes(Real()); }
 HWY_INLINE Truth TruthOf(Lanes which, std::size_t first) {
-  const auto bits = static_cast<std::uint8_t>(which >> first);
-  return hn::LoadMaskBits(Real(), &bits);
+  const std::uint8_t bits[8] = {static_cast<std::uint8_t>(which >> first)};  // as many are read
+  return hn::LoadMaskBits(Real(), bits);
 }
 HWY_INLINE Lanes LanesOf(Truth truth, std::size_t first) {
   std::uint8_t bits[8] = {};
@@ -102,19 +102,22 @@ Lanes TakeNearest(const PackNearest& nearest, Lanes asked, ContactPack& pack) {
     const Truth is_far = hn::Gt(Read(nearest.distance, first), Read(pack.thickness_m, first));
     const Truth is_seen = hn::Or(is_far, hn::Gt(DotOf(direction, Read(pack.normal, first)), zero));
     const Values weights = ReadFour(nearest.weights, first);
-    const Truth can_move = hn::Gt(EffectiveMobility(weights, ReadFour(pack.mobility, first)), zero);
+    const Values mobility = ReadFour(pack.mobility, first);
+    const Truth can_move = hn::Gt(EffectiveMobility(weights, mobility), zero);
+    const Truth can_stay = hn::Gt(EffectiveMobility(ReadFour(pack.weights, first), mobility), zero);
     const Truth is_taken = hn::And(which, hn::And(is_seen, can_move));
     for (std::size_t i = 0; i < 4; ++i) WriteWhere(is_taken, weights[i], first, pack.weights[i]);
     WriteWhere(is_taken, direction, first, pack.normal);
-    result |= LanesOf(hn::And(which, hn::Or(can_move, hn::Not(is_seen))), first);
+    result |= LanesOf(hn::And(which, hn::Or(hn::And(is_seen, can_move), hn::AndNot(is_seen, can_stay))), first);
   }
   return result;
 }
 
-HWY_INLINE Value LeverShare(const Values& weights, const Values& mobility, Value effective) {
+/// lever_share() of an Interaction.
+HWY_INLINE Value LeverShare(const PairLanes& pair) {
   Value longest = hn::Zero(Real());
-  for (std::size_t i = 0; i < 4; ++i) longest = hn::Max(longest, hn::Mul(hn::Abs(weights[i]), mobility[i]));
-  longest = hn::Div(longest, effective);
+  for (std::size_t i = 0; i < 4; ++i) longest = hn::Max(longest, hn::Mul(hn::Abs(pair.weights[i]), pair.mobility[i]));
+  longest = hn::Div(longest, pair.effective);
   const Value most = Number(kMaxLever);
   return hn::IfThenElse(hn::Gt(longest, most), hn::Div(most, longest), Number(1));
 }
@@ -142,17 +145,19 @@ HWY_INLINE void MoveVertices(Truth which, const Vectors& changes, std::size_t fi
   }
 }
 
-/// Pushes by these changes of the distance, as far as the lever lets them: changes of the displacements.
-HWY_INLINE Vectors Push(Value change, const SlipLanes& slip, const Vector& normal) {
+/// Changes of the displacements that change the distance by `change`.
+HWY_INLINE Vectors Push(Value change, const PairLanes& pair, const Vector& normal) {
   Vectors changes;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Value share = hn::Div(hn::Mul(slip.weights[i], slip.mobility[i]), slip.effective);
+    const Value share = hn::Div(hn::Mul(pair.weights[i], pair.mobility[i]), pair.effective);
     changes[i] = Scaled(hn::Mul(change, share), normal);
   }
   return changes;
 }
 
-/// begin_friction() where `which`: adds to the changes, and sets what has rubbed.
+/// A friction that contacts begin a step with, before they are asked what slips: by the impulse that changes the
+/// relative displacement of a pair that does not turn by `friction_m`, without what that has along the normal, as far
+/// as the static cone of what has pressed allows. Adds to the changes, and sets what has rubbed.
 HWY_INLINE void BeginFriction(Truth which, const SlipLanes& slip, const Vector& friction_m, Value pressed,
                               std::size_t first, ContactPack& pack, Vectors& changes) {
   const Value zero = hn::Zero(Real()), one = Number(1);
@@ -164,14 +169,14 @@ HWY_INLINE void BeginFriction(Truth which, const SlipLanes& slip, const Vector& 
   const Value norm = hn::Mul(scale, hn::Sqrt(DotOf(scaled, scaled)));
   const Value most = Read(pack.friction_static, first);
   share = Scaled(hn::IfThenElse(hn::Gt(norm, most), hn::Div(most, norm), one), share);
-  const Vector impulse = Scaled(hn::Div(one, slip.effective), share);
+  const Vector impulse = Scaled(hn::Div(one, slip.pair.effective), share);
   const Vectors unit = slip.ChangesBy(impulse);
   Value energy = zero;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Truth moves = hn::Gt(slip.mobility[i], zero);
-    energy = hn::Add(energy, hn::IfThenElseZero(moves, hn::Div(DotOf(unit[i], unit[i]), slip.mobility[i])));
+    const Truth moves = hn::Gt(slip.pair.mobility[i], zero);
+    energy = hn::Add(energy, hn::IfThenElseZero(moves, hn::Div(DotOf(unit[i], unit[i]), slip.pair.mobility[i])));
   }
-  const Value bound = hn::Mul(hn::Mul(Number(1 + kFrictionRounding), slip.effective), DotOf(impulse, impulse));
+  const Value bound = hn::Mul(hn::Mul(Number(1 + kFrictionRounding), slip.pair.effective), DotOf(impulse, impulse));
   const Truth rubs = hn::And(which, hn::And(hn::Gt(DotOf(share, share), zero), hn::Le(energy, bound)));
   for (std::size_t i = 0; i < 4; ++i) changes[i] = Sum(changes[i], Where(rubs, Scaled(pressed, unit[i])));
   WriteWhere(which, Where(rubs, Scaled(pressed, impulse)), first, pack.rubbed);
@@ -183,15 +188,17 @@ void BearLoads(const PackMotion& read, Lanes asked, ContactPack& pack, const Con
     Truth which = TruthOf(asked, first);
     if (hn::AllFalse(Real(), which)) continue;
     const Vector normal = Read(pack.normal, first);
-    const SlipLanes slip(ReadFour(pack.weights, first), ReadFour(pack.mobility, first), ReadFour(read.x, first), normal,
-                         which);
-    const Truth is_whole = hn::Eq(LeverShare(slip.weights, slip.mobility, slip.effective), Number(1));
-    which = hn::And(which, is_whole);  // else it is pushed once, in the last sweep
+    const PairLanes pair(ReadFour(pack.weights, first), ReadFour(pack.mobility, first));
+    which = hn::And(which, hn::Eq(LeverShare(pair), Number(1)));  // else it is pushed once, in the last sweep
     const Value pressed = hn::Mul(Read(pack.load_m_s2, first), squared_s2);
     WriteWhere(which, pressed, first, pack.pressed);
-    Vectors changes = Push(pressed, slip, normal);
+    Vectors changes = Push(pressed, pair, normal);
     const Vector friction_m = Scaled(squared_s2, Read(pack.friction_m_s2, first));
-    BeginFriction(hn::And(which, hn::Gt(pressed, zero)), slip, friction_m, pressed, first, pack, changes);
+    const Truth rubs = hn::And(which, hn::And(hn::Gt(pressed, zero), hn::Gt(LargestOf(friction_m), zero)));
+    if (!hn::AllFalse(Real(), rubs)) {
+      const SlipLanes slip(pair, ReadFour(read.x, first), normal, rubs);
+      BeginFriction(rubs, slip, friction_m, pressed, first, pack, changes);
+    }
     MoveVertices(which, changes, first, pack, motion);
   }
 }
@@ -215,7 +222,7 @@ HWY_INLINE void Rub(Truth which, const SlipLanes& slip, Value lever_share, const
   for (Vector& each : displacement) each = Scaled(down, each);
   const Vector to_stop = slip.ImpulseToStop(slip.SlipOf(displacement));
   const Value size = hn::Sqrt(DotOf(to_stop, to_stop));
-  const Value normal_impulse = hn::Div(hn::Div(pressed, scale), slip.effective);
+  const Value normal_impulse = hn::Div(hn::Div(pressed, scale), slip.pair.effective);
   const Value most_static = hn::Mul(Read(pack.friction_static, first), normal_impulse);
   const Value most_kinetic = hn::Mul(Read(pack.friction_kinetic, first), normal_impulse);
   const Truth sticks = hn::Le(size, most_static);
@@ -237,9 +244,8 @@ void Press(const PackMotion& read, Lanes asked, double relaxation, bool is_last,
     if (hn::AllFalse(Real(), which)) continue;
     const Vector normal = Read(pack.normal, first);
     const Vectors displacement = ReadFour(read.displacement, first);
-    const SlipLanes slip(ReadFour(pack.weights, first), ReadFour(pack.mobility, first), ReadFour(read.x, first), normal,
-                         which);
-    const Value lever_share = LeverShare(slip.weights, slip.mobility, slip.effective);
+    const PairLanes pair(ReadFour(pack.weights, first), ReadFour(pack.mobility, first));
+    const Value lever_share = LeverShare(pair);
     // Where it is limited once, or the limit would not hold.
     if (!is_last) which = hn::And(which, hn::Eq(lever_share, Number(1)));
     const Value excess = Excess(pack, read, first), before = Read(pack.pressed, first);
@@ -248,12 +254,15 @@ void Press(const PackMotion& read, Lanes asked, double relaxation, bool is_last,
                                                              hn::IfThenElse(hn::Gt(excess, least), excess, least)));
     const Value pressed = hn::Add(before, change);
     WriteWhere(which, pressed, first, pack.pressed);
-    Vectors changes = Push(change, slip, normal);
+    Vectors changes = Push(change, pair, normal);
     if (is_last) {
-      const Value rubbed = LargestOf(Read(pack.rubbed, first));
       const Truth is_pressed = hn::And(which, hn::Gt(pressed, zero));
-      Rub(hn::Or(is_pressed, hn::And(which, hn::Gt(rubbed, zero))), slip, lever_share, displacement, first, pack,
-          changes);
+      const Truth has_rubbed = hn::And(which, hn::Gt(LargestOf(Read(pack.rubbed, first)), zero));
+      const Truth rubs = hn::Or(has_rubbed, hn::And(is_pressed, hn::Gt(Read(pack.friction_static, first), zero)));
+      if (!hn::AllFalse(Real(), rubs)) {
+        const SlipLanes slip(pair, ReadFour(read.x, first), normal, rubs);
+        Rub(rubs, slip, lever_share, displacement, first, pack, changes);
+      }
       pack.ever_repelled |= LanesOf(is_pressed, first);
       pack.ever_rubbed |= LanesOf(hn::And(which, hn::Gt(LargestOf(Read(pack.rubbed, first)), zero)), first);
     }
@@ -267,17 +276,18 @@ void LearnLoads(double learnt, double h, ContactPack& pack) {
   const Value zero = hn::Zero(Real()), one = Number(1), learning = Number(learnt);
   const Value squared_s2 = Number(h * h), largest = Number(std::numeric_limits<double>::max());
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
-    const Values weights = ReadFour(pack.weights, first), mobility = ReadFour(pack.mobility, first);
-    const Value effective = EffectiveMobility(weights, mobility), pressed = Read(pack.pressed, first);
-    const Truth is_whole = hn::Eq(LeverShare(weights, mobility, effective), one);
+    const PairLanes pair(ReadFour(pack.weights, first), ReadFour(pack.mobility, first));
+    const Value pressed = Read(pack.pressed, first);
+    const Truth is_whole = hn::Eq(LeverShare(pair), one);
     const Truth learns = hn::And(hn::Gt(pressed, zero), is_whole);
     const Value in_step = hn::Div(pressed, squared_s2);
     const Value now = hn::IfThenElse(hn::Gt(in_step, largest), largest, in_step);
     const Value load = Read(pack.load_m_s2, first);
     const Value next = hn::Add(load, hn::Mul(learning, hn::Sub(now, load)));
-    const Vector friction = Scaled(hn::Div(effective, squared_s2), Read(pack.rubbed, first));
-    const Truth is_finite = hn::Le(LargestOf(friction), largest);
-    const Vector found = Where(hn::And(is_finite, hn::Gt(mobility[0], zero)), friction);
+    const Vector friction = Scaled(hn::Div(pair.effective, squared_s2), Read(pack.rubbed, first));
+    const Vector size = lanes::Absolute<Real>(friction);
+    const Truth is_finite = hn::And(hn::Le(size.x, largest), hn::And(hn::Le(size.y, largest), hn::Le(size.z, largest)));
+    const Vector found = Where(hn::And(is_finite, hn::Gt(pair.mobility[0], zero)), friction);
     const Vector kept = Scaled(hn::Sub(one, learning), Read(pack.friction_m_s2, first));
     Write(hn::IfThenElseZero(learns, next), first, pack.load_m_s2);
     Write(Where(learns, Sum(kept, Scaled(learning, found))), first, pack.friction_m_s2);

@@ -18,9 +18,9 @@ using LaneColumn3 = std::array<LaneColumn<double>, 3>;
 /// are not cloth is ~k. Lanes without a contact are zero.
 struct alignas(64) ContactPack {
   std::array<LaneColumn<std::int32_t>, 4> vertices{};
-  std::array<LaneColumn<double>, 4> weights{};   ///< as in Interaction; so are mobilities
-  std::array<LaneColumn<double>, 4> mobility{};  ///< one of them above 0
-  LaneColumn3 normal{};                          ///< unit
+  std::array<LaneColumn<double>, 4> weights{};  ///< as in Interaction; so are mobilities
+  std::array<LaneColumn<double>, 4> mobility{};
+  LaneColumn3 normal{};  ///< unit
   LaneColumn<double> thickness_m{}, friction_static{}, friction_kinetic{};
   LaneColumn<double> load_m_s2{};  ///< as in ContactLoad, and its friction; HeldContacts::hold() leaves 0 for edges
   LaneColumn3 friction_m_s2{};
@@ -62,7 +62,8 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
 
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
 
-/// The contacts at their nearest points. Leaves out those whose points are all on vertices that cannot move.
+/// The contacts at their nearest points, but for those that are nearer than the thickness on the other side, which stay
+/// as they are. Leaves out those whose points are all on vertices that cannot move.
 [[nodiscard]] Lanes take_nearest(const PackNearest& nearest, Lanes lanes, ContactPack& pack);
 
 /// Their loads with their friction.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -83,15 +82,6 @@ PairVectors changes_by(const Interaction& interaction, const SlipGeometry& slip,
   return changes;
 }
 
-/// Twice that of motion.
-double energy(const Interaction& interaction, const PairVectors& displacement) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (interaction.mobility[i] > 0) sum += displacement[i].squaredNorm() / interaction.mobility[i];
-  }
-  return sum;
-}
-
 /// The largest share in [0, 1] of `step` that leads from `start` to no farther than `radius` from the origin; 0 where
 /// `start` is farther already.
 double share_within(const Vec3& start, const Vec3& step, double radius) {
@@ -167,30 +157,6 @@ std::optional<PairVectors> friction_change(const Interaction& interaction, const
   load.rubbed += scale * impulse;
   for (Vec3& part : change) part *= scale;
   return change;
-}
-
-PairVectors begin_friction(const Interaction& interaction, const PairVectors& x_t0, const Vec3& normal,
-                           const FrictionCoefficients& friction, const Vec3& friction_m, FrictionLoad& load) {
-  const double mobility = effective_mobility(interaction);
-  // Of what pressed, so that nothing leaves the range of doubles.
-  Vec3 share = (friction_m - friction_m.dot(normal) * normal) / load.pressed;
-  const double norm = share.stableNorm();
-  if (norm > friction.on_static) share *= friction.on_static / norm;
-  if (!(share.norm() > 0)) return zero_vectors();
-  const SlipGeometry slip = make_slip_geometry(interaction, x_t0, normal, mobility);
-  const Vec3 impulse = share / mobility;
-  PairVectors changes = changes_by(interaction, slip, impulse);
-  if (!(energy(interaction, changes) <= (1 + kFrictionRounding) * mobility * impulse.squaredNorm()))
-    return zero_vectors();
-  load.slip = slip;
-  load.rubbed = load.pressed * impulse;
-  for (Vec3& change : changes) change *= load.pressed;
-  return changes;
-}
-
-PairVectors take_back(const Interaction& interaction, FrictionLoad& load) {
-  if (!load.slip) return zero_vectors();
-  return changes_by(interaction, *load.slip, -std::exchange(load.rubbed, Vec3::Zero()));
 }
 
 }  // namespace selvage::sim

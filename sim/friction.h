@@ -52,15 +52,4 @@ struct FrictionLoad {
                                                          const PairVectors& displacement, const Vec3& normal,
                                                          const FrictionCoefficients& friction, FrictionLoad& load);
 
-/// Changes of the displacements by a friction that the pair begins a step with, before it is asked what slips: by the
-/// impulse that changes the relative displacement of a pair that does not turn by `friction_m`, without what that has
-/// along the normal, as far as the static cone of what has pressed allows. Sets load.rubbed. REQUIRES load.pressed > 0
-/// and no friction in it yet.
-[[nodiscard]] PairVectors begin_friction(const Interaction& interaction, const PairVectors& x_t0, const Vec3& normal,
-                                         const FrictionCoefficients& friction, const Vec3& friction_m,
-                                         FrictionLoad& load);
-
-/// Changes of the displacements that take the frictions in `load` back. REQUIRES the pair that rubbed.
-[[nodiscard]] PairVectors take_back(const Interaction& interaction, FrictionLoad& load);
-
 }  // namespace selvage::sim

@@ -102,29 +102,39 @@ HWY_INLINE Matrix PseudoInverse(const Matrix& m, Truth which) {
   return result;
 }
 
+/// As in an Interaction.
+struct PairLanes {
+  Values weights, mobility;
+  Value effective;
+
+  HWY_INLINE PairLanes(const Values& w, const Values& m)
+      : weights(w), mobility(m), effective(EffectiveMobility(w, m)) {}
+};
+
 /// SlipGeometry: of pairs that are not closed y, r and the inverse inertia are zero.
 struct SlipLanes {
+  PairLanes pair;
   Truth is_closed;
-  Values weights, mobility, heaviness;  ///< 1 / mobility of closed pairs, else zero
-  Value effective;
+  Values heaviness;  ///< 1 / mobility of closed pairs, else zero
   Vectors y;
   Vector r;
   Matrix inverse_inertia;
   Vector t, s;  ///< unit, across the normal
   Value stop_tt, stop_ts, stop_ss;
 
-  HWY_INLINE SlipLanes(const Values& w, const Values& m, const Vectors& x, const Vector& normal, Truth which)
-      : weights(w), mobility(m), effective(EffectiveMobility(w, m)) {
+  /// Right in the lanes of `which` alone.
+  HWY_INLINE SlipLanes(const PairLanes& lanes_of_pairs, const Vectors& x, const Vector& normal, Truth which)
+      : pair(lanes_of_pairs) {
     const Value zero = hn::Zero(Real());
     is_closed = which;
-    for (const Value& each : mobility) is_closed = hn::And(is_closed, hn::Gt(each, zero));
+    for (const Value& each : pair.mobility) is_closed = hn::And(is_closed, hn::Gt(each, zero));
     SetRotation(x);
     SetAxes(normal);
     const Vector about_t = CrossOf(r, t), about_s = CrossOf(r, s);
     const Vector turned_t = Apply(inverse_inertia, about_t), turned_s = Apply(inverse_inertia, about_s);
     const Matrix inverse =
-        PseudoInverse({hn::Sub(effective, DotOf(about_t, turned_t)), hn::Neg(DotOf(about_t, turned_s)), zero,
-                       hn::Sub(effective, DotOf(about_s, turned_s)), zero, effective},
+        PseudoInverse({hn::Sub(pair.effective, DotOf(about_t, turned_t)), hn::Neg(DotOf(about_t, turned_s)), zero,
+                       hn::Sub(pair.effective, DotOf(about_s, turned_s)), zero, pair.effective},
                       which);
     stop_tt = inverse.xx;
     stop_ts = inverse.xy;
@@ -136,7 +146,7 @@ struct SlipLanes {
     Value mass = zero;
     Vector center = ZeroRows();
     for (std::size_t i = 0; i < 4; ++i) {
-      heaviness[i] = hn::IfThenElseZero(is_closed, hn::Div(one, mobility[i]));
+      heaviness[i] = hn::IfThenElseZero(is_closed, hn::Div(one, pair.mobility[i]));
       mass = hn::Add(mass, heaviness[i]);
       center = Sum(center, Scaled(heaviness[i], Difference(x[i], x[0])));
     }
@@ -159,7 +169,7 @@ struct SlipLanes {
       inertia.xz = hn::Sub(inertia.xz, hn::Mul(heavy.x, y[i].z));
       inertia.yz = hn::Sub(inertia.yz, hn::Mul(heavy.y, y[i].z));
     }
-    r = Relative(weights, y);
+    r = Relative(pair.weights, y);
     const Matrix inverse = PseudoInverse(inertia, is_closed);
     const auto closed = [this](Value value) HWY_ATTR { return hn::IfThenElseZero(is_closed, value); };
     inverse_inertia = {closed(inverse.xx), closed(inverse.xy), closed(inverse.xz),
@@ -184,7 +194,7 @@ struct SlipLanes {
       const Vector momentum = Scaled(heaviness[i], Difference(displacement[i], displacement[0]));
       angular_momentum = Sum(angular_momentum, CrossOf(y[i], momentum));
     }
-    return Difference(Relative(weights, displacement), CrossOf(Apply(inverse_inertia, angular_momentum), r));
+    return Difference(Relative(pair.weights, displacement), CrossOf(Apply(inverse_inertia, angular_momentum), r));
   }
 
   [[nodiscard]] HWY_INLINE Vector ImpulseToStop(const Vector& slip) const {
@@ -198,7 +208,8 @@ struct SlipLanes {
     const Vector rotation_back = Apply(inverse_inertia, CrossOf(r, impulse));
     Vectors changes;
     for (std::size_t i = 0; i < 4; ++i) {
-      changes[i] = Difference(Scaled(hn::Mul(mobility[i], weights[i]), impulse), CrossOf(rotation_back, y[i]));
+      changes[i] =
+          Difference(Scaled(hn::Mul(pair.mobility[i], pair.weights[i]), impulse), CrossOf(rotation_back, y[i]));
     }
     return changes;
   }
@@ -207,11 +218,11 @@ struct SlipLanes {
 /// adds_energy() of friction.cpp.
 HWY_INLINE Truth AddsEnergy(const SlipLanes& slip, const Vectors& displacement, const Vectors& change) {
   Vector heaviest = displacement[0];
-  Value least = slip.mobility[0];
+  Value least = slip.pair.mobility[0];
   for (std::size_t i = 1; i < 4; ++i) {
-    const Truth is_heavier = hn::Lt(slip.mobility[i], least);
+    const Truth is_heavier = hn::Lt(slip.pair.mobility[i], least);
     heaviest = lanes::Choose<Real>(is_heavier, displacement[i], heaviest);
-    least = hn::IfThenElse(is_heavier, slip.mobility[i], least);
+    least = hn::IfThenElse(is_heavier, slip.pair.mobility[i], least);
   }
   Value added = hn::Zero(Real()), energy = hn::Zero(Real());
   for (std::size_t i = 0; i < 4; ++i) {

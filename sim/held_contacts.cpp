@@ -45,8 +45,10 @@ Lanes above_zero(const LaneColumn<double>& column) {
 }
 
 /// Packs are read one after the other, and all of them take more than a core's cache.
-void fetch_ahead(const ContactPack* pack) {
-  for (std::size_t k = 0; k < sizeof(ContactPack); k += 64) __builtin_prefetch(reinterpret_cast<const char*>(pack) + k);
+void fetch(const std::vector<ContactPack>& packs, std::size_t id) {
+  if (id >= packs.size()) return;
+  const auto* const bytes = reinterpret_cast<const char*>(&packs[id]);
+  for (std::size_t k = 0; k < sizeof(ContactPack); k += 64) __builtin_prefetch(bytes + k);
 }
 
 }  // namespace
@@ -54,11 +56,19 @@ void fetch_ahead(const ContactPack* pack) {
 HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
                            const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s,
                            int sweeps)
-    : surface_(surface), V_t0_(V_t0), V_t1_(V_t1), dt_s_(dt_s), sweeps_(sweeps), place_of_(contacts.size()) {
+    : surface_(surface),
+      V_t0_(V_t0),
+      V_t1_(V_t1),
+      dt_s_(dt_s),
+      sweeps_(sweeps),
+      place_of_(contacts.size(), ContactGroups::kNobody) {
+  if (contacts.empty()) return;
   const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
   scripted_t0_.copy(V_t0.bottomRows(scripted));
   scripted_way_.copy(V_t1.bottomRows(scripted) - V_t0.bottomRows(scripted));
   for (Kind* kind : {&vf_, &ee_}) add_kind(*kind, contacts);
+  const auto is_placed = [](std::size_t place) { return place != ContactGroups::kNobody; };
+  SELVAGE_ASSERT(std::ranges::all_of(place_of_, is_placed));
   begin_with(loads);
 }
 
@@ -76,6 +86,7 @@ void HeldContacts::add_kind(Kind& kind, const std::vector<RepulsionContact>& con
     const Vec3 at = V_t0_.row(vertices.front());
     std::ranges::replace_if(
         vertices, [&](VertexId v) { return !is_cloth(v); }, -1);
+    SELVAGE_ASSERT(std::ranges::any_of(vertices, [](VertexId v) { return v >= 0; }));
     members.push_back({vertices, at - down.dot(at) * down});
   }
   const bool is_vf = kind.kind == PairKind::kVf;
@@ -172,7 +183,7 @@ void HeldContacts::hold(const MidstepMotion& step) {
 /// What they bore in the last step, before anything else, where they are now.
 HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
   ContactPack& pack = packs_[vf_.first_pack + id];
-  fetch_ahead(&pack + 1);
+  fetch(packs_, vf_.first_pack + id + 1);
   lanes &= above_zero(pack.load_m_s2);
   if (lanes == 0) return {};
   PackMotion read;
@@ -192,7 +203,7 @@ HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reac
 HeldContacts::Refused HeldContacts::hold(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach, bool is_last,
                                          const MidstepMotion& step) {
   ContactPack& pack = packs_[kind.first_pack + id];
-  fetch_ahead(&pack + 1);
+  fetch(packs_, kind.first_pack + (backwards_ ? id - 1 : id + 1));
   PackMotion read;
   read_motion(pack, lanes, motion_of(step), read);
   const Lanes looked_at = lanes & (above_zero(pack.load_m_s2) | above_zero(pack.pressed));
@@ -212,45 +223,48 @@ HeldContacts::Refused HeldContacts::look_again(Kind& kind, std::size_t id, const
   ContactPack& pack = packs_[kind.first_pack + id];
   PackNearest nearest;
   find_nearest(kind.kind, read, nearest);
-  Refused refused;
-  if (kind.kind == PairKind::kVf && (lanes & nearest.on_border) != 0) {
-    bool slides = false;
-    refused = slide(kind, id, lanes & nearest.on_border, reach, step, slides);
-    if (slides) {
-      read_motion(pack, lanes, motion_of(step), read);
-      find_nearest(kind.kind, read, nearest);
-    }
-  }
-  lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(refused.out_of_reach | refused.at_once)), pack);
-  return refused;
+  const Lanes on_border = lanes & nearest.on_border;
+  Slid slid;
+  if (kind.kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, step);
+  if (slid.on != 0) read_motion(pack, lanes, motion_of(step), read);
+  const Lanes acting = slid.on | slid.through;
+  const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot;
+  lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
+  return slid.refused;
 }
 
-/// Each of the lanes on to the face on which its vertex is.
-HeldContacts::Refused HeldContacts::slide(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach,
-                                          const MidstepMotion& step, bool& slides) {
-  Refused refused;
+/// Each of the lanes of vf on to the face on which its vertex is, seen from the side on which it is, as above.
+HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
+  Slid slid;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has(lanes, lane)) continue;
-    const std::size_t place = (kind.first_pack + id) * kLanes + lane;
+    const std::size_t place = (vf_.first_pack + id) * kLanes + lane;
     RepulsionContact now = contacts_[place];
     QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
     Answer answer = Answer::kYes;
     while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, step);
-    if (answer == Answer::kOutOfReach) refused.out_of_reach |= only(lane);
+    if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only(lane);
     if (answer == Answer::kOutOfReach || now.second == contacts_[place].second) continue;
-    now.normal = vector_in(packs_[place / kLanes].normal, lane);
     const bool is_near = !(nearest.distance > now.properties.thickness_m);
-    if (is_near && !(nearest.direction.dot(now.normal) > 0)) continue;
-    slides = true;
+    if (is_near && !(nearest.direction.dot(vector_in(packs_[place / kLanes].normal, lane)) > 0)) {
+      slid.through |= only(lane);
+      continue;
+    }
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.interaction.weights = nearest.weights;
+    now.normal = nearest.direction;
+    if (!(effective_mobility(now.interaction) > 0)) {
+      slid.cannot |= only(lane);
+      continue;
+    }
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
     contacts_[place] = now;
     set_lane(place);
-    const Lanes together = kind.groups.together(id);
-    if (has(together, lane) && shares_vertex(place, together)) refused.at_once |= only(lane);
+    const Lanes together = vf_.groups.together(id);
+    const bool clashes = has(together, lane) && shares_vertex(place, together);
+    (clashes ? slid.refused.at_once : slid.on) |= only(lane);
   }
-  return refused;
+  return slid;
 }
 
 /// A vertex of cloth, with one of the others of its pack.

@@ -62,9 +62,9 @@ class HeldContacts {
   /// where contacts share no vertex (contact_groups.h): same bits for any number of threads.
   void hold(const MidstepMotion& step);
 
-  /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts, in any order, with the
-  /// loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it. They do
-  /// not learn its friction.
+  /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given, with
+  /// the loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it.
+  /// They do not learn its friction.
   [[nodiscard]] std::size_t size() const { return place_of_.size(); }
   [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[place_of_[i]]; }
   [[nodiscard]] double load_m_s2(std::size_t i) const;
@@ -111,8 +111,13 @@ class HeldContacts {
   /// Looks where the contacts are now; leaves in `lanes` those that can act.
   [[nodiscard]] Refused look_again(Kind& kind, std::size_t pack, const Reach& reach, const MidstepMotion& step,
                                    PackMotion& read, Lanes& lanes);
-  [[nodiscard]] Refused slide(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step,
-                              bool& slides);
+  struct Slid {
+    Refused refused;
+    Lanes on = 0;       ///< to other faces
+    Lanes cannot = 0;   ///< move there
+    Lanes through = 0;  ///< the surface: stay as they are
+  };
+  [[nodiscard]] Slid slide(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] bool shares_vertex(std::size_t place, Lanes with) const;
   [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
                                  const MidstepMotion& step) const;

@@ -21,7 +21,7 @@ class LaneVectors {
  public:
   /// Keeps the rows where their number stays; all are zero otherwise.
   void resize(Eigen::Index rows) {
-    if (rows == rows_) return;
+    if (rows == rows_ && column_.size() > 0) return;
     rows_ = rows;
     column_ = Columns::Zero((rows + kLanes - 1) / kLanes * kLanes + 2 * kLanes, 3);
   }

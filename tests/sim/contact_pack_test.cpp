@@ -2,6 +2,7 @@
 #include "sim/contact_pack.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sim/friction.h"
@@ -164,6 +165,111 @@ TEST(ContactPack, PropPressesAndRubsAsOnePairDoes) {
       }
     }
   });
+}
+
+namespace {
+
+/// Lane 5 of a pack: the vertices of a pair, all of cloth or, without mobility, not, at rest; `pressed` in a step.
+struct OnePair {
+  static constexpr std::size_t kLane = 5;
+  ContactPack pack;
+  LaneVectors x_t1, v, none;
+  PairVectors x_t0;
+
+  OnePair(const Interaction& interaction, const PairVectors& x, double pressed) : x_t0(x) {
+    for (LaneVectors* rows : {&x_t1, &v, &none}) rows->resize(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto row = static_cast<std::int32_t>(i);
+      pack.vertices[i][kLane] = interaction.mobility[i] > 0 ? row : ~row;
+      pack.weights[i][kLane] = interaction.weights[i];
+      pack.mobility[i][kLane] = interaction.mobility[i];
+      x_t1.row(row) = x[i];
+    }
+    pack.normal[2][kLane] = 1;
+    pack.load_m_s2[kLane] = pressed / (kStep * kStep);
+  }
+  void set_friction(double most, const Vec3& friction_m) {
+    pack.friction_static[kLane] = pack.friction_kinetic[kLane] = most;
+    for (std::size_t k = 0; k < 3; ++k) {
+      pack.friction_m_s2[k][kLane] = friction_m[static_cast<Eigen::Index>(k)] / (kStep * kStep);
+    }
+  }
+  PackMotion read() {
+    PackMotion result;
+    read_motion(pack, 1U << kLane, {x_t1, v, none, none, kStep, 0, 1}, result);
+    return result;
+  }
+  void bear() { bear_loads(read(), 1U << kLane, pack, {x_t1, v, none, none, kStep, 0, 1}); }
+  [[nodiscard]] Vec3 moved(std::size_t i) const { return kStep * v.row(static_cast<Eigen::Index>(i)).transpose(); }
+  [[nodiscard]] Vec3 rubbed() const { return {pack.rubbed[0][kLane], pack.rubbed[1][kLane], pack.rubbed[2][kLane]}; }
+};
+
+}  // namespace
+
+TEST(ContactPack, FrictionBeginsAcrossTheNormalWithinTheStaticCone) {
+  const Interaction interaction =
+      make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.25, 0.25, 0.5}, std::array<double, 4>{1, 0, 0, 0});
+  const PairVectors x{Vec3(0, 0, 0.5), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
+  const auto moves = [&](const Vec3& friction_m) {
+    OnePair one(interaction, x, 2);
+    one.set_friction(0.5, friction_m);
+    one.bear();
+    return one.moved(0);
+  };
+  EXPECT_LT((moves(Vec3(0.3, -0.4, 7)) - Vec3(0.3, -0.4, 2)).norm(), 1e-14);
+  EXPECT_LT((moves(Vec3(3, -4, 7)) - Vec3(0.6, -0.8, 2)).norm(), 1e-14);
+  EXPECT_EQ(moves(Vec3(0, 0, 7)), Vec3(0, 0, 2));
+}
+
+TEST(ContactPack, PropFrictionBeginsWithNoMoreEnergyThanItsImpulseHas) {
+  // Where masses differ by more than doubles hold.
+  constexpr double kPressed = 1e-6;  // little beside what rubs
+  int begun = 0;
+  selvage::testing::check_property(2000, 47, [&] {
+    const RandomPair pair = contact_of_extreme_masses();
+    RC_PRE(lever_share(pair.interaction) == 1);
+    OnePair one(pair.interaction, pair.x_t0, kPressed);
+    one.set_friction(1e9, Vec3(number_between(-1, 1), number_between(-1, 1), 0));
+    one.bear();
+    begun += one.rubbed().norm() > 0 ? 1 : 0;
+    double energy = 0;
+    for (std::size_t i = 0; i < 4; ++i) energy += one.moved(i).squaredNorm() / pair.interaction.mobility[i];
+    const double mobility = effective_mobility(pair.interaction);
+    RC_ASSERT(energy <= (1 + 1e-9) * (kPressed * kPressed / mobility + mobility * one.rubbed().squaredNorm()));
+  });
+  EXPECT_GT(begun, 100);
+}
+
+TEST(ContactPack, PropFrictionAddsNoEnergy) {
+  // Where masses differ by more than doubles hold; of the motion beside the heaviest vertex, as in friction_test.cpp.
+  int rubbed = 0;
+  selvage::testing::check_property(2000, 53, [&] {
+    const RandomPair pair = contact_of_extreme_masses();
+    OnePair one(pair.interaction, pair.x_t0, 0);
+    const double friction = std::pow(10, number_between(0, 12));
+    one.set_friction(friction, Vec3::Zero());
+    one.pack.pressed[OnePair::kLane] = 1;
+    PairVectors level = pair.displacement;
+    for (Vec3& d : level) d.z() = 0;  // so that nothing is pressed more or less
+    one.pack.thickness_m[OnePair::kLane] = relative(pair.interaction, pair.x_t0).z();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      one.v.row(row) = level[i] / kStep;
+      one.x_t1.row(row) = pair.x_t0[i] + level[i];
+    }
+    press(one.read(), 1U << OnePair::kLane, 1, true, one.pack, {one.x_t1, one.v, one.none, one.none, kStep, 0, 1});
+    if (one.rubbed() == Vec3::Zero()) return;
+    ++rubbed;
+    const auto& mobility = pair.interaction.mobility;
+    const auto heaviest = static_cast<std::size_t>(std::ranges::min_element(mobility) - mobility.begin());
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      before += (level[i] - level[heaviest]).squaredNorm() / mobility[i];
+      after += (one.moved(i) - level[heaviest]).squaredNorm() / mobility[i];
+    }
+    RC_ASSERT(after <= before * (1 + 1e-9));
+  });
+  EXPECT_GT(rubbed, 500);
 }
 
 }  // namespace selvage::sim::testing

@@ -26,15 +26,6 @@ std::optional<PairVectors> first_friction(const Interaction& interaction, const 
   return friction_change(interaction, x_t0, displacement, Vec3::UnitZ(), friction, load);
 }
 
-/// They differ by more than doubles hold.
-RandomPair contact_of_extreme_masses() {
-  RandomPair pair = random_contact(0.1);
-  std::array<double, 4> inverse_mass{};
-  for (double& w : inverse_mass) w = std::exp2(number_between(-49, 49));
-  pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, pair.interaction.weights, inverse_mass);
-  return pair;
-}
-
 double slip(const PairVectors& displacement) { return displacement[0].head<2>().norm(); }
 
 }  // namespace
@@ -81,49 +72,6 @@ TEST(Friction, AllFrictionsOfAStepShareOneCone) {
   EXPECT_NEAR(slip_after(Vec3(0, 0.6, 0)), 0.6 - std::sqrt(0.3 * 0.3 - 0.2 * 0.2), 1e-15) << "to the kinetic limit";
   load.pressed = 2;
   EXPECT_NEAR(slip_after(Vec3(0, 0.5, 0)), 0, 1e-15) << "a wider cone";
-}
-
-TEST(Friction, BeginsAcrossTheNormalWithinTheStaticCone) {
-  const VertexOnFloor scene;
-  const auto moves = [&](const Vec3& friction_m) {
-    FrictionLoad load{2};
-    return begin_friction(scene.interaction, scene.x_t0, Vec3::UnitZ(), {0.5, 0.3}, friction_m, load)[0];
-  };
-  EXPECT_LT((moves(Vec3(0.3, -0.4, 7)) - Vec3(0.3, -0.4, 0)).norm(), 1e-15);
-  EXPECT_LT((moves(Vec3(3, -4, 7)) - 2 * 0.5 * Vec3(0.6, -0.8, 0)).norm(), 1e-15);
-  EXPECT_EQ(moves(Vec3(0, 0, 7)), Vec3(0, 0, 0));
-}
-
-TEST(Friction, IsTakenBack) {
-  check_property(500, 36, [] {
-    const RandomPair pair = random_contact(number_between(1e-3, 0.4));
-    RC_PRE(lever_share(pair.interaction) == 1);
-    FrictionLoad load{1};
-    const Vec3 begun(number_between(-1, 1), number_between(-1, 1), 0);
-    PairVectors all = begin_friction(pair.interaction, pair.x_t0, Vec3::UnitZ(), {0.5, 0.5}, begun, load);
-    const auto more =
-        friction_change(pair.interaction, pair.x_t0, sum(pair.displacement, all), Vec3::UnitZ(), {0.5, 0.5}, load);
-    if (more) all = sum(all, *more);
-    RC_CLASSIFY(more.has_value());
-    const PairVectors left = sum(all, take_back(pair.interaction, load));
-    for (const Vec3& vector : left) RC_ASSERT(vector.norm() <= 1e-12);
-    RC_ASSERT(load.rubbed == Vec3(0, 0, 0));
-  });
-}
-
-TEST(Friction, BeginsWithNoMoreEnergyThanItsImpulseHasWhereMassesDifferByMoreThanDoublesHold) {
-  int begun = 0;
-  check_property(2000, 37, [&] {
-    const RandomPair pair = contact_of_extreme_masses();
-    FrictionLoad load{1};
-    const PairVectors changes = begin_friction(pair.interaction, pair.x_t0, Vec3::UnitZ(), {1e6, 1e6},
-                                               Vec3(number_between(-1, 1), number_between(-1, 1), 0), load);
-    begun += load.rubbed.norm() > 0 ? 1 : 0;
-    double energy = 0;
-    for (std::size_t i = 0; i < 4; ++i) energy += changes[i].squaredNorm() / pair.interaction.mobility[i];
-    RC_ASSERT(energy <= (1 + 1e-9) * effective_mobility(pair.interaction) * load.rubbed.squaredNorm());
-  });
-  EXPECT_GT(begun, 500);
 }
 
 TEST(Friction, IsThePapersFormulaWhereThePointsMeet) {

@@ -268,8 +268,15 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
   // The only free corner of a face, 32 times as far from the body's vertex below it as the corners that are held. The
   // vertex rises.
   constexpr double kLever = 32, kRise = 1e-3;
-  for (const auto& [sweeps, is_found_late] : {std::pair(1, false), {4, false}, {1, true}, {4, true}}) {
-    SCOPED_TRACE(::testing::Message() << sweeps << " sweeps, the lever is " << (is_found_late ? "found" : "known"));
+  struct Case {
+    int sweeps;
+    bool is_found_late;
+    double load_m_s2;
+  };
+  for (const auto& [sweeps, is_found_late, load_m_s2] :
+       {Case{1, false, 0}, {4, false, 0}, {1, true, 0}, {4, true, 0}, {1, false, 1e-3}, {4, false, 1e-3}}) {
+    SCOPED_TRACE(::testing::Message() << sweeps << " sweeps, the lever is " << (is_found_late ? "found" : "known")
+                                      << ", it bore " << load_m_s2);
     Positions V(4, 3), V_t1(4, 3);
     V << 0, 1, kThickness, 0, 1 / kLever, 0, -2, 0, kThickness, 2, 0, kThickness;
     V_t1 = V;
@@ -288,7 +295,7 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
     v.resize(1);
     v.set_zero();
     const Ground ground(Faces{{2, 3, 0}}, {1, 0, 0, 0});
-    HeldContacts held({contact}, {}, ground.surface(1), V, V_t1, kStep, sweeps);
+    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(1), V, V_t1, kStep, sweeps);
     act(held, {kStep, 1, x, v});
     const double moved = x.row(0).z() - V(0, 2);
     EXPECT_NEAR(moved, kMaxLever * kRise, 1e-3 * kRise) << sweeps;
@@ -398,6 +405,91 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
     ASSERT_EQ(held.loads().size(), 1U);
     EXPECT_EQ(held.loads()[0].face, 1);
   }
+}
+
+TEST(HeldContacts, WhatHasPassedThroughBesideTheBorderIsHeldAsItWas) {
+  // Below the second face: nearer than the thickness to it, and nearer or farther than that to the border of the first.
+  for (const double y : {-2.1, -2.35, -2.6}) {
+    SCOPED_TRACE(y);
+    TwoFaces scene;
+    OneContact& one = scene.one;
+    scene.V.row(0) = Eigen::RowVector3d(0, y, -0.1);
+    one.x.row(0) = scene.V.row(0);
+    const std::vector<RepulsionContact> contacts{one.contact};
+    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kStep, 1);
+    move_and_hold(one, held, {0, 0, -1}, 1);
+    EXPECT_EQ(one.v.row(0), Eigen::RowVector3d(0, 0, 0));
+    EXPECT_EQ(held.contacts().front().normal, Vec3::UnitZ());
+  }
+}
+
+TEST(HeldContacts, DoNotGoOnToAFaceThatCannotMove) {
+  // A vertex of a body slides from the face with a free corner over one whose corners are all held, and comes through.
+  Positions V(5, 3), V_t1(5, 3);
+  V << 0, 1, 0, -1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 0.3, 0.2;
+  V_t1 = V;
+  V_t1.row(4) << 0, -0.6, -0.1;
+  const Ground ground(Faces{{0, 1, 2}, {2, 1, 3}}, {1, 0, 0, 0, 0});
+  RepulsionContact contact;
+  contact.first = 4;
+  contact.interaction = make_interaction(PairKind::kVf, {4, 0, 1, 2}, {1, 0.3, 0.35, 0.35}, ground.inverse_mass);
+  contact.normal = Vec3::UnitZ();
+  contact.properties.thickness_m = kThickness;
+  LaneVectors x, v;
+  x.copy(V.topRows(4));
+  v.resize(4);
+  v.set_zero();
+  constexpr int kSteps = 6;
+  HeldContacts held({contact}, {}, ground.surface(4), V, V_t1, kSteps * kStep, 1);
+  for (int step = 1; step <= kSteps; ++step) {
+    for (Eigen::Index i = 0; i < 4; ++i) x.row(i) += kStep * v.row(i);
+    act(held, {kStep, double(step) / kSteps, x, v});
+    for (Eigen::Index i = 1; i < 4; ++i) EXPECT_EQ(x.row(i), V.row(i)) << step;
+    EXPECT_TRUE(x.row(0).allFinite()) << step;
+    EXPECT_GT(held.contacts().front().mobility, 0) << step;
+  }
+}
+
+TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
+  // Two vertices over a strip of three faces; the first comes to the face in the middle, which shares a corner with the
+  // one below the second. Alone, the second and then the first, they do the same, bit by bit.
+  Positions V(8, 3);
+  V << 0.9, 0, 0.2, 2.6, 0, 0.2, 0, 0, 0, 1, 1, 0, 1, -1, 0, 2, 0, 0, 3, 1, 0, 3, -1, 0;
+  const Ground ground(Faces{{2, 4, 3}, {3, 4, 5}, {5, 7, 6}}, std::vector<double>(8, 1.0));
+  const auto contact_on = [&](VertexId vertex, FaceId face, const std::array<VertexId, 3>& f) {
+    RepulsionContact contact;
+    contact.first = vertex;
+    contact.second = contact.second_t0 = face;
+    contact.interaction =
+        make_interaction(PairKind::kVf, {vertex, f[0], f[1], f[2]}, {1, 0.2, 0.4, 0.4}, ground.inverse_mass);
+    contact.normal = Vec3::UnitZ();
+    contact.properties.thickness_m = kThickness;
+    return contact;
+  };
+  const RepulsionContact first = contact_on(0, 0, {2, 4, 3}), second = contact_on(1, 2, {5, 7, 6});
+  const auto velocities = [&](const std::vector<std::vector<RepulsionContact>>& one_after_the_other) {
+    LaneVectors x, v;
+    x.copy(V);
+    x.row(0).x() += 0.4;  // in a step before
+    v.resize(8);
+    v.set_zero();
+    for (const VertexId i : {0, 1}) {
+      v.row(i).z() = -0.5;
+      x.row(i) += kStep * v.row(i);
+    }
+    std::int64_t repulsions = 0;
+    for (const std::vector<RepulsionContact>& contacts : one_after_the_other) {
+      HeldContacts held(contacts, {}, ground.surface(8), V, V, 2 * kStep, 1);
+      act(held, {kStep, 1, x, v});
+      repulsions += held.count().repulsions;
+    }
+    EXPECT_EQ(repulsions, 2);
+    Positions result(8, 3);
+    v.copy_to(result);
+    return result;
+  };
+  EXPECT_EQ(velocities({{first, second}}), velocities({{second}, {first}}));
+  EXPECT_NE(velocities({{first}, {second}}), velocities({{second}, {first}}));
 }
 
 TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {

@@ -82,6 +82,18 @@ inline RandomPair random_contact(double gap) {
   return pair;
 }
 
+/// They differ by more than doubles hold.
+inline RandomPair contact_of_extreme_masses() {
+  RandomPair pair = random_contact(0.1);
+  std::array<double, 4> inverse_mass{};
+  for (double& w : inverse_mass) w = std::exp2(number_between(-49, 49));
+  std::array<double, 4> weights = pair.interaction.weights;
+  const PairKind kind = weights[1] > 0 ? PairKind::kEe : PairKind::kVf;
+  for (double& w : weights) w = std::abs(w);
+  pair.interaction = make_interaction(kind, {0, 1, 2, 3}, weights, inverse_mass);
+  return pair;
+}
+
 /// The contact of a pair where it is, along the line between its points.
 inline RepulsionContact contact_of(const RandomPair& pair, double thickness_m) {
   RepulsionContact contact;
