@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <utility>
 
 #include "kernel/assert.h"
@@ -49,6 +50,16 @@ void fetch(const std::vector<ContactPack>& packs, std::size_t id) {
   if (id >= packs.size()) return;
   const auto* const bytes = reinterpret_cast<const char*>(&packs[id]);
   for (std::size_t k = 0; k < sizeof(ContactPack); k += 64) __builtin_prefetch(bytes + k);
+}
+
+/// In parallel, in blocks of as many contacts as other loops have items.
+template <class Body>
+void each_pack(std::span<ContactPack> packs, Body body) {
+  parallel_blocks(std::ssize(packs) * kLanes, [&](Eigen::Index begin, Eigen::Index end) {
+    std::ranges::for_each(
+        packs.subspan(static_cast<std::size_t>(begin / kLanes), static_cast<std::size_t>((end - begin) / kLanes)),
+        body);
+  });
 }
 
 }  // namespace
@@ -158,10 +169,10 @@ ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
 }
 
 void HeldContacts::bear(const MidstepMotion& step) {
-  for (ContactPack& pack : packs_) {
+  each_pack(packs_, [](ContactPack& pack) {
     pack.pressed = {};
     pack.rubbed = {};
-  }
+  });
   vf_.groups.each(false,
                   [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
 }
@@ -176,8 +187,7 @@ void HeldContacts::hold(const MidstepMotion& step) {
     }
     backwards_ = !backwards_;
   }
-  parallel_each(static_cast<Eigen::Index>(ee_.first_pack),
-                [&](Eigen::Index pack) { learn_loads(kLearning, step.h, packs_[static_cast<std::size_t>(pack)]); });
+  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) { learn_loads(kLearning, step.h, pack); });
 }
 
 /// What they bore in the last step, before anything else, where they are now.
