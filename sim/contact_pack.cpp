@@ -309,7 +309,7 @@ std::array<const double*, 3> axes_of(const LaneVectors& vectors) {
 
 }  // namespace
 
-// One by one: the rows of lanes are anywhere, and gathering eight of them at once takes longer (AMD EPYC with AVX-512,
+// One by one: the rows of lanes are anywhere, and gathering eight of them at once was no faster (AMD EPYC with AVX-512,
 // sim/scenes/curtain.toml at full quality).
 void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
   const auto end = axes_of(motion.x_t1), v = axes_of(motion.v);
