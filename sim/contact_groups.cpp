@@ -12,8 +12,8 @@
 namespace selvage::sim {
 namespace {
 
-/// Contacts of a group: some tens of microseconds of work. Fewer leave more contacts between groups, more leave cores
-/// without work (docs/simulator-speed.md).
+/// Contacts of a group. Fewer leave more contacts between groups, more leave cores without work; 512 and 1,024 take as
+/// long (docs/simulator-speed.md).
 constexpr std::size_t kGroupSize = 256;
 
 /// Fewer contacts are on one thread, and act in the order in which they are given.
@@ -141,7 +141,7 @@ ContactGroups::Group ContactGroups::add_group(std::span<const Member> members, s
     }
     const auto lane = static_cast<std::size_t>(std::popcount(together_[pack]));
     order_[pack * kLanes + lane] = contact;
-    together_[pack] = static_cast<Lanes>(together_[pack] | 1U << lane);
+    together_[pack] |= only_lane(lane);
     if (together_[pack] == kAllLanes) full |= std::uint64_t{1} << at;
     for (const VertexId v : members[contact].vertices) {
       if (v < 0) continue;

@@ -110,8 +110,8 @@ class ContactGroups {
       const Refused refused = act(pack, together_[pack], reach);
       together_[pack] &= static_cast<Lanes>(~(refused.out_of_reach | refused.at_once));
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        if (refused.out_of_reach >> lane & 1U) group.leaving.push_back(pack * kLanes + lane);
-        if (refused.at_once >> lane & 1U) group.singles.push_back(pack * kLanes + lane);
+        if (has_lane(refused.out_of_reach, lane)) group.leaving.push_back(pack * kLanes + lane);
+        if (has_lane(refused.at_once, lane)) group.singles.push_back(pack * kLanes + lane);
       }
     }
     std::vector<std::size_t> stay;
@@ -124,7 +124,7 @@ class ContactGroups {
 
   template <typename Act>
   static Refused act_single(std::size_t place, const Reach& reach, const Act& act) {
-    return act(place / kLanes, static_cast<Lanes>(1U << place % kLanes), reach);
+    return act(place / kLanes, only_lane(place % kLanes), reach);
   }
 
   template <typename Act>

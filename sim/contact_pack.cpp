@@ -136,7 +136,7 @@ HWY_INLINE void MoveVertices(Truth which, const Vectors& changes, std::size_t fi
     }
     for (std::size_t lane = first; lane < first + VectorLanes(); ++lane) {
       const std::int32_t row = pack.vertices[i][lane];
-      if (row < 0 || (moved >> lane & 1U) == 0) continue;
+      if (row < 0 || !has_lane(moved, lane)) continue;
       for (int k = 0; k < 3; ++k) {
         motion.x_t1.axis(k)[row] += displaced[k][lane - first];
         motion.v.axis(k)[row] += quicker[k][lane - first];
@@ -317,7 +317,7 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
   const double h = motion.h, share = motion.share, step_share = motion.step_share;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if ((lanes >> lane & 1U) == 0) continue;
+      if (!has_lane(lanes, lane)) continue;
       const std::ptrdiff_t row = pack.vertices[i][lane];
       if (row >= 0) {
         for (std::size_t k = 0; k < 3; ++k) {

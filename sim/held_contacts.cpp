@@ -30,9 +30,6 @@ constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf
 
 std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.vertex, load.face}; }
 
-bool has(Lanes lanes, std::size_t lane) { return (lanes >> lane & 1U) != 0; }
-Lanes only(std::size_t lane) { return static_cast<Lanes>(1U << lane); }
-
 template <class Columns>
 Vec3 vector_in(const Columns& columns, std::size_t lane) {
   return {columns[0][lane], columns[1][lane], columns[2][lane]};
@@ -41,7 +38,7 @@ Vec3 vector_in(const Columns& columns, std::size_t lane) {
 /// Of those whose column is above zero.
 Lanes above_zero(const LaneColumn<double>& column) {
   Lanes result = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only(lane) : Lanes{0};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only_lane(lane) : Lanes{0};
   return result;
 }
 
@@ -201,7 +198,7 @@ HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reac
   Lanes acting = lanes;
   const Refused refused = look_again(vf_, id, reach, step, read, acting);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!has(lanes, lane) || has(acting | refused.out_of_reach | refused.at_once, lane)) continue;
+    if (!has_lane(lanes, lane) || has_lane(acting | refused.out_of_reach | refused.at_once, lane)) continue;
     pack.load_m_s2[lane] = 0;
     for (auto& column : pack.friction_m_s2) column[lane] = 0;
   }
@@ -247,32 +244,32 @@ HeldContacts::Refused HeldContacts::look_again(Kind& kind, std::size_t id, const
 HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
   Slid slid;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!has(lanes, lane)) continue;
+    if (!has_lane(lanes, lane)) continue;
     const std::size_t place = (vf_.first_pack + id) * kLanes + lane;
     RepulsionContact now = contacts_[place];
     QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
     Answer answer = Answer::kYes;
     while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, step);
-    if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only(lane);
+    if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only_lane(lane);
     if (answer == Answer::kOutOfReach || now.second == contacts_[place].second) continue;
     const bool is_near = !(nearest.distance > now.properties.thickness_m);
     if (is_near && !(nearest.direction.dot(vector_in(packs_[place / kLanes].normal, lane)) > 0)) {
-      slid.through |= only(lane);
+      slid.through |= only_lane(lane);
       continue;
     }
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.interaction.weights = nearest.weights;
     now.normal = nearest.direction;
     if (!(effective_mobility(now.interaction) > 0)) {
-      slid.cannot |= only(lane);
+      slid.cannot |= only_lane(lane);
       continue;
     }
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
     contacts_[place] = now;
     set_lane(place);
     const Lanes together = vf_.groups.together(id);
-    const bool clashes = has(together, lane) && shares_vertex(place, together);
-    (clashes ? slid.refused.at_once : slid.on) |= only(lane);
+    const bool clashes = has_lane(together, lane) && shares_vertex(place, together);
+    (clashes ? slid.refused.at_once : slid.on) |= only_lane(lane);
   }
   return slid;
 }
@@ -282,7 +279,7 @@ bool HeldContacts::shares_vertex(std::size_t place, Lanes with) const {
   const ContactPack& pack = packs_[place / kLanes];
   const std::size_t own = place % kLanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (lane == own || !has(with, lane)) continue;
+    if (lane == own || !has_lane(with, lane)) continue;
     for (const auto& a : pack.vertices) {
       for (const auto& b : pack.vertices) {
         if (a[own] >= 0 && a[own] == b[lane]) return true;
@@ -346,8 +343,8 @@ void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
   ContactPack& pack = packs_[place_of_[i] / kLanes];
   pack.load_m_s2[lane] = load_m_s2;
   for (auto& column : pack.friction_m_s2) column[lane] = 0;
-  if (load_m_s2 > 0) pack.ever_repelled |= only(lane);
-  if (rubbed) pack.ever_rubbed |= only(lane);
+  if (load_m_s2 > 0) pack.ever_repelled |= only_lane(lane);
+  if (rubbed) pack.ever_rubbed |= only_lane(lane);
 }
 
 std::vector<RepulsionContact> HeldContacts::contacts() const {

@@ -58,8 +58,9 @@ class HeldContacts {
   /// border that it left, cloth without friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s
   /// in a second. In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave
   /// nothing for the edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2
-  /// micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a sweep, in parallel
-  /// where contacts share no vertex (contact_groups.h): same bits for any number of threads.
+  /// micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a sweep, eight at
+  /// once and in parallel where contacts share no vertex (contact_groups.h); one that slides on to a vertex of another
+  /// of its eight acts alone from then on. Same bits for any number of threads and any vector unit.
   void hold(const MidstepMotion& step);
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given, with

@@ -1,6 +1,7 @@
 // Three numbers a vertex in columns, so that the vertices of a block of lanes are read and written at once.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "kernel/types.h"
@@ -12,6 +13,8 @@ inline constexpr Eigen::Index kLanes = 8;
 
 /// Some of the lanes of a block: bit k is lane k.
 using Lanes = std::uint8_t;
+[[nodiscard]] inline bool has_lane(Lanes lanes, std::size_t lane) { return (lanes >> lane & 1U) != 0; }
+[[nodiscard]] inline Lanes only_lane(std::size_t lane) { return static_cast<Lanes>(1U << lane); }
 
 /// Zero in rows that were not set. Whole blocks may be read from kLanes rows before the first to kLanes after the last,
 /// and written where they hold one row at least.

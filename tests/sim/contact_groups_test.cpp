@@ -57,7 +57,7 @@ using Refused = ContactGroups::Refused;
 std::vector<std::size_t> lanes_of(Lanes lanes) {
   std::vector<std::size_t> result;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if ((lanes >> lane & 1U) != 0) result.push_back(lane);
+    if (has_lane(lanes, lane)) result.push_back(lane);
   }
   return result;
 }
@@ -65,7 +65,7 @@ std::vector<std::size_t> lanes_of(Lanes lanes) {
 /// The members that are called, by place.
 template <class Visit>
 void visit(std::size_t pack, Lanes lanes, Visit visit_place) {
-  for (const std::size_t lane : lanes_of(lanes)) visit_place(pack * kLanes + lane, static_cast<Lanes>(1U << lane));
+  for (const std::size_t lane : lanes_of(lanes)) visit_place(pack * kLanes + lane, only_lane(lane));
 }
 
 /// Those in order(), in it.
@@ -125,7 +125,7 @@ TEST(ContactGroups, PropThoseOfAPackShareNoVertex) {
     std::vector<std::size_t> last_pack(kVertexCount, ContactGroups::kNobody);
     for (std::size_t place = 0; place < groups.order().size(); ++place) {
       const std::size_t pack = place / kLanes, member = groups.order()[place];
-      RC_ASSERT(((groups.together(pack) >> place % kLanes & 1U) != 0) == (member != ContactGroups::kNobody));
+      RC_ASSERT(has_lane(groups.together(pack), place % kLanes) == (member != ContactGroups::kNobody));
       if (member == ContactGroups::kNobody) continue;
       std::array<VertexId, 4> vertices = heap.members[member].vertices;
       std::ranges::sort(vertices);

@@ -74,7 +74,7 @@ struct EightPairs {
     read_motion(pack, lanes, motion(), read);
     Lanes loaded = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (pack.load_m_s2[lane] > 0) loaded |= static_cast<Lanes>(1U << lane);
+      if (pack.load_m_s2[lane] > 0) loaded |= only_lane(lane);
     }
     PackNearest nearest;
     find_nearest(kind, read, nearest);
@@ -125,7 +125,7 @@ TEST(ContactPack, PropGivesTheSameBitsInAnyLaneOnAnyVectorUnit) {
     RC_ASSERT(wrong == std::vector<std::string>{});
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       EightPairs alone = eight;
-      alone.step(static_cast<Lanes>(1U << lane));
+      alone.step(only_lane(lane));
       for (Eigen::Index i = 0; i < 4; ++i) {
         const Eigen::Index row = 4 * static_cast<Eigen::Index>(lane) + i;
         RC_ASSERT(alone.v.row(row) == expected.v.row(row));
@@ -196,10 +196,10 @@ struct OnePair {
   }
   PackMotion read() {
     PackMotion result;
-    read_motion(pack, 1U << kLane, {x_t1, v, none, none, kStep, 0, 1}, result);
+    read_motion(pack, only_lane(kLane), {x_t1, v, none, none, kStep, 0, 1}, result);
     return result;
   }
-  void bear() { bear_loads(read(), 1U << kLane, pack, {x_t1, v, none, none, kStep, 0, 1}); }
+  void bear() { bear_loads(read(), only_lane(kLane), pack, {x_t1, v, none, none, kStep, 0, 1}); }
   [[nodiscard]] Vec3 moved(std::size_t i) const { return kStep * v.row(static_cast<Eigen::Index>(i)).transpose(); }
   [[nodiscard]] Vec3 rubbed() const { return {pack.rubbed[0][kLane], pack.rubbed[1][kLane], pack.rubbed[2][kLane]}; }
 };
@@ -257,7 +257,7 @@ TEST(ContactPack, PropFrictionAddsNoEnergy) {
       one.v.row(row) = level[i] / kStep;
       one.x_t1.row(row) = pair.x_t0[i] + level[i];
     }
-    press(one.read(), 1U << OnePair::kLane, 1, true, one.pack, {one.x_t1, one.v, one.none, one.none, kStep, 0, 1});
+    press(one.read(), only_lane(OnePair::kLane), 1, true, one.pack, {one.x_t1, one.v, one.none, one.none, kStep, 0, 1});
     if (one.rubbed() == Vec3::Zero()) return;
     ++rubbed;
     const auto& mobility = pair.interaction.mobility;
