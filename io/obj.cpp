@@ -115,8 +115,7 @@ class ObjParser {
     for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
       corners_.push_back(parse_corner(token));
     }
-    if (corners_.size() > 3) ++mesh_.split_polygons;
-    const std::string fault = append_fan(corners_, mesh_.triangles);
+    const std::string fault = append_fan(corners_, mesh_);
     if (!fault.empty()) lines_.fail(fault);
   }
 

@@ -125,8 +125,7 @@ void read_faces(Records& records, const PlyElement& element, const PlyLayout& la
         }
         corners.push_back(static_cast<std::int32_t>(index));
       }
-      if (corners.size() > 3) ++mesh.split_polygons;
-      const std::string fault = append_fan(corners, mesh.triangles);
+      const std::string fault = append_fan(corners, mesh);
       if (!fault.empty()) records.fail(fault);
     }
     records.end_record();
