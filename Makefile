@@ -124,9 +124,10 @@ format:  ## rewrite the sources in the house style
 	@cmake/setup packages-clang.txt
 	git ls-files '*.h' '*.cpp' | xargs clang-format-14 -i
 
-tidy: build  ## clang-tidy over every source
+tidy: setup  ## clang-tidy over every source
 	@cmake/setup packages-clang.txt
-	git ls-files '*.cpp' | grep -v -e ^tests -e ^examples | xargs -P 2 -n 1 clang-tidy-14 --quiet -p build/release
+	cmake --preset release -B build/tidy -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON --log-level=WARNING
+	git ls-files '*.cpp' | grep -v -e ^tests -e ^examples | xargs -P 2 -n 1 clang-tidy-14 --quiet -p build/tidy
 
 clean:  ## remove everything that was built
 	rm -rf build $(DEMO)

@@ -11,8 +11,17 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(SELVAGE_CCACHE ccache)
   if(SELVAGE_CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${SELVAGE_CCACHE}")
+    # As its manual asks for precompiled headers: without, nothing that uses one is found again.
+    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros "${SELVAGE_CCACHE}")
+    add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
+endif()
+
+# Precompiled headers are for g++'s optimised builds. Elsewhere every source is compiled with what it includes itself; clang
+# refuses those that ccache has from an earlier build, and what g++ 12 inlines from them it takes for ours, and warns falsely
+# (of which the options in tests/CMakeLists.txt are known to silence what an optimised build has).
+if(PROJECT_IS_TOP_LEVEL AND NOT (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release"))
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 
 add_library(selvage_warnings INTERFACE)
