@@ -28,7 +28,8 @@ struct CentralDifferencesOptions {
 
 /// Explicit in the elastic forces, implicit in damping in the second half step (paper, sections 5 and 7.6):
 ///   v(n+1/2) = v(n) + h/2 a(x(n), v(n));  x(n+1) = x(n) + h v(n+1/2);  v(n+1) = v(n+1/2) + h/2 a(x(n+1), v(n+1)).
-/// Between the first two lines the limits of section 4 act on v(n+1/2).
+/// Between the first two lines the limits of section 4 act on v(n+1/2). Drag that is strong beside the step brakes the
+/// first line so that it turns no velocity round; of second order all the same.
 class CentralDifferences : public Dynamics {
  public:
   CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options);  ///< springs outlive it

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kernel/assert.h"
+#include "sim/drag_steps.h"
 #include "sim/parallel.h"
 #include "sim/stage_contacts.h"
 
@@ -12,6 +13,10 @@ namespace selvage::sim {
 namespace {
 
 constexpr double kStageShare = 1 - 1 / std::numbers::sqrt2;
+// Two stages turn a velocity round that drag takes away at more than this over h, 1 / (1 - 2 kStageShare). A linear
+// rate r leaves 1 / (1 + kStageShare r h) of it in the first stage, and before the second that has changed by (1 -
+// kStageShare) / kStageShare of how much the first changed it; drag that grows with speed leaves more.
+constexpr double kMostBraked = 1 + std::numbers::sqrt2;
 
 // What contacts bear is found to this part of the largest of it, or as far as so many solutions of the stage find it;
 // what is left, the collision step repels. With a hundredth a sheet at rest on a slope creeps by 3e-6 m/s.
@@ -44,7 +49,9 @@ ImplicitDynamics::ImplicitDynamics(const SpringSystem& springs, const ImplicitDy
 
 DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scripted_x_t1,
                                          std::span<const double> inverse_mass, double dt_s, HeldContacts* contacts) {
-  const int step_count = static_cast<int>(std::ceil(dt_s / step_s_));
+  const int step_count =
+      std::max(static_cast<int>(std::ceil(dt_s / step_s_)),
+               steps_for_drag(stage_.fields().quadratic_drag_1_m, fastest_speed(motion.v, inverse_mass), dt_s));
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) {
       motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
@@ -68,9 +75,15 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
   return report;
 }
 
+/// Whether drag stops something within the step.
+bool ImplicitDynamics::brakes(const Positions& v, std::span<const double> inverse_mass, double h) const {
+  const FieldForces& fields = stage_.fields();
+  return h * (fields.drag_1_s + fields.quadratic_drag_1_m * fastest_speed(v, inverse_mass)) > kMostBraked;
+}
+
 // Held vertices have no acceleration, so both stages move them with their velocity.
 void ImplicitDynamics::step(Motion& motion, std::span<const double> inverse_mass, double h, DynamicsReport& report) {
-  const double stage_s = kStageShare * h, rest_s = h - stage_s;
+  const double stage_s = brakes(motion.v, inverse_mass, h) ? h : kStageShare * h, rest_s = h - stage_s;
   const Positions x_t0 = motion.x;
   Positions origin = x_t0, v = motion.v;
   const auto solve_stage = [&] {
@@ -84,9 +97,11 @@ void ImplicitDynamics::step(Motion& motion, std::span<const double> inverse_mass
     if (stage.residual_m <= ImplicitStage::kResidual_m) motion.x = origin + stage_s * (v + stage_s * acceleration_);
   };
   solve_stage();
-  origin += rest_s * (v + stage_s * acceleration_);
-  v += rest_s * acceleration_;
-  solve_stage();
+  if (rest_s > 0) {
+    origin += rest_s * (v + stage_s * acceleration_);
+    v += rest_s * acceleration_;
+    solve_stage();
+  }
   motion.v = v + stage_s * acceleration_;
   limit(x_t0, inverse_mass, h, motion);
 }

@@ -25,9 +25,10 @@ struct ImplicitDynamicsOptions {
 /// one step to the next, so contact and changes of the step need no restart. Velocities are those of the forces found,
 /// which are equal and opposite: linear momentum is kept to rounding, angular momentum to the order of the method.
 ///
-/// A step with contacts is one of backward Euler, x1 = x + h v1, v1 = v + h a(x1, v1), with the contacts in its
-/// potential (stage_contacts.h): of the two stages the second would throw back at (1 - g) / g = 2.4 times its speed
-/// what meets something in between. It is of first order. What contacts bear is found to a thousandth of the largest of
+/// A step within which drag stops something is one of backward Euler, which no drag turns round; so is one
+/// with contacts, x1 = x + h v1, v1 = v + h a(x1, v1), with the contacts in its potential (stage_contacts.h): of the two
+/// stages the second would throw back at (1 - g) / g = 2.4 times its speed what meets something in between. It is of
+/// first order. What contacts bear is found to a thousandth of the largest of
 /// it, or as far as some dozen solutions find it, more where contacts begin to slide; it begins with their loads of the
 /// last step.
 class ImplicitDynamics : public Dynamics {
@@ -46,6 +47,7 @@ class ImplicitDynamics : public Dynamics {
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
+  [[nodiscard]] bool brakes(const Positions& v, std::span<const double> inverse_mass, double h) const;
   void step(Motion& motion, std::span<const double> inverse_mass, double h, DynamicsReport& report);
   void step_in_contact(Motion& motion, std::span<const double> inverse_mass, const StageSpan& span,
                        HeldContacts& contacts, DynamicsReport& report);

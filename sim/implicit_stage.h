@@ -57,6 +57,7 @@ class ImplicitStage {
   /// without that of the vertices held, and with that of the contacts.
   StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration,
                     double enough_m = kResidual_m);
+  [[nodiscard]] const FieldForces& fields() const { return fields_; }
   /// #V: a bound of the matrix's diagonal at each vertex without contacts and drag, kg.
   [[nodiscard]] std::vector<double> resistance_kg(std::span<const double> inverse_mass, double h_s) const;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "sim/scripted_drive.h"
+
 namespace selvage::sim {
 namespace {
 
@@ -116,6 +118,7 @@ std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, c
     const bool is_first = start == ImpulseProjection::Start::kGuess;
     if (pairs_.empty() || !(is_first || finds_others)) break;
     projection_.solve(pairs_, start, limits_.strain_iterations);
+    limit_drive(motion.v, pairs_);
     forget();
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const BoundedPair& pair = pairs_[i];
