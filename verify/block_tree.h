@@ -26,8 +26,9 @@ class BlockTree {
   [[nodiscard]] LatticeBox bounds(std::size_t i) const { return levels_.front()[i].bounds(); }
 
   /// Calls visit(blocks) with the blocks >= first that overlap `box`, in ascending order, at most kMostVisited at once.
+  /// Returns how many.
   template <class Visit>
-  void visit(const LatticeBox& box, std::size_t first, Visit&& visit) const;
+  std::int64_t visit(const LatticeBox& box, std::size_t first, Visit&& visit) const;
 
  private:
   // levels_[0] block b place p bounds block 8 b + p; levels_[1] bounds levels_[0]
@@ -35,8 +36,8 @@ class BlockTree {
 };
 
 template <class Visit>
-void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) const {
-  if (levels_.empty()) return;
+std::int64_t BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) const {
+  if (levels_.empty()) return 0;
   struct Node {
     std::size_t level, block;
   };
@@ -45,6 +46,7 @@ void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) c
   std::size_t depth = 0;
   std::array<std::uint32_t, kMostVisited> found;
   std::size_t found_count = 0;
+  std::int64_t visited = 0;
   stack[depth++] = {levels_.size() - 1, 0};
   while (depth > 0) {
     const Node node = stack[--depth];
@@ -59,6 +61,7 @@ void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) c
       found_count += kBitCount[mask];
       if (found_count + kWidth > kMostVisited) {
         visit(std::span(found).first(found_count));
+        visited += static_cast<std::int64_t>(found_count);
         found_count = 0;
       }
       continue;
@@ -69,6 +72,7 @@ void BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) c
     }
   }
   if (found_count > 0) visit(std::span(found).first(found_count));
+  return visited + static_cast<std::int64_t>(found_count);
 }
 
 }  // namespace selvage::verify

@@ -20,17 +20,18 @@ class BoxTree {
   [[nodiscard]] std::size_t block_count() const { return blocks_.size(); }
 
   /// Calls visit(i, j) once for every pair of overlapping boxes of this tree of which the first in tree order is in
-  /// `block`; over all blocks: every unordered pair i != j once, in a fixed order.
+  /// `block`; over all blocks: every unordered pair i != j once, in a fixed order. Returns how many blocks were
+  /// compared.
   template <class Visit>
-  void visit_pairs_within(std::size_t block, Visit&& visit) const {
-    tree_.visit(block_bounds_[block], block, [&](std::span<const std::uint32_t> others) {
+  std::int64_t visit_pairs_within(std::size_t block, Visit&& visit) const {
+    return tree_.visit(block_bounds_[block], block, [&](std::span<const std::uint32_t> others) {
       for (const std::uint32_t other : others) visit_block_pair<true>(block, *this, other, visit);
     });
   }
-  /// Calls visit(i, j) once for every box i of `block` and box j of `other` that overlap.
+  /// Calls visit(i, j) once for every box i of `block` and box j of `other` that overlap. Returns the same.
   template <class Visit>
-  void visit_pairs_between(std::size_t block, const BoxTree& other, Visit&& visit) const {
-    other.tree_.visit(block_bounds_[block], 0, [&](std::span<const std::uint32_t> others) {
+  std::int64_t visit_pairs_between(std::size_t block, const BoxTree& other, Visit&& visit) const {
+    return other.tree_.visit(block_bounds_[block], 0, [&](std::span<const std::uint32_t> others) {
       for (const std::uint32_t theirs : others) visit_block_pair<false>(block, other, theirs, visit);
     });
   }

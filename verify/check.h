@@ -64,6 +64,8 @@ struct CheckResult {
   std::vector<Violation> disagreements = {};
   std::vector<std::int64_t> exempted =
       {};  ///< pairs left out, by exemption of the surface; trailing zeros may be missing
+  /// The work of the search for pairs: blocks of elements that it compared. Any other search might compare others.
+  std::int64_t block_pairs = 0;
 };
 
 /// Asked between blocks of pairs, from several threads: whether to give the check up.
@@ -180,7 +182,7 @@ struct SequenceReport {
   std::vector<Ignored> ignored;  ///< as GroupRules::ignore
   struct Welded {
     std::int64_t vertices = 0;         ///< joined to another: so many fewer there are
-    std::int64_t collapsed_faces = 0;  ///< two corners became one: a violation in every frame
+    std::int64_t collapsed_faces = 0;  ///< two corners became one: zero area in every frame
   };
   std::optional<Welded> welded;  ///< where asked for
   double seconds = 0;

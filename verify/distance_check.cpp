@@ -18,7 +18,6 @@ void check_distances(const Topology& topology, std::span<const Point> V, double 
   if (!(distance >= 0) || !std::isfinite(distance)) {
     throw std::invalid_argument("the minimum distance must be finite and not negative");
   }
-  if (V.empty()) return;
   visit_near_pairs(topology, V, distance, options.check_bodies, options.max_violations, tally,
                    [&](EventKind event, std::int32_t i, std::int32_t j, const std::array<Point, 4>& x, Tally& chunk) {
                      const bool is_vf = event == EventKind::kVf;

@@ -14,7 +14,8 @@ namespace selvage::verify {
 /// A tree over some faces of a mesh. Work is done by groups of 64 faces, which callers may spread over threads.
 class FaceTree {
  public:
-  /// The spans must outlive it. The frame must be common to all trees that are queried together, and hold all of V.
+  /// The spans must outlive it. The frame must be common to all trees that are queried together, and hold all of their
+  /// faces.
   FaceTree(std::span<const std::int32_t> faces, std::span<const std::array<std::int32_t, 3>> triangles,
            std::span<const Point> V, const FloatFrame& frame);
 
@@ -23,15 +24,15 @@ class FaceTree {
   /// Every pair of faces whose boxes overlap and of which the first in tree order is in `group`; over all groups: every
   /// unordered pair f != g once, in a fixed order. Pairs that are proved to have no point in common but the corners
   /// that they share by index are counted, visit(count), or, if `each`, visited, visit(f, g, true). All others are
-  /// visited: visit(f, g, false).
+  /// visited: visit(f, g, false). Returns how many blocks were compared with the group.
   template <class Visit>
-  void visit_pairs_within(std::size_t group, bool each, Visit&& visit) const {
-    visit_pairs(group, *this, static_cast<std::int64_t>(kGroup * group), each, visit);
+  std::int64_t visit_pairs_within(std::size_t group, bool each, Visit&& visit) const {
+    return visit_pairs(group, *this, static_cast<std::int64_t>(kGroup * group), each, visit);
   }
   /// The same for every face f of `group` and g of `other`.
   template <class Visit>
-  void visit_pairs_between(std::size_t group, const FaceTree& other, bool each, Visit&& visit) const {
-    visit_pairs(group, other, kOtherTree, each, visit);
+  std::int64_t visit_pairs_between(std::size_t group, const FaceTree& other, bool each, Visit&& visit) const {
+    return visit_pairs(group, other, kOtherTree, each, visit);
   }
 
  private:
@@ -39,7 +40,7 @@ class FaceTree {
   static_assert(BlockTree::kMostVisited <= FaceMatches::kMostBlocks);
   /// `first`: the first block of the group in `other`, kOtherTree if that is another tree.
   template <class Visit>
-  void visit_pairs(std::size_t group, const FaceTree& other, std::int64_t first, bool each, Visit& visit) const;
+  std::int64_t visit_pairs(std::size_t group, const FaceTree& other, std::int64_t first, bool each, Visit& visit) const;
   /// Of the faces as they are in V.
   [[nodiscard]] bool boxes_overlap(std::int32_t f, std::int32_t g) const;
 
@@ -52,8 +53,8 @@ class FaceTree {
 };
 
 template <class Visit>
-void FaceTree::visit_pairs(std::size_t group, const FaceTree& other, std::int64_t first, bool each,
-                           Visit& visit) const {
+std::int64_t FaceTree::visit_pairs(std::size_t group, const FaceTree& other, std::int64_t first, bool each,
+                                   Visit& visit) const {
   const std::size_t begin = kGroup * group, count = std::min(kGroup, blocks_.size() - begin);
   const FaceQuery query({blocks_.data() + begin, count}, {bounds_.data() + begin, count});
   const CompareFaces compare = face_comparers().back().compare;
@@ -71,7 +72,8 @@ void FaceTree::visit_pairs(std::size_t group, const FaceTree& other, std::int64_
       }
     }
   };
-  other.tree_.visit(tree_.bounds(group), static_cast<std::size_t>(std::max<std::int64_t>(first, 0)), compare_with);
+  return other.tree_.visit(tree_.bounds(group), static_cast<std::size_t>(std::max<std::int64_t>(first, 0)),
+                           compare_with);
 }
 
 }  // namespace selvage::verify

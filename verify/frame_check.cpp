@@ -19,12 +19,10 @@ class FrameCheck {
       : topology_(topology), V_(V), options_(options), tally_(options.max_violations, options.stop) {}
 
   CheckResult run() {
-    if (!V_.empty()) {
-      const FloatFrame frame = FloatFrame::over(bounding_box(V_));
-      const PartTrees<FaceTree> faces(topology_.faces, topology_.triangles, V_, frame);
-      const bool each = !topology_.exemptions.empty() || options_.second_opinion == SecondOpinionScope::kAll;
-      faces.tally_within(options_.check_bodies, options_.max_violations, tally_, FoundPairs{*this}, each);
-    }
+    const FloatFrame frame = FloatFrame::over(bounding_box(topology_, V_));
+    const PartTrees<FaceTree> faces(topology_.faces, topology_.triangles, V_, frame);
+    const bool each = !topology_.exemptions.empty() || options_.second_opinion == SecondOpinionScope::kAll;
+    faces.tally_within(options_.check_bodies, options_.max_violations, tally_, FoundPairs{*this}, each);
     check_areas(topology_.faces.cloth);
     if (options_.check_bodies) check_areas(topology_.faces.body);
     if (options_.min_distance) check_distances(topology_, V_, *options_.min_distance, options_, tally_);
@@ -101,7 +99,7 @@ class FrameCheck {
   }
 
   CheckResult result() const {
-    CheckResult result{tally_.pairs, tally_.violations(), {}, {}, tally_.exempted()};
+    CheckResult result{tally_.pairs, tally_.violations(), {}, {}, tally_.exempted(), tally_.block_pairs};
     for (const Hit& hit : tally_.first_hits()) result.violations.push_back(placed(hit));
     for (const Hit& hit : tally_.disagreements()) result.disagreements.push_back(placed(hit));
     return result;

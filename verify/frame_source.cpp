@@ -125,25 +125,17 @@ void FrameSource::make_surface(const io::MeshData& mesh, std::vector<std::uint8_
   is_body_ = std::move(is_body);
   resolved_ = std::move(resolved);
   surface_crc32_ = crc32_of_surface();
-  collapsed_cloth_.clear();
-  collapsed_bodies_.clear();
-  if (representatives_.empty()) {
-    topology_ = make_topology({triangles_, is_body_, resolved_.is_ignored, resolved_.exemptions}, mesh.points.size());
-    return;
+  collapsed_faces_ = 0;
+  Surface surface{triangles_, is_body_, resolved_.is_ignored, resolved_.exemptions, representatives_};
+  WeldedFaces welded;
+  if (!representatives_.empty()) {
+    welded = weld_faces(triangles_, representatives_);
+    surface.triangles = welded.triangles;
+    collapsed_faces_ = std::count_if(welded.collapsed.begin(), welded.collapsed.end(), [this](std::int32_t f) {
+      return resolved_.is_ignored.empty() || resolved_.is_ignored[static_cast<std::size_t>(f)] == 0;
+    });
   }
-  const WeldedFaces welded = weld_faces(triangles_, representatives_);
-  std::vector<std::uint8_t> left_out = resolved_.is_ignored;
-  left_out.resize(triangles_.size());
-  for (const std::int32_t f : welded.collapsed) {
-    const auto face = static_cast<std::size_t>(f);
-    if (left_out[face] != 0) continue;
-    left_out[face] = 1;
-    (is_body_[face] != 0 ? collapsed_bodies_ : collapsed_cloth_).push_back(f);
-  }
-  topology_ = make_topology({welded.triangles, is_body_, left_out, resolved_.exemptions}, mesh.points.size());
-  for (std::size_t v = 0; v < representatives_.size(); ++v) {
-    if (static_cast<std::size_t>(representatives_[v]) != v) --topology_.unreferenced_vertices;
-  }
+  topology_ = make_topology(surface, mesh.points.size());
 }
 
 }  // namespace selvage::verify

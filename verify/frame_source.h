@@ -34,9 +34,8 @@ class FrameSource {
   /// Its faces, groups or number of vertices differ from those of the frame read before.
   [[nodiscard]] bool surface_changed() const { return surface_changed_; }
   [[nodiscard]] const ResolvedRules& rules() const { return resolved_; }
-  /// Faces that lost a corner to welding, ascending; no part of the topology. Those of bodies apart.
-  [[nodiscard]] const std::vector<std::int32_t>& collapsed_cloth() const { return collapsed_cloth_; }
-  [[nodiscard]] const std::vector<std::int32_t>& collapsed_bodies() const { return collapsed_bodies_; }
+  /// Faces that lost a corner to welding and are not ignored.
+  [[nodiscard]] std::int64_t collapsed_faces() const { return collapsed_faces_; }
   [[nodiscard]] std::int64_t face_count() const { return static_cast<std::int64_t>(triangles_.size()); }
   /// Of all frames: vertices that were joined to another.
   [[nodiscard]] std::int64_t welded_vertices() const { return welded_vertices_; }
@@ -55,7 +54,7 @@ class FrameSource {
   ResolvedRules resolved_;
   Topology topology_;
   std::uint32_t surface_crc32_ = 0;
-  std::vector<std::int32_t> collapsed_cloth_, collapsed_bodies_;
+  std::int64_t collapsed_faces_ = 0;
   bool surface_changed_ = false;
 };
 

@@ -22,10 +22,10 @@ class MotionCheck {
         tally_(options.max_violations, options.stop) {}
 
   CheckResult run() {
-    if (!V_t0_.empty()) check_pairs();
+    check_pairs();
     check_faces(topology_.faces.cloth);
     if (options_.check_bodies) check_faces(topology_.faces.body);
-    CheckResult result{tally_.pairs, tally_.violations(), {}, {}, tally_.exempted()};
+    CheckResult result{tally_.pairs, tally_.violations(), {}, {}, tally_.exempted(), tally_.block_pairs};
     for (const Hit& hit : tally_.first_hits()) result.violations.push_back(timed(hit));
     for (const Hit& hit : tally_.disagreements()) result.disagreements.push_back(timed(hit));
     return result;
@@ -99,7 +99,7 @@ class MotionCheck {
   }
 
   void check_pairs() {
-    const Box bounds_t0 = bounding_box(V_t0_), bounds_t1 = bounding_box(V_t1_);
+    const Box bounds_t0 = bounding_box(topology_, V_t0_), bounds_t1 = bounding_box(topology_, V_t1_);
     const Lattice lattice =
         Lattice::over(bounding_box(std::array{bounds_t0.min, bounds_t0.max, bounds_t1.min, bounds_t1.max}));
     const PartTrees<ElementTree> edges(topology_.edge_parts, lattice,

@@ -9,15 +9,15 @@
 namespace selvage::verify {
 
 /// Calls visit(event, i, j, x, tally) for all pairs that the check owes and that may be within `distance`: their boxes,
-/// grown by half of it, overlap. x: the vertex, then the corners of the face; or the ends of both edges. REQUIRES V not
-/// empty, distance >= 0.
+/// grown by half of it, overlap. x: the vertex, then the corners of the face; or the ends of both edges. REQUIRES
+/// distance >= 0.
 template <class Visit>
 void visit_near_pairs(const Topology& topology, std::span<const Point> V, double distance, bool check_bodies,
                       std::size_t limit, Tally& tally, const Visit& visit) {
   const auto at = [V](std::int32_t v) -> const Point& { return V[static_cast<std::size_t>(v)]; };
   const auto face = [&](std::int32_t f) { return topology.triangles[static_cast<std::size_t>(f)]; };
   const auto edge = [&](std::int32_t e) { return topology.edges[static_cast<std::size_t>(e)]; };
-  const Lattice lattice = Lattice::over(bounding_box(V));
+  const Lattice lattice = Lattice::over(bounding_box(topology, V));
   const double half = 0.5 * distance;  // each of two boxes grows by half
   const PartTrees<ElementTree> vertices(topology.vertices, lattice, [&](std::int32_t v) {
     return grown({at(v), at(v)}, half);

@@ -19,13 +19,13 @@ class ElementTree {
 
   [[nodiscard]] std::size_t group_count() const { return tree_.block_count(); }
   template <class Visit>
-  void visit_pairs_within(std::size_t group, const Visit& visit) const {
-    tree_.visit_pairs_within(group, [&](std::int32_t i, std::int32_t j) { visit(element(i), element(j)); });
+  std::int64_t visit_pairs_within(std::size_t group, const Visit& visit) const {
+    return tree_.visit_pairs_within(group, [&](std::int32_t i, std::int32_t j) { visit(element(i), element(j)); });
   }
   template <class Visit>
-  void visit_pairs_between(std::size_t group, const ElementTree& other, const Visit& visit) const {
-    tree_.visit_pairs_between(group, other.tree_,
-                              [&](std::int32_t i, std::int32_t j) { visit(element(i), other.element(j)); });
+  std::int64_t visit_pairs_between(std::size_t group, const ElementTree& other, const Visit& visit) const {
+    return tree_.visit_pairs_between(group, other.tree_,
+                                     [&](std::int32_t i, std::int32_t j) { visit(element(i), other.element(j)); });
   }
 
  private:
@@ -71,14 +71,14 @@ class PartTrees {
   template <class Work, class... Options>
   static void within(const Tree& tree, std::size_t limit, Tally& tally, const Work& work, Options... options) {
     tally_in_parallel(tree.group_count(), limit, tally, [&](std::size_t group, Tally& chunk) {
-      tree.visit_pairs_within(group, options..., [&](auto... found) { work(chunk, found...); });
+      chunk.block_pairs += tree.visit_pairs_within(group, options..., [&](auto... found) { work(chunk, found...); });
     });
   }
   template <class Work, class... Options>
   static void between(const Tree& a, const Tree& b, std::size_t limit, Tally& tally, const Work& work,
                       Options... options) {
     tally_in_parallel(a.group_count(), limit, tally, [&](std::size_t group, Tally& chunk) {
-      a.visit_pairs_between(group, b, options..., [&](auto... found) { work(chunk, found...); });
+      chunk.block_pairs += a.visit_pairs_between(group, b, options..., [&](auto... found) { work(chunk, found...); });
     });
   }
 

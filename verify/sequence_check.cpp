@@ -3,14 +3,12 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "verify/check.h"
 #include "verify/fp_guard.h"
 #include "verify/frame_source.h"
 #include "verify/smallest_gap.h"
-#include "verify/violation.h"
 
 namespace selvage::verify {
 namespace {
@@ -130,14 +128,11 @@ class SequenceCheck {
     report_.vertices = topology.vertex_count;
     report_.faces = source_->face_count();
     report_.unreferenced_vertices = topology.unreferenced_vertices;
-    report_.body_faces = static_cast<std::int64_t>(topology.faces.body.size() + source_->collapsed_bodies().size());
+    report_.body_faces = static_cast<std::int64_t>(topology.faces.body.size());
     for (std::size_t k = 0; k < report_.ignored.size(); ++k) {
       report_.ignored[k].faces = source_->rules().ignored_faces[k];
     }
-    if (report_.welded) {
-      report_.welded->collapsed_faces =
-          static_cast<std::int64_t>(source_->collapsed_cloth().size() + source_->collapsed_bodies().size());
-    }
+    if (report_.welded) report_.welded->collapsed_faces = source_->collapsed_faces();
     for (const Point& p : frame.points) {
       for (const double x : p) report_.largest_coordinate = std::max(report_.largest_coordinate, std::abs(x));
     }
@@ -145,13 +140,11 @@ class SequenceCheck {
   }
 
   /// Why a check would look at nothing, or null. A face that is neither ignored nor a body's is owed a check of its
-  /// area whatever may touch, and so is one that welding took out of the topology.
+  /// area whatever may touch.
   const char* nothing_to_examine() const {
     const Parts& faces = source_->topology().faces;
-    const bool has_cloth = !faces.cloth.empty() || !source_->collapsed_cloth().empty();
-    const bool has_bodies = !faces.body.empty() || !source_->collapsed_bodies().empty();
-    if (!has_cloth && !has_bodies) return "all faces are ignored";
-    if (!has_cloth && !options_.check.check_bodies) {
+    if (faces.cloth.empty() && faces.body.empty()) return "all faces are ignored";
+    if (faces.cloth.empty() && !options_.check.check_bodies) {
       return "all faces belong to bodies, which are checked only when asked for";
     }
     return nullptr;
@@ -172,32 +165,11 @@ class SequenceCheck {
       return;
     }
     note_absence_of_pairs(frame.name + ": ");
-    CheckResult result = check_frame(source_->topology(), frame.points, options_.check);
-    add_collapsed(source_->collapsed_cloth(), frame, result);
-    if (options_.check.check_bodies) add_collapsed(source_->collapsed_bodies(), frame, result);
-    count(std::move(result), i, false);
+    count(check_frame(source_->topology(), frame.points, options_.check), i, false);
     if (!options_.gap) return;
     std::optional<Gap> gap = smallest_gap(source_->topology(), frame.points, options_.check);
     if (gap) gap->frame = static_cast<std::int64_t>(i);
     if (gap && (!report_.gap || is_smaller(*gap, *report_.gap))) report_.gap = gap;
-  }
-
-  /// Faces that welding took a corner from have no area in any frame.
-  void add_collapsed(const std::vector<std::int32_t>& faces, const Frame& frame, CheckResult& result) const {
-    for (const std::int32_t f : faces) {
-      const auto& [a, b, c] = source_->topology().triangles[static_cast<std::size_t>(f)];
-      const std::int32_t doubled = a == b || a == c ? a : b;
-      ++result.pairs.self;
-      ++result.violations_total.self;
-      result.violations.push_back(describe(source_->topology(), {EventKind::kSelf, {doubled, f}, "degenerate"}));
-      set_positions(result.violations.back(), frame.points, frame.points);
-    }
-    std::sort(result.violations.begin(), result.violations.end(), [](const Violation& x, const Violation& y) {
-      return std::tie(x.event, x.features) < std::tie(y.event, y.features);
-    });
-    if (result.violations.size() > options_.check.max_violations) {
-      result.violations.resize(options_.check.max_violations);
-    }
   }
 
   bool check_motion_to(std::size_t i, const Frame& frame) {

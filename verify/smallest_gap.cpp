@@ -97,7 +97,7 @@ Candidate least(const Topology& topology, std::span<const Point> V, double reach
 /// Some pair that is near, by estimates: among those whose boxes overlap, and where there are none, at growing
 /// distance.
 std::optional<Candidate> near_pair(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
-  const Box bounds = bounding_box(V);
+  const Box bounds = bounding_box(topology, V);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, 0.5 * bounds.max[k] - 0.5 * bounds.min[k]);
   const auto estimate = [](const Candidate& pair, double) -> std::optional<double> {
@@ -117,7 +117,6 @@ std::optional<Candidate> near_pair(const Topology& topology, std::span<const Poi
 std::optional<Gap> smallest_gap(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
   const FpGuard guard;
   require_positions(topology, V);
-  if (V.empty()) return std::nullopt;
   std::optional<Candidate> best = near_pair(topology, V, options);
   if (!best) return std::nullopt;
   best->distance = distance_upper(*best);

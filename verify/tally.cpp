@@ -31,6 +31,7 @@ void Tally::keep(const Hit& hit) {
 
 void Tally::add(const Tally& other) {
   pairs += other.pairs;
+  block_pairs += other.block_pairs;
   violations_ += other.violations_;
   for (const Hit& hit : other.hits_) keep(hit);
   for (const Hit& hit : other.disagreements_) {

@@ -41,6 +41,7 @@ class Tally {
   [[nodiscard]] static Tally part_of(const Tally& whole, std::size_t limit) { return Tally(limit, *whole.stop_); }
 
   PairCounts pairs;
+  std::int64_t block_pairs = 0;  ///< CheckResult::block_pairs
 
   void throw_if_stopped() const {
     if (*stop_ && (*stop_)()) throw Stopped();

@@ -27,12 +27,26 @@ Owner owner_of(const Surface& surface, std::size_t f) {
   return !surface.is_body.empty() && surface.is_body[f] != 0 ? Owner::kBody : Owner::kCloth;
 }
 
+std::int32_t representative(const Surface& surface, std::int32_t v) {
+  return surface.representatives.empty() ? v : surface.representatives[static_cast<std::size_t>(v)];
+}
+
+/// Otherwise a face would have neighbours by its edges and vertices that it does not have by its corners.
+bool names_representatives(const Surface& surface, const std::array<std::int32_t, 3>& face) {
+  return std::all_of(face.begin(), face.end(), [&](std::int32_t v) {
+    return std::find(face.begin(), face.end(), representative(surface, v)) != face.end();
+  });
+}
+
 void check_faces(const Surface& surface, std::size_t vertex_count) {
   if (!surface.is_body.empty() && surface.is_body.size() != surface.triangles.size()) {
     throw std::invalid_argument("Surface: is_body must be empty or have one entry a face");
   }
   if (!surface.is_ignored.empty() && surface.is_ignored.size() != surface.triangles.size()) {
     throw std::invalid_argument("Surface: is_ignored must be empty or have one entry a face");
+  }
+  if (!surface.representatives.empty() && surface.representatives.size() != vertex_count) {
+    throw std::invalid_argument("Surface: representatives must be empty or have one entry a vertex");
   }
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
     const auto& [a, b, c] = surface.triangles[f];
@@ -44,6 +58,9 @@ void check_faces(const Surface& surface, std::size_t vertex_count) {
     const bool repeats = a == b || b == c || c == a;
     if (repeats && owner_of(surface, f) != Owner::kNone)
       throw std::invalid_argument("Surface: a face repeats a corner");
+    if (!names_representatives(surface, surface.triangles[f])) {
+      throw std::invalid_argument("Surface: a face does not name the representatives of its corners");
+    }
   }
 }
 
@@ -54,7 +71,7 @@ struct OwnedEdge {
 };
 
 /// Labels for edges and vertices from those of the faces that hold them. REQUIRES sides sorted as the edges.
-void label_elements(Topology& topology, const std::vector<OwnedEdge>& sides) {
+void label_elements(const Surface& surface, const std::vector<OwnedEdge>& sides, Topology& topology) {
   ExemptionTable& exemptions = topology.exemptions;
   topology.face_labels = exemptions.face_labels();
   topology.vertex_labels.assign(static_cast<std::size_t>(topology.vertex_count), kNoLabel);
@@ -63,10 +80,14 @@ void label_elements(Topology& topology, const std::vector<OwnedEdge>& sides) {
   for (const OwnedEdge& side : sides) {
     if (topology.edges[edge] != std::array{side.smaller, side.larger}) ++edge;
     if (side.owner == Owner::kNone) continue;
-    const Label label = topology.face_labels[static_cast<std::size_t>(side.face)];
-    for (Label* held : {&topology.edge_labels[edge], &topology.vertex_labels[static_cast<std::size_t>(side.smaller)],
-                        &topology.vertex_labels[static_cast<std::size_t>(side.larger)]}) {
-      *held = exemptions.unite(*held, label);
+    Label& held = topology.edge_labels[edge];
+    held = exemptions.unite(held, topology.face_labels[static_cast<std::size_t>(side.face)]);
+  }
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {  // not by sides: a face that is a point has none
+    if (owner_of(surface, f) == Owner::kNone) continue;
+    for (const std::int32_t corner : surface.triangles[f]) {
+      Label& held = topology.vertex_labels[static_cast<std::size_t>(representative(surface, corner))];
+      held = exemptions.unite(held, topology.face_labels[f]);
     }
   }
   exemptions.close();
@@ -89,11 +110,13 @@ Topology make_topology(const Surface& surface, std::size_t vertex_count) {
     face_owners.push_back(owner);
     const auto& corners = surface.triangles[f];
     for (std::size_t i = 0; i < 3; ++i) {
-      Owner& vertex_owner = vertex_owners[static_cast<std::size_t>(corners[i])];
+      const std::int32_t corner = representative(surface, corners[i]),
+                         next = representative(surface, corners[(i + 1) % 3]);
+      Owner& vertex_owner = vertex_owners[static_cast<std::size_t>(corner)];
       vertex_owner = std::max(vertex_owner, owner);
-      is_held[static_cast<std::size_t>(corners[i])] = 1;
-      const auto [smaller, larger] = std::minmax(corners[i], corners[(i + 1) % 3]);
-      sides.push_back({larger, smaller, owner, static_cast<std::int32_t>(f)});
+      is_held[static_cast<std::size_t>(corner)] = 1;
+      const auto [smaller, larger] = std::minmax(corner, next);
+      if (smaller != larger) sides.push_back({larger, smaller, owner, static_cast<std::int32_t>(f)});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const OwnedEdge& x, const OwnedEdge& y) {
@@ -111,9 +134,12 @@ Topology make_topology(const Surface& surface, std::size_t vertex_count) {
   topology.faces = parts(face_owners);
   topology.edge_parts = parts(edge_owners);
   topology.vertices = parts(vertex_owners);
-  topology.unreferenced_vertices = std::count(is_held.begin(), is_held.end(), 0);
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    if (is_held[v] == 0 && representative(surface, vertex) == vertex) ++topology.unreferenced_vertices;
+  }
   topology.exemptions = ExemptionTable(surface.exemptions, surface.triangles.size());
-  if (!topology.exemptions.empty()) label_elements(topology, sides);
+  if (!topology.exemptions.empty()) label_elements(surface, sides, topology);
   return topology;
 }
 
@@ -140,6 +166,15 @@ bool owes_pairs(const Topology& topology, bool check_bodies) {
     }
   }
   return false;
+}
+
+Box bounding_box(const Topology& topology, std::span<const Point> V) {
+  std::vector<Point> held;
+  held.reserve(topology.vertices.cloth.size() + topology.vertices.body.size());
+  for (const std::vector<std::int32_t>* part : {&topology.vertices.cloth, &topology.vertices.body}) {
+    for (const std::int32_t v : *part) held.push_back(V[static_cast<std::size_t>(v)]);
+  }
+  return held.empty() ? Box{} : bounding_box(held);
 }
 
 void require_positions(const Topology& topology, std::span<const Point> V) {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "verify/exact_motion.h"
+#include "verify/box_block.h"
 #include "verify/exemptions.h"
 
 namespace selvage::verify {
@@ -18,6 +18,10 @@ struct Surface {
   std::span<const std::uint8_t> is_body = {};
   std::span<const std::uint8_t> is_ignored = {};
   std::span<const Exemption> exemptions = {};
+  /// Per vertex the one that it is the same as (Weld); empty: itself. Edges and vertices are those of the
+  /// representatives. A face of which two corners are the same has fewer, and they are all of it: it is the union of
+  /// them.
+  std::span<const std::int32_t> representatives = {};
 };
 
 /// Indices of elements, ascending, by whom they belong to. An edge or vertex of any cloth face belongs to cloth; what
@@ -36,12 +40,17 @@ struct Topology {
   std::vector<Label> face_labels, edge_labels, vertex_labels;  ///< empty where there are no exemptions
 };
 
-/// Throws std::invalid_argument where an index is out of range, a face that is not ignored repeats a corner, is_body or
-/// is_ignored have another length than the faces, or ExemptionTable does. O(#F log #F).
+/// Throws std::invalid_argument where an index is out of range, a face that is not ignored repeats a corner or does not
+/// name the representatives of its corners, is_body or is_ignored have another length than the faces, representatives
+/// another one than the vertices, or ExemptionTable does. O(#F log #F).
 [[nodiscard]] Topology make_topology(const Surface& surface, std::size_t vertex_count);
 
 /// Whether any two faces are owed a check: not ignored, not both of bodies unless asked for, and not exempt.
 [[nodiscard]] bool owes_pairs(const Topology& topology, bool check_bodies);
+
+/// The smallest box that holds all vertices of both parts; of none, the origin. Trees span it: a vertex far away that
+/// no face holds would leave everything else in one cell.
+[[nodiscard]] Box bounding_box(const Topology& topology, std::span<const Point> V);
 
 /// Throws std::invalid_argument unless there are `topology.vertex_count` points and all are finite: no verdict is
 /// given on others.

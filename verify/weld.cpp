@@ -59,10 +59,16 @@ WeldedFaces weld_faces(std::span<const std::array<std::int32_t, 3>> triangles,
   WeldedFaces welded;
   welded.triangles.reserve(triangles.size());
   for (std::size_t f = 0; f < triangles.size(); ++f) {
-    std::array<std::int32_t, 3> face{};
-    for (std::size_t i = 0; i < 3; ++i) face[i] = representatives[static_cast<std::size_t>(triangles[f][i])];
-    const auto& [a, b, c] = face;
-    if (a == b || b == c || c == a) welded.collapsed.push_back(static_cast<std::int32_t>(f));
+    std::array<std::int32_t, 3> face = triangles[f];
+    bool collapsed = false;
+    for (std::int32_t& corner : face) {
+      const std::int32_t name = representatives[static_cast<std::size_t>(corner)];
+      if (name == corner) continue;
+      const bool is_taken = std::find(face.begin(), face.end(), name) != face.end();
+      collapsed = collapsed || is_taken;
+      if (!is_taken) corner = name;
+    }
+    if (collapsed) welded.collapsed.push_back(static_cast<std::int32_t>(f));
     welded.triangles.push_back(face);
   }
   return welded;

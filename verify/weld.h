@@ -26,11 +26,14 @@ class Weld {
   std::vector<std::vector<std::int32_t>> together_;  // ascending, at least two each
 };
 
-/// Faces after welding, and those of which two corners became one: they have zero area in every frame.
+/// Faces after welding: a corner has the name of its representative, unless another corner of the face has it already.
+/// So a face of which two corners became one still has three names, for the same points. It has zero area in every
+/// frame, and is listed.
 struct WeldedFaces {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> collapsed;
 };
+/// REQUIRES faces that do not repeat a corner.
 [[nodiscard]] WeldedFaces weld_faces(std::span<const std::array<std::int32_t, 3>> triangles,
                                      std::span<const std::int32_t> representatives);
 

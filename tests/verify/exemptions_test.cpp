@@ -1,4 +1,5 @@
 // What the user lets touch: which pairs an exemption covers, against the definition spelled out over all faces.
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -119,6 +120,18 @@ TEST(Exemptions, CoverAPairOnlyIfTheyCoverAllFacesThatHoldIt) {
   EXPECT_GT(owed, 5000);
 }
 
+TEST(Exemptions, AVertexThatAFaceWithoutEdgesHoldsIsOwedWhatThatFaceIs) {
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}, {3, 4, 5}, {0, 6, 7}};
+  const std::vector<std::int32_t> representatives = {0, 1, 2, 3, 4, 5, 0, 0};
+  const std::vector<Exemption> exemptions = {{{{0, 1}}, {{1, 2}}}};  // not of the face that is the point 0
+  const Topology topology = make_topology({triangles, {}, {}, exemptions, representatives}, 8);
+  const auto rule = [&](std::size_t v) {
+    return topology.exemptions.exemption(topology.vertex_labels[v], topology.face_labels[1]);
+  };
+  EXPECT_EQ(rule(0), -1);
+  EXPECT_EQ(rule(1), 0);
+}
+
 TEST(Exemptions, WhatOnlyIgnoredFacesHoldIsNoPartOfTheCheck) {
   const std::vector<std::array<std::int32_t, 3>> triangles = {{4, 2, 3}, {0, 3, 2}};
   const std::vector<std::uint8_t> is_ignored = {1, 0};
@@ -153,6 +166,22 @@ TEST(GroupRules, ThatCannotBeMeantAreErrorsThatNameTheGroups) {
   }
   const ResolvedRules twice = resolve({{{"shirt", io::Group::Role::kCloth, 4, 8}}, {}, {"shirt"}}, groups, 8);
   EXPECT_EQ(twice.ignored_faces, (std::vector<std::int64_t>{8})) << "equal names are one group, and a face counts once";
+}
+
+TEST(Weld, AFaceThatCollapsesKeepsThreeNamesForTheSamePoints) {
+  const std::vector<std::int32_t> representatives = {0, 1, 2, 0, 0, 0, 1};
+  const std::vector<std::array<std::int32_t, 3>> faces = {{3, 6, 2}, {3, 0, 2}, {3, 2, 4}, {3, 4, 5}, {5, 4, 0}};
+  const WeldedFaces welded = weld_faces(faces, representatives);
+  EXPECT_EQ(welded.triangles[0], (std::array<std::int32_t, 3>{0, 1, 2}));
+  EXPECT_EQ(welded.collapsed, (std::vector<std::int32_t>{1, 2, 3, 4}));
+  for (const std::int32_t f : welded.collapsed) {
+    const auto &face = welded.triangles[std::size_t(f)], &original = faces[std::size_t(f)];
+    EXPECT_EQ(std::set<std::int32_t>(face.begin(), face.end()).size(), 3U) << f;
+    EXPECT_EQ(std::count(face.begin(), face.end(), 0), 1) << f << ": by it the face is known to its neighbours";
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(representatives[std::size_t(face[i])], representatives[std::size_t(original[i])]) << f;
+    }
+  }
 }
 
 TEST(Weld, JoinsWhatNeverParts) {

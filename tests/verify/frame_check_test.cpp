@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -39,6 +40,23 @@ TEST(FrameCheck, CleanSheetIsCleanAndCounted) {
   EXPECT_EQ(result.violations_total.total(), 0);
   EXPECT_EQ(result.pairs.self, 800);
   EXPECT_GE(result.pairs.overlap, 3 * 800 / 2 - 40);  // at least the neighbours across edges
+}
+
+// One vertex far away, as exporters write them for "none": all faces fell into one cell, and each met each.
+TEST(FrameCheck, AVertexThatNoFaceHoldsIsNoWork) {
+  const io::MeshData mesh = sheet(20);
+  CheckOptions options;
+  for (const std::optional<double> min_distance : {std::optional<double>(), std::optional(0x1p-6)}) {
+    options.min_distance = min_distance;
+    const CheckResult alone = check(mesh, options);
+    for (const double far : {1e12, 1e30, -1e308}) {
+      io::MeshData with_far = mesh;
+      add_vertex(with_far, {far, far, far});
+      const CheckResult result = check(with_far, options);
+      EXPECT_EQ(result.block_pairs, alone.block_pairs) << far;
+      EXPECT_EQ(texts(result), texts(alone));
+    }
+  }
 }
 
 TEST(FrameCheck, EveryPlantedViolationIsFoundAndNamed) {

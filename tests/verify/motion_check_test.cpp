@@ -13,6 +13,7 @@
 namespace selvage::verify {
 namespace {
 
+using selvage::testing::add_vertex;
 using selvage::testing::sheet;
 using selvage::testing::surface;
 
@@ -71,6 +72,20 @@ Names brute_force(const io::MeshData& mesh, const io::Points& V_t1) {
 }
 
 }  // namespace
+
+TEST(MotionCheck, AVertexThatNoFaceHoldsIsNoWork) {
+  const auto work = [](io::MeshData mesh, const std::vector<Point>& others) {
+    for (const Point& p : others) add_vertex(mesh, p);
+    std::vector<Point> last = mesh.points;
+    for (Point& p : last) p[0] += 0x1p-6;
+    const CheckResult result = check_motion(surface(mesh), mesh.points, last, {});
+    EXPECT_EQ(result.violations_total.total(), 0);
+    return result.block_pairs;
+  };
+  const io::MeshData mesh = sheet(20);
+  const std::int64_t alone = work(mesh, {});
+  for (const double far : {1e12, 1e30, -1e308}) EXPECT_EQ(work(mesh, {{far, far, far}}), alone) << far;
+}
 
 TEST(MotionCheck, IsEveryPairOfARandomMotion) {
   std::mt19937 random(31);

@@ -228,7 +228,9 @@ TEST(SequenceCheck, FacesThatAllCollapseAreViolated) {
   options.weld = true;
   const SequenceReport report = check({mesh, mesh}, options);
   EXPECT_EQ(report.verdict, Verdict::kViolated);
-  EXPECT_EQ(report.violations_total.self, 2);
+  EXPECT_EQ(report.frames.violated, 2);
+  EXPECT_EQ(report.motions.violated, 1);
+  EXPECT_EQ(report.violations_total.total(), report.violations_total.self);
 }
 
 TEST(SequenceCheck, TheGapIsOfANearestPairOfAllFrames) {

@@ -32,6 +32,21 @@ TEST(Topology, RefusesWhatIsNoSurface) {
   EXPECT_THROW(static_cast<void>(make_topology({repeated, {}}, 3)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(make_topology({beyond, {}}, 3)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(make_topology({good, two_flags}, 3)), std::invalid_argument);
+  const std::vector<std::int32_t> foreign = {0, 1, 2, 2}, too_few = {0, 1, 2};
+  const std::vector<std::array<std::int32_t, 3>> unnamed = {{0, 1, 3}};
+  EXPECT_THROW(static_cast<void>(make_topology({unnamed, {}, {}, {}, foreign}, 4)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(make_topology({good, {}, {}, {}, too_few}, 4)), std::invalid_argument);
+}
+
+TEST(Topology, EdgesAndVerticesOfWeldedFacesAreThoseOfTheRepresentatives) {
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}, {2, 3, 4}, {5, 6, 7}};
+  const std::vector<std::int32_t> representatives = {0, 1, 2, 2, 4, 5, 5, 5, 8};
+  const Topology topology = make_topology({triangles, {}, {}, {}, representatives}, 9);
+  const std::vector<std::array<std::int32_t, 2>> expected = {{0, 1}, {0, 2}, {1, 2}, {2, 4}};
+  EXPECT_EQ(topology.edges, expected);
+  EXPECT_EQ(topology.vertices.cloth, (std::vector<std::int32_t>{0, 1, 2, 4, 5}));
+  EXPECT_EQ(topology.faces.cloth, (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(topology.unreferenced_vertices, 1) << "8; 3, 6 and 7 are others";
 }
 
 }  // namespace selvage::verify
