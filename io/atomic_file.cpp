@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstdint>
 #include <cstdio>
 #include <random>
@@ -9,7 +10,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/fail.h"
@@ -23,8 +23,9 @@ constexpr std::string_view kTemporaryMark = ".tmp-";
 /// Random and O_EXCL: process ids repeat between machines that share a file system.
 PosixFile create_temporary(const fs::path& target) {
   std::random_device random;
-  fs::path temporary = target;
-  temporary += std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
+  const std::string mark = std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
+  const std::string name = target.filename().string().substr(0, NAME_MAX - mark.size());
+  fs::path temporary = target.parent_path() / (name + mark);
   return {std::move(temporary), target, O_WRONLY | O_CREAT | O_EXCL};
 }
 
@@ -80,15 +81,10 @@ bool is_temporary_name(std::string_view name) {
 }
 
 std::string read_file(const fs::path& file, std::size_t byte_limit) {
-  const PosixFile in(file, O_RDONLY);
-  struct stat status = {};
-  if (::fstat(in.descriptor(), &status) != 0) file_error(file.string(), "inspect", errno);
-  if (S_ISDIR(status.st_mode)) file_error(file.string(), "read", EISDIR);
-  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) file_error(file.string(), "read a device", EINVAL);
-
-  // The size is a hint: a pipe has none, and a file may grow while it is read.
+  const PosixFile in = open_to_read(file);
+  // The size is a hint: a file may grow while it is read.
   constexpr std::size_t kChunk = std::size_t{1} << 16;
-  const auto hint = static_cast<std::size_t>(status.st_size);
+  const auto hint = static_cast<std::size_t>(in.size());
   std::string bytes;
   for (std::size_t chunk = hint + 1; bytes.size() <= byte_limit && hint <= byte_limit;
        chunk = kChunk + bytes.size() / 2) {

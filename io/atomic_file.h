@@ -16,7 +16,7 @@ namespace selvage::io {
 /// where the system fails.
 class AtomicFile {
  public:
-  /// Opens a temporary file "NAME.tmp-..." beside `target`; a kill leaves at most that.
+  /// Opens a temporary file "NAME.tmp-..." beside `target`, of a long NAME what fits; a kill leaves at most that.
   explicit AtomicFile(std::filesystem::path target);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -47,8 +47,7 @@ void write_atomically(const std::filesystem::path& file, std::string_view bytes)
 /// Whether `name` is what a killed write_atomically("NAME") leaves behind.
 [[nodiscard]] bool is_temporary_name(std::string_view name);
 
-/// The whole file (or pipe). Throws Error(kFile); Error(kBadInput) above `byte_limit`. Devices are refused: they may
-/// have no end.
+/// The whole file, opened by open_to_read(). Throws Error(kFile); Error(kBadInput) above `byte_limit`.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file, std::size_t byte_limit = std::size_t{1} << 36);
 
 }  // namespace selvage::io

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <utility>
 
-#include <fcntl.h>
-
 #include "io/posix_file.h"
 
 namespace selvage::io {
@@ -13,7 +11,7 @@ namespace {
 
 class FileSource final : public ByteSource {
  public:
-  explicit FileSource(const std::filesystem::path& file) : file_(file, O_RDONLY), size_(file_.size()) {}
+  explicit FileSource(const std::filesystem::path& file) : file_(open_to_read(file)), size_(file_.size()) {}
   using ByteSource::read;
   std::uint64_t size() const override { return size_; }
   void read(std::uint64_t offset, char* bytes, std::size_t count) const override {

@@ -21,22 +21,33 @@ void append_number(std::string& text, Number value) {
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-/// A group's name is the rest of its line: what a reader strips or takes for the end of the line would not come back.
+/// A group's name is the rest of its line: what a reader strips or takes for the end of the line would not come back,
+/// and behind a backslash many go on with the next line.
 void require_readable(const std::string& group, const std::string& name) {
   const bool is_plain = std::none_of(group.begin(), group.end(), [](char c) { return (c & 0x7f) == c && c < ' '; });
-  if (is_plain && trimmed(group) == group && is_utf8(group)) return;
+  if (is_plain && trimmed(group) == group && !group.ends_with('\\') && is_utf8(group)) return;
   bad_input(name, "the name of the group " + in_quotes(group) + " does not fit into a line of OBJ; rename it");
 }
 
-/// The groups in the order of their faces, and "default" for faces between them that are in none: OBJ cannot end a
-/// group but by starting another.
+/// "default", or "default_2", ... where groups have the names before it.
+std::string free_name(const std::vector<Group>& groups) {
+  std::string name = "default";
+  for (int number = 2; std::ranges::find(groups, name, &Group::name) != groups.end(); ++number) {
+    name = "default_" + std::to_string(number);
+  }
+  return name;
+}
+
+/// The groups in the order of their faces, and one of a name of its own for faces between them that are in none: OBJ
+/// cannot end a group but by starting another.
 std::vector<Group> cover(std::vector<Group> groups, std::size_t face_count, const std::string& name) {
   std::erase_if(groups, [](const Group& group) { return group.face_begin == group.face_end; });
   std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.face_begin < b.face_begin; });
+  const std::string none = free_name(groups);
   std::vector<Group> covering;
   std::int32_t covered = 0;
   const auto fill_to = [&](std::int32_t face) {
-    if (covered < face) covering.push_back({.name = "default", .face_begin = covered, .face_end = face});
+    if (covered < face) covering.push_back({.name = none, .face_begin = covered, .face_end = face});
   };
   for (Group& group : groups) {
     if (group.face_begin < covered) bad_input(name, "two groups share a face, which OBJ cannot say; separate them");

@@ -41,6 +41,7 @@ void read_vertices(Records& records, const PlyElement& element, const std::array
       const auto axis = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), p) - axes.begin());
       if (axis < 3) {
         point[axis] = records.real(element.properties[p].type);
+        if (records.may_be_cut()) records.fail(kMayBeCut);
       } else {
         skip_property(records, element.properties[p]);
       }
@@ -100,6 +101,12 @@ void reserve_triangles(const Records& records, std::size_t triangle_count, std::
   mesh.triangles.reserve(triangle_count);
 }
 
+/// Whether more digits could make another vertex of the last corner. trimesh writes no last line break, so that a file
+/// without one is read where it can only be whole.
+bool begins_another(const std::vector<std::int32_t>& corners, std::uint64_t vertex_count) {
+  return !corners.empty() && corners.back() > 0 && 10 * static_cast<std::uint64_t>(corners.back()) < vertex_count;
+}
+
 template <typename Records>
 void read_faces(Records& records, const PlyElement& element, const PlyLayout& layout, std::size_t file_size,
                 MeshData& mesh) {
@@ -125,6 +132,7 @@ void read_faces(Records& records, const PlyElement& element, const PlyLayout& la
         }
         corners.push_back(static_cast<std::int32_t>(index));
       }
+      if (records.may_be_cut() && begins_another(corners, vertex_count)) records.fail(kMayBeCut);
       const std::string fault = append_fan(corners, mesh);
       if (!fault.empty()) records.fail(fault);
     }

@@ -26,6 +26,8 @@ class AsciiRecords {
   double real(PlyType type);
   std::int64_t integer(PlyType type);
   void skip(PlyType type, std::int64_t count);
+  /// Whether the text ends with the last value's last digit: there may have been more digits.
+  [[nodiscard]] bool may_be_cut() const { return record_.data() == lines_.rest().data(); }
   /// Most items that a list of this record can still have.
   [[nodiscard]] std::size_t most_items(PlyType) const { return record_.size(); }
 
@@ -51,6 +53,7 @@ class BinaryRecords {
   double real(PlyType type);
   std::int64_t integer(PlyType type);
   void skip(PlyType type, std::int64_t count);
+  [[nodiscard]] bool may_be_cut() const { return false; }
   [[nodiscard]] std::size_t most_items(PlyType type) const { return (bytes_.size() - offset_) / size_of(type); }
 
   [[noreturn]] void fail(std::string_view what) const;

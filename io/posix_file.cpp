@@ -90,6 +90,18 @@ void PosixFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) file_error(name_.string(), "close", errno);
 }
 
+PosixFile open_to_read(const std::filesystem::path& file) {
+  PosixFile in(file, O_RDONLY | O_NONBLOCK);
+  struct stat status = {};
+  if (::fstat(in.descriptor(), &status) != 0) file_error(file.string(), "inspect", errno);
+  if (S_ISDIR(status.st_mode)) file_error(file.string(), "read", EISDIR);
+  if (!S_ISREG(status.st_mode)) {
+    throw Error(ErrorKind::kFile,
+                file.string() + ": a pipe or a device, not a file; write it to a file first, and name that");
+  }
+  return in;
+}
+
 void sync_folder(const std::filesystem::path& folder) {
   const PosixFile handle(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
   // Some network file systems cannot sync a folder and say EINVAL; their renames are as durable as they get.

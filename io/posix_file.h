@@ -23,7 +23,7 @@ class PosixFile {
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Bytes in it now; 0 for a pipe.
+  /// Bytes in it now.
   [[nodiscard]] std::uint64_t size() const;
   /// Up to `count` bytes from the current position; less only at the end of the file.
   [[nodiscard]] std::size_t read_some(char* bytes, std::size_t count) const;
@@ -41,6 +41,10 @@ class PosixFile {
   std::filesystem::path path_, name_;
   int descriptor_ = -1;
 };
+
+/// The one way in which files are opened for reading. Throws Error(kFile) for what is no regular file, without waiting
+/// for the other end of a pipe: a pipe can be read only once, and a device may have no end.
+[[nodiscard]] PosixFile open_to_read(const std::filesystem::path& file);
 
 /// Makes the names in `folder` durable: a rename is on disk only after this.
 void sync_folder(const std::filesystem::path& folder);

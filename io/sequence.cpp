@@ -1,6 +1,5 @@
 #include "io/sequence.h"
 
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -10,24 +9,10 @@
 #include "io/sequence_readers.h"
 
 namespace selvage::io {
-namespace {
-
-/// Frames are read when they are asked for, and mesh files once before.
-void require_lasting(const std::filesystem::path& source) {
-  std::error_code status;
-  const std::filesystem::file_type type = std::filesystem::status(source, status).type();
-  const bool is_lasting = type == std::filesystem::file_type::regular || type == std::filesystem::file_type::directory;
-  if (is_lasting || !std::filesystem::exists(source, status)) return;
-  bad_input(source.string(), "a pipe or a device can be read only once; write it to a file first, and name that");
-}
-
-}  // namespace
 
 std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources,
                                               const std::filesystem::path& base) {
   if (sources.empty()) bad_input("sequence", "no file is named; name a folder, an .npz, a point cache or mesh files");
-  std::ranges::for_each(sources, require_lasting);
-  if (!base.empty()) require_lasting(base);
   std::error_code status;
   const std::filesystem::path& first = sources.front();
   const bool is_folder = std::filesystem::is_directory(first, status);

@@ -42,6 +42,10 @@ class LineReader {
   std::size_t next_line_;
 };
 
+/// What is said of a last number behind which the text ends without a line end.
+inline constexpr std::string_view kMayBeCut =
+    "the last line has no end and its number may be cut; restore the file, or add the line break if it is whole";
+
 /// Cuts the next token (separated by blanks and tabs) off `text`; empty at the end.
 std::string_view next_token(std::string_view& text);
 /// `text` without blanks and tabs at both ends.

@@ -314,16 +314,38 @@ TEST(SequenceArgument, PolygonsThatAreSplitAreCounted) {
 
 TEST(SequenceArgument, WhatCanBeReadOnceOnlyIsRefused) {
   const TemporaryFolder folder;
-  const auto pipe = folder.path() / "a.obj", cache = folder.path() / "a.pc2";
+  const auto pipe = folder.path() / "a.obj", cache = folder.path() / "a.pc2", mesh = folder.path() / "b.obj";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   spit(cache, "POINTCACHE2");
+  spit(mesh, kTwoFaces);
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", pipe},
                                                     {"verify", cache, "--base", pipe},
                                                     {"render", pipe, "-o", folder.path() / "a.png"},
-                                                    {"subdivide", pipe, "-o", folder.path() / "fine"}}) {
+                                                    {"subdivide", pipe, "-o", folder.path() / "fine"},
+                                                    {"replay", pipe},
+                                                    {"merge", pipe, "-o", folder.path() / "merged.json"},
+                                                    {"bench", "queries", "--kind", "vf", pipe},
+                                                    {"bench", "ccd", mesh, pipe},
+                                                    {"sim", pipe, "-o", folder.path() / "run"},
+                                                    {"verify", "/dev/zero"}}) {
     const auto result = run_program(folder, arguments);
-    EXPECT_EQ(result.exit_code, 3) << arguments[0];
+    EXPECT_EQ(result.exit_code, 4) << arguments[0];
     EXPECT_NE(result.err.find("write it to a file first"), std::string::npos) << result.err;
+  }
+}
+
+TEST(SequenceArgument, AFolderWithAPipeInItIsRefused) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh, kTwoFaces);
+  for (const char* name : {"sequence.json", "faces.npy", "frames.jsonl", "frame_000001.npy"}) {
+    const auto run = folder.path() / (std::string("run_") + name), file = run / name;
+    ASSERT_EQ(run_program(folder, {"convert", mesh, mesh, "-o", run.string() + "/"}).exit_code, 0);
+    std::filesystem::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    const auto result = run_program(folder, {"verify", run});
+    EXPECT_EQ(result.exit_code, 4) << name;
+    EXPECT_NE(result.err.find(file.string() + ": a pipe"), std::string::npos) << result.err;
   }
 }
 

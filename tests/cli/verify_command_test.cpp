@@ -1,5 +1,6 @@
 #include <csignal>
 #include <fstream>
+#include <limits>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -300,18 +301,24 @@ TEST(VerifyCommand, InterruptEndsWithUnknownAnd75) {
 
 TEST(VerifyCommand, AnInterruptThatLeavesWorkIs75WhateverWasFound) {
   const TemporaryFolder folder;
-  const auto a = folder.path() / "a.obj", run = folder.path() / "run", second = run / "frame_000001.npy",
-             report = folder.path() / "report.json", merged = folder.path() / "merged.json";
-  spit(a, two_faces(0));
-  ASSERT_EQ(run_program(folder, {"convert", a, a, a, "-o", run}).exit_code, 0);
-  const std::string bytes = testing::slurp(second);
-  std::filesystem::remove(second);
-  ASSERT_EQ(mkfifo(second.c_str(), 0600), 0);
-  const pid_t child = testing::start_program(folder.path(), {"verify", "--motion", "--json", report, run});
-  std::ofstream pipe(second);
-  kill(child, SIGTERM);  // The first frame has been checked, and the second is waited for.
-  pipe << bytes;
-  pipe.close();
+  const auto bad = folder.path() / "bad.obj", good = folder.path() / "good.obj", run = folder.path() / "run",
+             report = folder.path() / "report.json", merged = folder.path() / "merged.json",
+             progress = folder.path() / "report.json.progress";
+  spit(bad, two_faces(0));
+  spit(good, two_faces(1));
+  ASSERT_EQ(run_program(folder, {"convert", bad, good, "-o", run}).exit_code, 0);
+  std::string frames = R"({"file":"frame_000000.npy"})"
+                       "\n";
+  for (int i = 0; i < 200'000; ++i)
+    frames += R"({"file":"frame_000001.npy"})"
+              "\n";  // more work than for a second
+  spit(run / "frames.jsonl", frames);
+  ASSERT_EQ(mkfifo(progress.c_str(), 0600), 0);
+  const pid_t child = testing::start_program(folder.path(), {"verify", "--json", report, run});
+  std::ifstream pipe(progress);  // open when the command writes what it has done in the first second
+  kill(child, SIGTERM);
+  std::filesystem::remove(progress);  // what is written later is a file
+  pipe.ignore(std::numeric_limits<std::streamsize>::max());
   const auto result = testing::wait_for_program(folder.path(), child);
   EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
   EXPECT_TRUE(result.out.starts_with("violated\n")) << result.out;

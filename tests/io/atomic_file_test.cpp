@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include "io/byte_source.h"
 #include "tests/io/support.h"
 
 namespace selvage::io {
@@ -95,14 +97,36 @@ TEST(AtomicFile, ReadRefusesWhatHasNoEnd) {
   expect_error(ErrorKind::kFile, "No such file", [&] { (void)read_file(folder / "b"); });
 }
 
-TEST(AtomicFile, ReadTakesAPipe) {
+TEST(AtomicFile, APipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  ::alarm(20);  // a reader that waits for the other end is ended here
+  expect_error(ErrorKind::kFile, "pipe: a pipe or a device, not a file; write it to a file first, and name that",
+               [&] { (void)read_file(pipe); });
+  expect_error(ErrorKind::kFile, "write it to a file first", [&] { (void)open_file(pipe); });
+  expect_error(ErrorKind::kFile, "write it to a file first", [] { (void)open_file("/dev/zero"); });
+  expect_error(ErrorKind::kFile, "directory", [&] { (void)open_file(folder.path()); });
+  ::alarm(0);
+}
+
+TEST(AtomicFile, APipeIsWrittenInPlace) {
   const TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::string bytes(200'000, 'p');
   std::thread writer([&] { write_atomically(pipe, bytes); });
-  EXPECT_EQ(read_file(pipe), bytes);
+  EXPECT_EQ(read_plainly(pipe), bytes);
   writer.join();
+}
+
+TEST(AtomicFile, TheLongestNameCanBeWritten) {
+  const TemporaryFolder folder;
+  const std::string longest(255, 'n'), other = std::string(254, 'n') + "o";
+  write_atomically(folder / longest, "1");
+  write_atomically(folder / other, "2");
+  EXPECT_EQ(read_file(folder / longest) + read_file(folder / other), "12");
+  EXPECT_EQ(entries(folder), 2u) << "a temporary file is left";
 }
 
 TEST(AtomicFile, TemporaryNamesAreKnown) {

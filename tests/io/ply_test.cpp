@@ -190,6 +190,34 @@ TEST(Ply, PolygonsThatBecomeTenTimesTheFileAreRefusedWhereTheyAreMany) {
   expect_bad("the polygons become more than ten times the file; export triangles", polygons(400));
 }
 
+TEST(Ply, ALastNumberThatMayBeCutIsRefused) {
+  const auto cut = [](const std::string& last_line) {
+    std::string points;
+    for (int i = 0; i < 13; ++i) points += std::to_string(i) + " 0 " + std::to_string(i * i) + "\n";
+    return ply("ascii",
+               "element vertex 13\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\n",
+               points + last_line);
+  };
+  expect_bad("a.ply:24: the last line has no end and its number may be cut", cut("3 3 4 1"));
+  EXPECT_EQ(parse_ply(cut("3 3 4 1\n"), "a.ply").triangles, (Triangles{{3, 4, 1}}));
+  for (const char* end : {" ", "\r"})
+    EXPECT_EQ(parse_ply(cut(std::string("3 3 4 1") + end), "a.ply").triangles[0][2], 1);
+  // No more digits can follow: there is no such vertex.
+  for (const int whole : {2, 9, 12, 0}) {
+    EXPECT_EQ(parse_ply(cut("3 3 4 " + std::to_string(whole)), "a.ply").triangles[0][2], whole);
+  }
+  const std::string faces_first =
+      "element face 1\nproperty list uchar int vertex_indices\n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  expect_bad("its number may be cut", ply("ascii", faces_first, "3 0 1 2\n0 0 0\n1 0 0\n0 1 0.1"));
+  EXPECT_EQ(parse_ply(ply("ascii", kTriangleElements + "property float quality\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.1"),
+                      "a.ply")
+                .triangles.size(),
+            1u)
+      << "what is skipped may be cut";
+}
+
 TEST(Ply, MalformedHeadersAreNamedByLine) {
   const auto with = [](const std::string& elements) { return ply("ascii", elements, kTriangleData); };
   expect_bad("a.ply:4: 'strange' does not belong here", with("strange\n"));

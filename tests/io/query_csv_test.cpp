@@ -142,5 +142,25 @@ TEST(QueryCsv, ColumnsAndRowsAreCounted) {
   expect_bad("a.csv:9: a row has three rationals", rows(8, six) + "\n");
 }
 
+TEST(QueryCsv, ALastDenominatorThatMayBeCutIsRefused) {
+  const auto query = [](const std::string& last) {
+    std::string text;
+    for (int i = 0; i < 7; ++i) text += "1,1,2,1,3,1\n";
+    return text + "1,1,2,1,3," + last;
+  };
+  for (const char* cut : {"1", "4", "32"}) {
+    expect_error(ErrorKind::kBadInput, "a.csv:8: the last line has no end and its number may be cut",
+                 [&] { (void)parse_query_csv(query(cut), "a.csv"); });
+    for (const char* end : {"\n", "\r\n", "\r", " "}) {
+      EXPECT_EQ(parse_query_csv(query(cut) + end, "a.csv")[0].points[7][2], 3 / std::stod(cut));
+    }
+  }
+  // These digits begin no other power of two. A truth is one digit.
+  EXPECT_EQ(parse_query_csv(query("18014398509481984"), "a.csv")[0].points[7][2], std::ldexp(3, -54));
+  std::string seven;
+  for (int i = 0; i < 8; ++i) seven += std::string(i == 0 ? "" : "\n") + "1,1,2,1,3,1,0";
+  EXPECT_EQ(parse_query_csv(seven, "a.csv")[0].truth, false);
+}
+
 }  // namespace
 }  // namespace selvage::io

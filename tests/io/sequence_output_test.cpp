@@ -252,9 +252,23 @@ TEST(ObjBytes, FacesBetweenGroupsAreDefault) {
   EXPECT_EQ(read, expected);
 }
 
+TEST(ObjBytes, FacesOfNoGroupDoNotJoinAGroupNamedDefault) {
+  MeshData mesh = mesh_of(kTwoFrames[0]);
+  mesh.groups = {{"default", Group::Role::kCloth, 2, 3}, {"default_2", Group::Role::kCloth, 3, 3}};
+  std::vector<Group> expected = {{"default_2", Group::Role::kCloth, 0, 2},
+                                 {"default", Group::Role::kCloth, 2, 3},
+                                 {"default_2", Group::Role::kCloth, 3, 4}};
+  EXPECT_EQ(parse_obj(obj_bytes(mesh, "a"), "a").groups, expected) << "a group without faces takes no name";
+  mesh.groups[1].face_end = 4;
+  expected = {{"default_3", Group::Role::kCloth, 0, 2},
+              {"default", Group::Role::kCloth, 2, 3},
+              {"default_2", Group::Role::kCloth, 3, 4}};
+  EXPECT_EQ(parse_obj(obj_bytes(mesh, "a"), "a").groups, expected);
+}
+
 TEST(ObjBytes, WhatObjCannotSayIsRefused) {
   MeshData mesh = mesh_of(kTwoFrames[0]);
-  for (const char* name : {"two\nlines", "carriage\r", " blank", "\xff"}) {
+  for (const char* name : {"two\nlines", "carriage\r", " blank", "\xff", "continued\\"}) {
     mesh.groups = {{name, Group::Role::kCloth, 0, 4}};
     expect_error(ErrorKind::kBadInput, "does not fit into a line of OBJ", [&] { (void)obj_bytes(mesh, "a"); });
   }
