@@ -115,10 +115,12 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::Scene scene = sim::read_scene(arguments.scene, arguments.quality);
   if (arguments.frames) scene.time.frame_count = *arguments.frames;
   sim::Simulation simulation(scene);
-  const sim::StartRepair repair = require_clean_start(simulation, arguments.repair);
+  // A run that goes on begins with the state of its checkpoint, which certified steps led to; or that is refused.
+  const bool goes_on = arguments.resume && std::filesystem::exists(arguments.output / sim::kCheckpointFile);
+  const sim::StartRepair repair = goes_on ? sim::StartRepair{} : require_clean_start(simulation, arguments.repair);
   fmt::print(stderr, "{}", sim::describe(simulation.scene(), simulation.world()));
-  sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION);
-  recorder.note_repair(repair);
+  sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
+                         repair);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
   const ExitCode code = run(simulation, recorder);
   print_totals(recorder.totals());

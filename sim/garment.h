@@ -2,6 +2,7 @@
 // sleeves. A skirt is a short one, a robe a long one with wide sleeves.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -26,7 +27,8 @@ struct GarmentSpec {
   };
   std::vector<Ring> rings;  ///< at least two, from the top down; straight lines between them
   std::optional<Sleeves> sleeves;
-  double cell_m = 0;  ///< side of a cell, on average
+  std::size_t sleeves_line = 0;  ///< in the scene file; whether they fit shows only when they are cut
+  double cell_m = 0;             ///< side of a cell, on average
 };
 
 /// What cannot be cut: an opening that is not inside the tube, or is smaller than the cells.

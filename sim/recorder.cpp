@@ -67,7 +67,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
 }  // namespace
 
 Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
-                   std::string producer)
+                   std::string producer, const StartRepair& repair)
     : folder_(require_own(std::move(folder))),
       producer_(std::move(producer)),
       simulation_(simulation),
@@ -83,6 +83,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
     }
     writer_.truncate(0);  // killed between the first frame and the first checkpoint
     remove_leftovers(folder_);
+    totals_.repair = repair;
     append();
     save_checkpoint();
     return;

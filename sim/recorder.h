@@ -23,12 +23,11 @@ class Recorder {
   /// Throws io::Error if the folder holds a sequence already and `resume` is not set. With `resume` the simulation is
   /// put back to the folder's checkpoint and the sequence is cut to it; a folder without one starts from the beginning.
   /// What is refused leaves the folder as it was; else run.json is gone until finish() writes it.
-  /// `producer` is the program and its version, for the files.
+  /// `producer` is the program and its version, for the files. `repair` is what was done to the start, for run.json; a
+  /// run that is resumed knows what was done to its own.
   Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
-           std::string producer);
+           std::string producer, const StartRepair& repair = {});
 
-  /// For run.json; before the first step, and after a resumption again.
-  void note_repair(const StartRepair& repair) { totals_.repair = repair; }
   /// After every safe step. Writes the checkpoint at frames.
   void record(const StepResult& step);
   /// Writes the checkpoint where the run is now, and run.json.

@@ -44,7 +44,8 @@ struct CapsuleSpec {
 };
 struct MeshSpec {
   std::filesystem::path file;
-  double scale = 1;  ///< m per unit of the file
+  double scale = 1;      ///< m per unit of the file
+  std::size_t line = 0;  ///< in the scene file; what the mesh file holds shows only in the world
 };
 using Surface = std::variant<SheetSpec, SphereSpec, EllipsoidSpec, CapsuleSpec, BoxSpec, GarmentSpec, MeshSpec>;
 
@@ -57,6 +58,7 @@ struct ScriptSpec {
 /// Vertices of a cloth that a script holds instead of the dynamics.
 struct PinSpec {
   std::vector<VertexId> vertices;  ///< of the cloth, sorted, unique
+  std::size_t vertices_line = 0;   ///< in the file; whether a mesh has them shows only in the world
   ScriptSpec script;               ///< relative to where the vertices start, turning about their mean
   double release_s = std::numeric_limits<double>::infinity();
 };
@@ -67,10 +69,13 @@ struct ClothSpec {
   Pose placement;
   Vec3 velocity_m_s = Vec3::Zero();  ///< at the start
   double density_kg_m2 = 0;
+  std::size_t masses_line = 0;  ///< in the file; whether every vertex has a mass shows only in the world
   enum class Masses { kEqual, kArea } masses = Masses::kEqual;
   double stretch_n_m = 0, shear_n_m = 0, bend_n_m = 0;  ///< 0: no such springs
   double stabilize_n_m = 0;                             ///< 0: no stabilisation springs
-  double damping_ratio = 0;                             ///< of each spring's critical damping
+  std::string stiffest_key;       ///< of the largest of these; whether a step is short enough shows only in the world
+  std::size_t stiffest_line = 0;  ///< in the file
+  double damping_ratio = 0;       ///< of each spring's critical damping
   std::vector<PinSpec> pins;
   std::optional<ContactProperties> contact;  ///< none: the scene's
 };

@@ -99,6 +99,7 @@ PinSpec read_pin(TomlTable table, const Surface& surface) {
     for (const std::int64_t vertex : table.integers("vertices", 0, last)) {
       pin.vertices.push_back(static_cast<VertexId>(vertex));
     }
+    pin.vertices_line = table.line("vertices");
     std::sort(pin.vertices.begin(), pin.vertices.end());
     if (std::adjacent_find(pin.vertices.begin(), pin.vertices.end()) != pin.vertices.end()) {
       table.fail("vertices", "a vertex is listed twice; remove one");
@@ -125,6 +126,18 @@ std::string read_name(TomlTable& table, const std::string& fallback, std::set<st
   return name;
 }
 
+void note_stiffest(const TomlTable& table, ClothSpec& cloth) {
+  const std::pair<double, const char*> stiffnesses[] = {{cloth.stretch_n_m, "stretch_n_m"},
+                                                        {cloth.shear_n_m, "shear_n_m"},
+                                                        {cloth.bend_n_m, "bend_n_m"},
+                                                        {cloth.stabilize_n_m, "stabilize_n_m"}};
+  cloth.stiffest_key =
+      std::max_element(std::begin(stiffnesses), std::end(stiffnesses), [](const auto& a, const auto& b) {
+        return a.first < b.first;
+      })->second;
+  cloth.stiffest_line = table.line(cloth.stiffest_key);
+}
+
 /// The cloth and its copies, each further along by `copy_offset_m`: stacks, and rows of hanging sheets.
 std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names, ContactReader& contacts) {
   ClothSpec cloth;
@@ -137,6 +150,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   cloth.velocity_m_s = table.vector("velocity_m_s", {-1e6, 1e6}, Vec3::Zero());
   cloth.density_kg_m2 = table.number("density_kg_m2", kPositive);
   cloth.masses = table.choice("masses", {"equal", "area"}) == 0 ? ClothSpec::Masses::kEqual : ClothSpec::Masses::kArea;
+  cloth.masses_line = table.line("masses");
   cloth.stretch_n_m = table.number("stretch_n_m", kPositive);
   cloth.shear_n_m = table.number("shear_n_m", kNotNegative, 0);
   if (cloth.shear_n_m > 0 && !std::holds_alternative<SheetSpec>(cloth.surface)) {
@@ -145,6 +159,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   }
   cloth.bend_n_m = table.number("bend_n_m", kNotNegative, 0);
   cloth.stabilize_n_m = table.number("stabilize_n_m", kNotNegative, 0);
+  note_stiffest(table, cloth);
   cloth.damping_ratio = table.number("damping_ratio", {0, 10}, 0);
   cloth.contact = contacts.read(table, true);
   std::set<VertexId> pinned;

@@ -90,6 +90,7 @@ GarmentSpec read_garment(TomlTable& table) {
     garment.rings.push_back(ring);
   }
   if (garment.rings.size() < 2) table.fail("a garment needs two rings or more, from the top down");
+  garment.sleeves_line = table.line("sleeves");
   if (std::optional<TomlTable> sleeves = table.table("sleeves")) garment.sleeves = read_whole(*sleeves, read_sleeves);
   double largest_m = garment.rings.front().height_m - garment.rings.back().height_m;
   for (const GarmentSpec::Ring& ring : garment.rings) {
@@ -103,6 +104,7 @@ GarmentSpec read_garment(TomlTable& table) {
 MeshSpec read_mesh_spec(TomlTable& table) {
   MeshSpec mesh;
   mesh.file = table.text("file");
+  mesh.line = table.line("file");
   mesh.scale = table.number("scale", kPositive, mesh.scale);
   return mesh;
 }

@@ -1,7 +1,6 @@
 #include "sim/toml_table.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -18,11 +17,6 @@ std::string describe(const Range& range) {
   }
   if (bounded_below) return fmt::format("a number {} {}", range.lower_open ? "above" : "of at least", range.lower);
   return "a finite number";
-}
-
-bool inside(double value, const Range& range) {
-  return std::isfinite(value) && (range.lower_open ? value > range.lower : value >= range.lower) &&
-         value <= range.upper;
 }
 
 // Of ASCII, and of the second page of Unicode (U+0080 to U+009F, in UTF-8), which terminals obey as well.

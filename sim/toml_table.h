@@ -2,7 +2,6 @@
 // and line. Internal to the scene reader: keeps toml++ out of the public headers.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,21 +11,10 @@
 #include "io/error.h"
 #include "kernel/types.h"
 #include "sim/scene.h"
+#include "sim/scene_ranges.h"
 #include "sim/toml_parser.h"
 
 namespace selvage::sim {
-
-/// Admissible values: lower <= x <= upper, or lower < x where the lower end is open.
-struct Range {
-  double lower = -std::numeric_limits<double>::max(), upper = std::numeric_limits<double>::max();
-  bool lower_open = false;
-};
-inline constexpr Range kPositive{0, 1e30, true};
-inline constexpr Range kNotNegative{0, 1e30};
-/// Scripted and initial coordinates: beyond it 1e-6 m is below the spacing of doubles, and no tolerance means anything.
-inline constexpr Range kCoordinate{-1e9, 1e9};
-/// Sizes; with those above, their areas, masses and squares stay far within doubles.
-inline constexpr Range kLength{1e-30, 1e9};
 
 /// Where tables come from: the name that errors give, and which of two values holds where a file has
 /// {draft = ..., full = ...}.

@@ -8,6 +8,7 @@
 #include "io/fail.h"
 #include "io/mesh_reader.h"
 #include "sim/cloth.h"
+#include "sim/scene_ranges.h"
 #include "sim/time_step.h"
 
 namespace selvage::sim {
@@ -28,17 +29,39 @@ Shape make_shape(const GarmentSpec& garment, const Scene& scene) {
   try {
     return make_garment(garment);
   } catch (const GarmentError& error) {
-    throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {}", scene.file.string(), error.what()));
+    io::bad_input_at_line(scene.file.string(), garment.sleeves_line, error.what());
   }
 }
+
+// Of the file that the scene asks for in that line: a name that is wrong there is an error here.
+io::MeshData read_mesh(const MeshSpec& mesh, const Scene& scene) {
+  try {
+    return io::read_mesh(scene.file.parent_path() / mesh.file);
+  } catch (const io::Error& error) {
+    throw io::Error(error.kind(), fmt::format("{}:{}: mesh: {}", scene.file.string(), mesh.line, error.what()));
+  }
+}
+
+double scaled_m(const MeshSpec& mesh, const Scene& scene, std::size_t vertex, double coordinate) {
+  const double scaled = mesh.scale * coordinate;
+  if (!inside(scaled, kCoordinate)) {
+    io::bad_input_at_line(
+        scene.file.string(), mesh.line,
+        fmt::format("mesh: vertex {} of {} has the coordinate {:g}, with the scale {:g} beyond {:g} m; lower scale or "
+                    "correct the file",
+                    vertex, mesh.file.string(), coordinate, mesh.scale, kCoordinate.upper));
+  }
+  return scaled;
+}
+
 Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
-  const io::MeshData data = io::read_mesh(scene.file.parent_path() / mesh.file);
+  const io::MeshData data = read_mesh(mesh, scene);
   Shape shape;
   shape.triangles = data.triangles;
   shape.x.resize(static_cast<Eigen::Index>(data.points.size()), 3);
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      shape.x(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = mesh.scale * data.points[i][k];
+      shape.x(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = scaled_m(mesh, scene, i, data.points[i][k]);
     }
   }
   return shape;
@@ -62,12 +85,7 @@ class WorldBuilder {
   void add_cloth(const ClothSpec& spec) {
     const Shape rest = shape_of(spec.surface);
     const std::vector<double> mass_kg = cloth_masses(spec, rest);
-    if (std::find(mass_kg.begin(), mass_kg.end(), 0.0) != mass_kg.end()) {
-      throw io::Error(io::ErrorKind::kBadInput,
-                      fmt::format("{}: \"{}\" has a vertex without mass, in no face or only in faces without area; "
-                                  "remove it from the mesh or use masses = \"equal\"",
-                                  scene_.file.string(), spec.name));
-    }
+    require_masses(spec, mass_kg);
     const VertexId begin = add_part(spec.name, io::Group::Role::kCloth, rest, place(spec.placement, rest.x));
     add_contact(spec.contact);
     if (scene_.collision.repulsion) add_rest_pairs(rest, begin, spec.contact);
@@ -128,6 +146,19 @@ class WorldBuilder {
   [[nodiscard]] VertexId vertex_count() const { return static_cast<VertexId>(v_.rows()); }
 
  private:
+  void require_masses(const ClothSpec& spec, const std::vector<double>& mass_kg) const {
+    if (std::ranges::find(mass_kg, 0.0) == mass_kg.end()) return;
+    const bool has_any = std::ranges::any_of(mass_kg, [](double mass) { return mass > 0; });
+    io::bad_input_at_line(
+        scene_.file.string(), spec.masses_line,
+        fmt::format("\"{}\" has {}", spec.name,
+                    has_any
+                        ? "a vertex without mass, in no face or only in faces without area; remove it from the mesh "
+                          "or use masses = \"equal\""
+                        : "no mass, as its area times density_kg_m2 is zero; give its faces an area, or raise "
+                          "density_kg_m2"));
+  }
+
   [[nodiscard]] Shape shape_of(const Surface& surface) const {
     return std::visit([&](const auto& spec) { return make_shape(spec, scene_); }, surface);
   }
@@ -177,9 +208,9 @@ class WorldBuilder {
 
   void add_pin(const std::string& name, const PinSpec& spec, VertexId begin, VertexId count) {
     if (spec.vertices.back() >= count) {
-      throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: {} holds vertex {}, but the mesh has {}; correct the "
-                                                            "list",
-                                                            scene_.file.string(), name, spec.vertices.back(), count));
+      io::bad_input_at_line(scene_.file.string(), spec.vertices_line,
+                            fmt::format("{} holds vertex {}, but its cloth has {}, numbered from 0; correct the list",
+                                        name, spec.vertices.back(), count));
     }
     std::vector<VertexId> vertices;
     Vec3 mean = Vec3::Zero();
@@ -210,6 +241,15 @@ class WorldBuilder {
   EdgeId edge_begin_ = 0;  ///< of the next cloth
 };
 
+// The cloth whose springs ask for the shortest steps.
+const ClothSpec& stiffest_cloth(const Scene& scene) {
+  return *std::ranges::min_element(scene.cloths, {}, [&](const ClothSpec& cloth) {
+    WorldBuilder alone(scene);
+    alone.add_cloth(cloth);
+    return alone.take(alone.vertex_count()).stable_step_s;
+  });
+}
+
 void require_stable_step(const Scene& scene, double stable_step_s) {
   const std::optional<double> given_s = scene.time.dynamics_step_s;
   if (given_s && !(*given_s < stable_step_s)) {
@@ -221,11 +261,13 @@ void require_stable_step(const Scene& scene, double stable_step_s) {
             *given_s, stable_step_s));
   }
   if (!(stable_step_s >= kLeastStepShare / scene.time.frames_per_s)) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: these springs are stable below steps of {:.3g} s only, more than a million in a "
-                                "frame; lower the stiffest of stretch_n_m, shear_n_m and bend_n_m, raise density_kg_m2 "
-                                "or frames_per_s, or set solver = \"implicit\"",
-                                scene.file.string(), stable_step_s));
+    const ClothSpec& stiffest = stiffest_cloth(scene);
+    io::bad_input_at_line(
+        scene.file.string(), stiffest.stiffest_line,
+        fmt::format(
+            "\"{}\": its springs are stable below steps of {:.3g} s only, more than a million in a frame; lower "
+            "{}, raise density_kg_m2 or frames_per_s, or set solver = \"implicit\"",
+            stiffest.name, stable_step_s, stiffest.stiffest_key));
   }
 }
 

@@ -28,7 +28,8 @@ struct World {
   Positions x_t0, v_t0;              ///< #V by 3 at time 0, on the lattice of the scene's precision
 };
 
-/// Reads the mesh files and builds. Throws io::Error: a bad mesh, a vertex without mass, a pinned vertex out of range.
+/// Reads the mesh files and builds. Throws io::Error: with the line of the scene, a bad mesh, a vertex without mass,
+/// a pinned vertex out of range, sleeves that do not fit, and springs too stiff for explicit dynamics.
 [[nodiscard]] World build_world(const Scene& scene);
 
 /// What the run models, one line each, for a person: what the scene does not ask for is not built and not listed.

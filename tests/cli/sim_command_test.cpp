@@ -87,6 +87,42 @@ TEST_F(SimCommand, AnUnstableStepNamesFileAndLine) {
   EXPECT_NE(run.err.find("scene.toml:3: time: dynamics_step_s = 0.0333 is not stable"), std::string::npos) << run.err;
 }
 
+TEST_F(SimCommand, WhatShowsOnlyInTheWorldNamesFileAndLineToo) {
+  spit(path("face.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  spit(path("flat.obj"), "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  spit(path("loose.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n");
+  spit(path("far.obj"), "v 0 0 0\nv 0 1 0\nv 0 -1e100 1\nf 1 2 3\n");
+  const std::string cloth = "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n";
+  const std::string sheet = "sheet = {nx = 2, ny = 2, width_m = 1, height_m = 1}\n";
+  const struct {
+    std::string text;
+    int line, exit_code;
+    std::string words;
+  } kBad[] = {
+      {"mesh = {file = \"absent.obj\"}\n", 6, 4, "mesh: " + path("absent.obj") + ": cannot open"},
+      {"mesh = {file = \"far.obj\"}\n", 6, 3, "mesh: vertex 2 of far.obj has the coordinate -1e+100"},
+      {"mesh = {file = \"face.obj\", scale = 1e10}\n", 6, 3, "beyond 1e+09 m; lower scale"},
+      {sheet + "[[body]]\nmesh = {file = \"face.obj\", scale = 1e30}\n", 8, 3, "mesh: vertex 1 of face.obj"},
+      {"mesh = {file = \"face.obj\"}\n[[cloth.pin]]\nvertices = [7]\n", 8, 3, "holds vertex 7, but its cloth has 3"},
+      {"[cloth.garment]\ncell_m = 0.1\n"
+       "ring = [{height_m = 2, depth_m = 1, width_m = 1}, {height_m = 1, depth_m = 1, width_m = 1}]\n"
+       "sleeves = {top_m = 3, bottom_m = 2.5, depth_m = 0.3, length_m = 1, cuff_radius_m = 0.1}\n",
+       9, 3, "the sleeves leave no cloth"},
+      {sheet + "[[cloth]]\nname = \"stiff\"\nposition_m = [0, 0, 1]\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n" + sheet +
+           "shear_n_m = 1e20\n",
+       13, 3, "\"stiff\": its springs are stable below steps of "},
+      {"mesh = {file = \"flat.obj\"}\n", 3, 3, "\"cloth\" has no mass"},
+      {"mesh = {file = \"flat.obj\"}\nmasses = \"area\"\n", 7, 3, "give its faces an area"},
+      {"mesh = {file = \"loose.obj\"}\nmasses = \"area\"\n", 7, 3, "or use masses = \"equal\""},
+  };
+  for (const auto& bad : kBad) {
+    const auto run = sim(cloth + bad.text);
+    EXPECT_EQ(run.exit_code, bad.exit_code) << bad.words << ": " << run.err;
+    EXPECT_NE(run.err.find("scene.toml:" + std::to_string(bad.line) + ": "), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find(bad.words), std::string::npos) << run.err;
+  }
+}
+
 TEST_F(SimCommand, WhatRepelsIsNear) {
   ASSERT_EQ(sim(scene(6, 0.2, 0.2)).exit_code, 0);
   const auto run = nlohmann::json::parse(slurp(path("out") + "/run.json"));
@@ -138,6 +174,33 @@ TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
     EXPECT_EQ(slurp(path("parts") + name), slurp(path("out") + name)) << name;
     EXPECT_FALSE(slurp(path("out") + name).empty()) << name;
   }
+}
+
+TEST_F(SimCommand, ARepairedRunGoesOnFromItsCheckpointWithoutAnotherRepair) {
+  const std::string text = scene(3, 0.27, 0.27);
+  ASSERT_EQ(sim(text, {"--repair"}).exit_code, 0);
+  std::filesystem::rename(path("out"), path("whole"));
+  const auto start = sim(text, {"--resume"});
+  EXPECT_EQ(start.exit_code, 3) << "there is no checkpoint";
+  EXPECT_NE(start.err.find("let --repair do it"), std::string::npos) << start.err;
+
+  ASSERT_EQ(sim(text, {"--repair", "--frames", "1"}).exit_code, 0);
+  const std::string checkpoint = path("out") + "/checkpoint.bin", bytes = slurp(checkpoint);
+  spit(checkpoint, bytes.substr(0, bytes.size() / 2));
+  const auto damaged = sim(text, {"--resume"});
+  EXPECT_EQ(damaged.exit_code, 3);
+  EXPECT_NE(damaged.err.find("the checkpoint is "), std::string::npos) << damaged.err;
+  spit(checkpoint, bytes);
+  const auto foreign = sim(scene(3, 0.28, 0.28), {"--resume"});
+  EXPECT_EQ(foreign.exit_code, 3);
+  EXPECT_NE(foreign.err.find("belongs to another scene"), std::string::npos) << foreign.err;
+
+  const auto resumed = sim(text, {"--resume"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(slurp(path("out") + "/frame_000003.npy"), slurp(path("whole") + "/frame_000003.npy"));
+  const auto told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_GT(told["repaired_pairs"], 0);
+  EXPECT_EQ(told["largest_repair_m"], nlohmann::json::parse(slurp(path("whole") + "/run.json"))["largest_repair_m"]);
 }
 
 TEST_F(SimCommand, ARepairThatIsNotPossibleSaysWhatRemainsAndWritesNothing) {

@@ -69,6 +69,17 @@ TEST_F(RecorderTest, KeepsTheWholeClockInCheckpoints) {
   EXPECT_EQ(read->state.clock, written.state.clock);
 }
 
+TEST_F(RecorderTest, ARunThatIsKilledAtItsStartStillKnowsItsRepair) {
+  for (const bool resume : {false, true}) {
+    Simulation simulation(scene_);
+    const StartRepair repair = resume ? StartRepair{} : StartRepair{3, 2, 0.5};
+    const Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, resume, kProducer, repair);
+    EXPECT_EQ(recorder.resumed(), resume);
+    EXPECT_EQ(recorder.totals().repair.pairs, 3);
+    EXPECT_EQ(recorder.totals().repair.largest_move_m, 0.5);
+  }
+}
+
 TEST_F(RecorderTest, WritesTheBitsThatWereSimulated) {
   Simulation simulation(scene_);
   std::vector<Positions> states = {simulation.x()};
