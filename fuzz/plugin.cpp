@@ -1,15 +1,18 @@
 #include "fuzz/plugin.h"
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,6 +35,32 @@ std::string fp_misdeed() {
   if ((defects & kFpRounding) != 0) return "changed-rounding-mode";
   return (defects & (kFpFlush | kFpDenormals)) != 0 ? "set-flush-to-zero" : "";
 }
+
+/// Of this process, by whichever thread.
+std::atomic<std::int64_t> fork_count = 0;
+
+/// Begins before somebody else's code runs.
+class ForkWatch {
+ public:
+  ForkWatch() {
+    static const int is_counting = pthread_atfork(
+        nullptr, [] { ++fork_count; }, nullptr);
+    if (is_counting != 0) throw std::system_error(is_counting, std::generic_category(), "pthread_atfork");
+    forks_ = fork_count;
+  }
+  /// A misdeed, or nothing. A child that comes back ends here: it would be a second worker with the pipes of the first.
+  [[nodiscard]] std::string misdeed() const {
+    if (getpid() != process_) _exit(0);
+    if (fork_count == forks_) return "";
+    while (waitpid(-1, nullptr, WNOHANG) > 0) {  // thousands that ended would fill the table of processes
+    }
+    return "forked";
+  }
+
+ private:
+  pid_t process_ = getpid();
+  std::int64_t forks_;
+};
 
 /// Memory with a pattern on both sides, which nobody has a reason to change.
 template <class T, std::size_t N>
@@ -116,13 +145,15 @@ std::string judge_form(const selvage_answer& answer, bool has_toi) {
 
 Plugin::Plugin(const std::filesystem::path& library) {
   const FpEnvGuard guard;
+  const ForkWatch forks;
   const std::filesystem::path file = std::filesystem::absolute(library);  // dlopen searches for bare names
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) refuse(library, std::string("cannot be loaded: ") + dlerror());
-  load_misdeed_ = fp_misdeed();
   const auto entry = std::bit_cast<selvage_plugin_entry_function>(dlsym(handle, "selvage_plugin_entry"));
   if (entry == nullptr) refuse(library, "has no function selvage_plugin_entry");
   plugin_ = entry();
+  load_misdeed_ = forks.misdeed();
+  if (load_misdeed_.empty()) load_misdeed_ = fp_misdeed();
   if (plugin_ == nullptr) refuse(library, "selvage_plugin_entry returns nothing");
   if (plugin_->version != SELVAGE_PLUGIN_VERSION) {
     refuse(library, "is built for version " + std::to_string(plugin_->version) +
@@ -155,11 +186,13 @@ Plugin::Answer Plugin::ask_alone(std::int32_t kind, const selvage_query& query) 
   asked[0] = query;
   given[0] = kUnanswered;
   Answer result;
+  const ForkWatch forks;
   const auto start = std::chrono::steady_clock::now();
   plugin_->answer(kind, asked.data(), given.data());
   result.nanoseconds = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
   result.answer = given[0];
-  result.misdeed = fp_misdeed();
+  result.misdeed = forks.misdeed();
+  if (result.misdeed.empty()) result.misdeed = fp_misdeed();
   if (result.misdeed.empty() && !(asked.is_whole() && given.is_whole())) result.misdeed = "wrote-out-of-bounds";
   if (result.misdeed.empty() && !is_same(asked[0], query)) result.misdeed = "changed-the-query";
   if (result.misdeed.empty()) result.misdeed = judge_form(result.answer, info_.has_toi);
@@ -177,7 +210,9 @@ std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, con
   Fenced<selvage_query, kBatch> queries;
   Fenced<selvage_answer, kBatch> answers;
   for (std::size_t i = 0; i < kBatch; ++i) queries[i] = company[i % company.size()], answers[i] = kUnanswered;
+  const ForkWatch forks;
   plugin_->answer_batch(kind, kBatch, queries.data(), answers.data());
+  if (std::string misdeed = forks.misdeed(); !misdeed.empty()) return misdeed;
   if (std::string misdeed = fp_misdeed(); !misdeed.empty()) return misdeed;
   if (!(queries.is_whole() && answers.is_whole())) return "wrote-out-of-bounds";
   for (std::size_t i = 0; i < kBatch; ++i) {

@@ -27,15 +27,15 @@ class Plugin {
   [[nodiscard]] const PluginInfo& info() const { return info_; }
 
   struct Answer {
-    /// changed-rounding-mode, set-flush-to-zero, wrote-out-of-bounds, changed-the-query, invalid-verdict, invalid-time,
-    /// batch-differs; or nothing.
+    /// forked, changed-rounding-mode, set-flush-to-zero, wrote-out-of-bounds, changed-the-query, invalid-verdict,
+    /// invalid-time, batch-differs; or nothing.
     std::string misdeed;
     selvage_answer answer{};
     std::int64_t nanoseconds = 0;
   };
   /// REQUIRES vf or ee. Where `in_batch`, asks it in one batch with queries made of it as well, each first alone.
   [[nodiscard]] Answer ask(const MotionQuery& query, bool in_batch) const;
-  /// What loading did to the floating-point environment: a misdeed, or nothing.
+  /// What loading did besides: a misdeed, or nothing.
   [[nodiscard]] const std::string& load_misdeed() const { return load_misdeed_; }
 
  private:

@@ -75,6 +75,7 @@ void WorkerProcess::start() {
   if (pid_ == 0) {
     close(jobs[1]);
     close(events[0]);
+    madvise(progress_, sizeof(Progress), MADV_DONTFORK);  // what the code under test forks takes no part in it
     work(setting_, *progress_, jobs[0], events[1]);
   }
   close(jobs[0]);

@@ -40,6 +40,10 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   volatile bool goes_on = true;
   while (goes_on) {
   }
+#elif defined(FORKS)
+  static int calls = 0;
+  if (++calls == 30) [[maybe_unused]]
+    const auto ignored = fork();
 #elif defined(CRASHES)
   std::raise(SIGSEGV);
 #elif defined(WRITES_OUT_OF_BOUNDS)

@@ -51,7 +51,8 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"forgets_the_last", "batch-differs"},
                                                       {"repeats_a_vector", "batch-differs"},
                                                       {"writes_to_files", "broke-the-channel"},
-                                                      {"closes_files", "exited"}};
+                                                      {"closes_files", "exited"},
+                                                      {"forks", "forked"}};
   for (const auto& [plugin, failure] : kBad) {
     const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
     EXPECT_EQ(failures_of(library), std::set<std::string>{failure}) << plugin;
