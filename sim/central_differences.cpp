@@ -56,8 +56,10 @@ void CentralDifferences::explicit_half_kick(std::span<const double> inverse_mass
     Eigen::RowVector3d v = v_.row(i);
     if (w > 0) {
       const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * v.norm();
-      v += share_of_kick(h / 2 * drag_1_s) *
-           (h / 2 * (options_.gravity_m_s2.transpose() - drag_1_s * v + w * force_.row(i)) - w * impulses_.row(i));
+      const double share = share_of_kick(h / 2 * drag_1_s);
+      const Eigen::RowVector3d kick = h / 2 * (options_.gravity_m_s2.transpose() - drag_1_s * v + w * force_.row(i));
+      const Eigen::RowVector3d damped = w * impulses_.row(i);
+      v += share * (kick - damped);
       v_.row(i) = v;
     }
     x_t1_.row(i) = x_.row(i) + h * v;
