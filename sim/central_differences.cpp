@@ -112,7 +112,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
                                            std::span<const double> inverse_mass, double dt_s, HeldContacts* contacts) {
   const int count =
       std::max(contacts == nullptr ? step_count(dt_s, options_.step_s) : step_count_in_contact(dt_s, motion.x),
-               steps_for_drag(options_.quadratic_drag_1_m, fastest_speed(motion.v, inverse_mass), dt_s));
+               steps_for_drag(quadratic_drag_1_s(options_.quadratic_drag_1_m, motion.v, inverse_mass), dt_s));
   const double h = dt_s / count;
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) {

@@ -8,6 +8,7 @@
 #include "sim/cross_matrix.h"
 #include "sim/power_of_two.h"
 #include "sim/pseudo_inverse.h"
+#include "sim/share_within.h"
 
 namespace selvage::sim {
 namespace {
@@ -82,16 +83,10 @@ PairVectors changes_by(const Interaction& interaction, const SlipGeometry& slip,
   return changes;
 }
 
-/// The largest share in [0, 1] of `step` that leads from `start` to no farther than `radius` from the origin; 0 where
-/// `start` is farther already.
-double share_within(const Vec3& start, const Vec3& step, double radius) {
-  const double along = start.dot(step), square = step.squaredNorm();
-  const double room = radius * radius - start.squaredNorm();
-  if (!(room > 0)) return 0;
-  // The positive root of |start + s step| = radius, as a sum of numbers of one sign where the step leads outwards.
-  const double root = std::sqrt(along * along + square * room);
-  const double share = along > 0 ? room / (root + along) : (root - along) / square;
-  return std::min(share, 1.0);
+/// Of what is missing to no slip, as far as the kinetic cone; nothing where that has been reached.
+double sliding_share(const Vec3& so_far, const Vec3& to_stop, double radius) {
+  const double room = radius * radius - so_far.squaredNorm();
+  return room > 0 ? share_within(so_far, to_stop, room) : 0.0;
 }
 
 /// Divides by a power of two, so that momenta of displacements of any size stay finite.
@@ -149,7 +144,7 @@ std::optional<PairVectors> friction_change(const Interaction& interaction, const
   const double normal_impulse = load.pressed / scale / mobility;
   const Vec3 so_far = load.rubbed / scale;
   const bool sticks = (so_far + impulse_to_stop).norm() <= friction.on_static * normal_impulse;
-  const double share = sticks ? 1.0 : share_within(so_far, impulse_to_stop, friction.on_kinetic * normal_impulse);
+  const double share = sticks ? 1.0 : sliding_share(so_far, impulse_to_stop, friction.on_kinetic * normal_impulse);
   if (!(share > 0)) return std::nullopt;
   const Vec3 impulse = lever_share(interaction) * share * impulse_to_stop;
   PairVectors change = changes_by(interaction, slip, impulse);

@@ -51,7 +51,7 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
                                          std::span<const double> inverse_mass, double dt_s, HeldContacts* contacts) {
   const int step_count =
       std::max(static_cast<int>(std::ceil(dt_s / step_s_)),
-               steps_for_drag(stage_.fields().quadratic_drag_1_m, fastest_speed(motion.v, inverse_mass), dt_s));
+               steps_for_drag(quadratic_drag_1_s(stage_.fields().quadratic_drag_1_m, motion.v, inverse_mass), dt_s));
   for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) {
       motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
@@ -78,7 +78,7 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
 /// Whether drag stops something within the step.
 bool ImplicitDynamics::brakes(const Positions& v, std::span<const double> inverse_mass, double h) const {
   const FieldForces& fields = stage_.fields();
-  return h * (fields.drag_1_s + fields.quadratic_drag_1_m * fastest_speed(v, inverse_mass)) > kMostBraked;
+  return h * (fields.drag_1_s + quadratic_drag_1_s(fields.quadratic_drag_1_m, v, inverse_mass)) > kMostBraked;
 }
 
 // Held vertices have no acceleration, so both stages move them with their velocity.

@@ -1,15 +1,16 @@
 #include "sim/scripted_drive.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
+
+#include "sim/share_within.h"
 
 namespace selvage::sim {
 namespace {
 
-/// Over the fastest that is moved: a chain that is pushed together bends no slower without limits
-/// (docs/numerics.md, *Limits on strain*).
+/// Over the fastest that is moved. Chosen, not derived: a chain that is pushed together bends at 0.7 to 5 times that
+/// without limits (docs/numerics.md, *Limits on strain*), and the less, the less a limit makes of a toggle.
 constexpr double kDriven = 2;
 
 bool is_moved(double inverse_mass) { return inverse_mass == 0; }
@@ -72,17 +73,6 @@ struct Drive {
   [[nodiscard]] double allowed_m_s() const { return std::max(kDriven * moved_m_s, free_m_s); }
 };
 
-/// The largest share in [0, 1] of `step` that leads from `start` to no farther than `radius` from the origin; `start`
-/// is no farther.
-double share_within(const Vec3& start, const Vec3& step, double radius) {
-  const double along = start.dot(step), square = step.squaredNorm();
-  const double room = std::max(0.0, radius * radius - start.squaredNorm());
-  if (!(square > 0)) return 1;
-  const double root = std::sqrt(along * along + square * room);
-  const double share = along > 0 ? room / (root + along) : (root - along) / square;
-  return std::min(share, 1.0);
-}
-
 }  // namespace
 
 void limit_drive(const LaneVectors& v, std::vector<BoundedPair>& pairs) {
@@ -112,7 +102,9 @@ void limit_drive(const LaneVectors& v, std::vector<BoundedPair>& pairs) {
   each_end([&](Drive& drive, VertexId vertex, double w, const Vec3&) {
     if (!(drive.moved_m_s > 0) || is_moved(w)) return;
     const Vec3 start = v.row(vertex).transpose() - drive.mean();
-    drive.share = std::min(drive.share, share_within(start, change[sets.place_of(vertex)], drive.allowed_m_s()));
+    const double allowed_m_s = drive.allowed_m_s();
+    const double room = std::max(0.0, allowed_m_s * allowed_m_s - start.squaredNorm());
+    drive.share = std::min(drive.share, share_within(start, change[sets.place_of(vertex)], room));
   });
   for (BoundedPair& pair : pairs) {
     const double left_out = (1 - drives[sets.of(pair)].share) * pair.change_n_s;

@@ -59,7 +59,8 @@ TEST(Drag, StopsAMotionAndNeverTurnsItRound) {
       const Flown flown = fly(solver, flight);
       double before_m = 0;
       for (const double way_m : flown.way_m) {
-        EXPECT_GE(way_m, before_m - 1e-9) << solver << ", " << flight.quadratic_drag_1_m << " 1/m, " << flight.v_t0 << " m/s";
+        EXPECT_GE(way_m, before_m - 1e-9)
+            << solver << ", " << flight.quadratic_drag_1_m << " 1/m, " << flight.v_t0 << " m/s";
         before_m = way_m;
       }
       EXPECT_GE(flown.end.v.col(0).minCoeff(), -1e-9);
@@ -81,9 +82,9 @@ TEST(Drag, TakesCloseToItsClosedForm) {
 }
 
 TEST(Drag, AsksForStepsThatTakeHalfOfAVelocityAndNoMoreThanSixtyFour) {
-  EXPECT_EQ(steps_for_drag(0, 1e300, 1), 1);
-  EXPECT_EQ(steps_for_drag(15, 20, 1.0 / 30), 10);
-  EXPECT_EQ(steps_for_drag(1e6, 1e9, 1), 64);
+  EXPECT_EQ(steps_for_drag(0, 1), 1);
+  EXPECT_EQ(steps_for_drag(15.0 * 20, 1.0 / 30), 10);
+  EXPECT_EQ(steps_for_drag(1e15, 1), 64);
 }
 
 }  // namespace selvage
