@@ -117,9 +117,8 @@ Lanes TakeNearest(const PackNearest& nearest, Lanes asked, ContactPack& pack) {
 HWY_INLINE Value LeverShare(const PairLanes& pair) {
   Value longest = hn::Zero(Real());
   for (std::size_t i = 0; i < 4; ++i) longest = hn::Max(longest, hn::Mul(hn::Abs(pair.weights[i]), pair.mobility[i]));
-  longest = hn::Div(longest, pair.effective);
-  const Value most = Number(kMaxLever);
-  return hn::IfThenElse(hn::Gt(longest, most), hn::Div(most, longest), Number(1));
+  const Value share = hn::Div(Number(kMaxLever), hn::Div(longest, pair.effective)), one = Number(1);
+  return hn::IfThenElse(hn::Lt(share, one), hn::Mul(share, share), one);
 }
 
 /// Moves the vertices of cloth in the given lanes, which share none. Scalar: the rows of lanes are anywhere.

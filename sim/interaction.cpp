@@ -56,7 +56,8 @@ double lever_share(const Interaction& interaction) {
     longest = std::max(longest, std::abs(interaction.weights[i]) * interaction.mobility[i]);
   }
   longest /= effective_mobility(interaction);
-  return longest > kMaxLever ? kMaxLever / longest : 1.0;
+  const double share = kMaxLever / longest;
+  return share < 1 ? share * share : 1.0;
 }
 
 PairVectors distribute(const Interaction& interaction, const Vec3& change) {

@@ -29,12 +29,15 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   const double overlap = properties.thickness_m - contact.distance;
   const double approach = -displacement_n - room_to_approach(overlap);
   const double settled = sweep == 0 ? 0 : kSettledApproach * contact.distance;
-  if (sweep == 0 || approach > settled) {
+  // Where the lever is limited once, or the limit would not hold.
+  if (sweep == 0 || (approach > settled && lever_share(interaction) == 1)) {
     const Repulsion push = repulsion(overlap, displacement_n, contact.mobility * interaction.inverse_mass_scale,
                                      options, sweep == 0 ? dt_s : 0);
     result.repels = push.total() > 0;
-    if (result.repels) result.change = distribute(interaction, push.total() * contact.normal);
-    load.pressed += push.total();
+    if (result.repels) {
+      result.change = distribute(interaction, push.total() * contact.normal);
+      load.pressed += lever_share(interaction) * push.total();
+    }
   }
   if (!((motion - displacement_n * contact.normal).norm() > settled)) return result;
   const FrictionCoefficients friction{properties.friction_static, properties.friction_kinetic};

@@ -1,5 +1,7 @@
 #include "sim/repulsion.h"
 
+#include <array>
+
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 #include "tests/sim/response_properties.h"
@@ -52,6 +54,35 @@ TEST(Repulsion, NeverLeavesTheOverlapFasterThanItsFraction) {
 
 TEST(Repulsion, EndsTheApproachOfAnyContact) {
   selvage::testing::check_property(200, 22, prop_repulsion_ends_the_approach);
+}
+
+TEST(Repulsion, KeepsTheLimitOfALeverInAllItsSweeps) {
+  // The only free corner of a face, below which a vertex of a body rises and slides.
+  constexpr double kThickness = 0.01, kRise = 4e-3, kSlide = 3e-3;
+  for (const double lever : {16.0, 64.0, 1e6}) {
+    SCOPED_TRACE(lever);
+    const double weight = 1 / lever;
+    Positions V(4, 3), V_t1(4, 3);
+    V << 0, weight, 0, 0, 1, kThickness, -2, 0, kThickness, 2, 0, kThickness;
+    V_t1 = V;
+    V_t1.row(0) += Eigen::RowVector3d(kSlide, 0, kRise);
+    RepulsionContact contact;
+    contact.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, weight, (1 - weight) / 2, (1 - weight) / 2},
+                                           std::array<double, 4>{0, 1, 0, 0});
+    contact.x_t0 = gather(contact.interaction, V);
+    contact.normal = -Vec3::UnitZ();
+    contact.distance = kThickness;
+    contact.mobility = effective_mobility(contact.interaction);
+    contact.properties = {kThickness, 1e-6, 0.5, 0.5};
+    StepMotion motion;
+    motion.start(V, V_t1, CollisionOptions::Precision::kFloat64);
+    Contacts contacts;
+    contacts.add(contact);
+    contacts.repel(CollisionOptions{}, 1e-2, kRepulsionSweeps, motion);
+    const double asked_of_it = kMaxLever * kMaxLever / lever;
+    EXPECT_NEAR(motion.displacement()(1, 2), asked_of_it * kRise, 1e-9 * kRise);
+    EXPECT_LE(motion.displacement().row(1).head<2>().norm(), 0.5 * asked_of_it * kRise * (1 + 1e-9));
+  }
 }
 
 }  // namespace selvage::sim::testing
