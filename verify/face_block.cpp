@@ -49,8 +49,10 @@ FloatFace::FloatFace(const std::array<std::int32_t, 3>& triangle, std::span<cons
   for (std::size_t k = 0; k < 3; ++k) direction[k] = static_cast<float>(n[k]);
   const float p = projection(direction, corners[0]), q = projection(direction, corners[1]),
               r = projection(direction, corners[2]);
-  const double m = frame.is_exact() ? margin(direction, largest(e) * largest(f))
-                                    : std::numeric_limits<double>::infinity();  // no point is beyond
+  low = -std::numeric_limits<float>::infinity();  // no point is beyond
+  high = std::numeric_limits<float>::infinity();
+  if (!frame.is_exact() || !frame.holds(a) || !frame.holds(b) || !frame.holds(c)) return;
+  const double m = margin(direction, largest(e) * largest(f));
   low = static_cast<float>(static_cast<double>(std::min({p, q, r})) - m);
   high = static_cast<float>(static_cast<double>(std::max({p, q, r})) + m);
 }

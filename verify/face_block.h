@@ -12,7 +12,9 @@ namespace selvage::verify {
 
 /// A face in a FloatFrame. `direction` is nearly normal to it, and for every other point x of the frame
 ///   direction . x, as computed, > high  implies  x lies strictly above the plane of the face, and < low strictly below
-/// ("above": where its exact normal points). A face of zero area has no such x.
+/// ("above": where its exact normal points). A face of zero area has no such x, nor one of which the frame does not
+/// hold a corner: for this one `high` is infinite, and its stored corners prove nothing about other faces but where its
+/// box is.
 struct FloatFace {
   std::array<std::array<float, 3>, 3> corners;  ///< [corner][axis]
   std::array<float, 3> direction;

@@ -89,24 +89,26 @@ struct Face {
 /// Of the block's corners, for the plane of `face`.
 inline Sides sides_of_corners(const FaceBlock& block, const Face& face) {
   const auto& [corners, direction, low, high, vertices] = face.block;
+  const Flags is_held = load(block.high) < in_all(std::numeric_limits<float>::infinity());
   Sides sides;
   for (std::size_t j = 0; j < 3; ++j) {
     const Reals height = in_all(direction[0][face.i]) * load(block.corners[j][0]) +
                          in_all(direction[1][face.i]) * load(block.corners[j][1]) +
                          in_all(direction[2][face.i]) * load(block.corners[j][2]);
-    sides.above[j] = height > in_all(high[face.i]);
-    sides.below[j] = height < in_all(low[face.i]);
+    sides.above[j] = is_held & (height > in_all(high[face.i]));
+    sides.below[j] = is_held & (height < in_all(low[face.i]));
   }
   return sides;
 }
 /// Of the corners of `face`, for the block's planes.
 inline Sides sides_of_planes(const FaceBlock& block, const Face& face) {
+  const Flags is_held = in_all(face.block.high[face.i]) < in_all(std::numeric_limits<float>::infinity());
   Sides sides;
   for (std::size_t j = 0; j < 3; ++j) {
     const Reals height = load(block.direction[0]) * face.corner(j, 0) + load(block.direction[1]) * face.corner(j, 1) +
                          load(block.direction[2]) * face.corner(j, 2);
-    sides.above[j] = height > load(block.high);
-    sides.below[j] = height < load(block.low);
+    sides.above[j] = is_held & (height > load(block.high));
+    sides.below[j] = is_held & (height < load(block.low));
   }
   return sides;
 }

@@ -14,8 +14,8 @@ namespace selvage::verify {
 /// A tree over some faces of a mesh. Work is done by groups of 64 faces, which callers may spread over threads.
 class FaceTree {
  public:
-  /// The spans must outlive it. The frame must be common to all trees that are queried together, and hold all of their
-  /// faces.
+  /// The spans must outlive it. The frame must be common to all trees that are queried together. It need not hold all
+  /// of their faces: what is beyond it is found as well, and nothing is proved of it.
   FaceTree(std::span<const std::int32_t> faces, std::span<const std::array<std::int32_t, 3>> triangles,
            std::span<const Point> V, const FloatFrame& frame);
 

@@ -19,7 +19,7 @@ class FrameCheck {
       : topology_(topology), V_(V), options_(options), tally_(options.max_violations, options.stop) {}
 
   CheckResult run() {
-    const FloatFrame frame = FloatFrame::over(bounding_box(topology_, V_));
+    const FloatFrame frame = FloatFrame::over(bulk_box(topology_, V_));
     const PartTrees<FaceTree> faces(topology_.faces, topology_.triangles, V_, frame);
     const bool each = !topology_.exemptions.empty() || options_.second_opinion == SecondOpinionScope::kAll;
     faces.tally_within(options_.check_bodies, options_.max_violations, tally_, FoundPairs{*this}, each);

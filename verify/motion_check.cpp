@@ -99,7 +99,7 @@ class MotionCheck {
   }
 
   void check_pairs() {
-    const Box bounds_t0 = bounding_box(topology_, V_t0_), bounds_t1 = bounding_box(topology_, V_t1_);
+    const Box bounds_t0 = bulk_box(topology_, V_t0_), bounds_t1 = bulk_box(topology_, V_t1_);
     const Lattice lattice =
         Lattice::over(bounding_box(std::array{bounds_t0.min, bounds_t0.max, bounds_t1.min, bounds_t1.max}));
     const PartTrees<ElementTree> edges(topology_.edge_parts, lattice,

@@ -17,7 +17,7 @@ void visit_near_pairs(const Topology& topology, std::span<const Point> V, double
   const auto at = [V](std::int32_t v) -> const Point& { return V[static_cast<std::size_t>(v)]; };
   const auto face = [&](std::int32_t f) { return topology.triangles[static_cast<std::size_t>(f)]; };
   const auto edge = [&](std::int32_t e) { return topology.edges[static_cast<std::size_t>(e)]; };
-  const Lattice lattice = Lattice::over(bounding_box(topology, V));
+  const Lattice lattice = Lattice::over(bulk_box(topology, V));
   const double half = 0.5 * distance;  // each of two boxes grows by half
   const PartTrees<ElementTree> vertices(topology.vertices, lattice, [&](std::int32_t v) {
     return grown({at(v), at(v)}, half);

@@ -97,15 +97,15 @@ Candidate least(const Topology& topology, std::span<const Point> V, double reach
 /// Some pair that is near, by estimates: among those whose boxes overlap, and where there are none, at growing
 /// distance.
 std::optional<Candidate> near_pair(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
-  const Box bounds = bounding_box(topology, V);
+  const Box bounds = bulk_box(topology, V);
   double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, 0.5 * bounds.max[k] - 0.5 * bounds.min[k]);
   const auto estimate = [](const Candidate& pair, double) -> std::optional<double> {
     return pair.event == EventKind::kVf ? estimate_vf_distance(pair.x) : estimate_ee_distance(pair.x);
   };
-  // From boxes that overlap to the whole bounding box: it is twice `extent` wide.
-  for (const double share : {0.0, 0x1p-20, 0x1p-15, 0x1p-10, 0x1p-5, 0x1p+2}) {
-    const double reach = std::min(extent * share, std::numeric_limits<double>::max());
+  // From boxes that overlap to all pairs.
+  for (const double share : {0.0, 0x1p-20, 0x1p-15, 0x1p-10, 0x1p-5, kInfinity}) {
+    const double reach = share < kInfinity ? extent * share : std::numeric_limits<double>::max();
     const Candidate nearest = least(topology, V, reach, options, {}, estimate, is_less_by_estimate);
     if (nearest.distance < kInfinity) return nearest;
   }

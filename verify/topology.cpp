@@ -168,13 +168,49 @@ bool owes_pairs(const Topology& topology, bool check_bodies) {
   return false;
 }
 
-Box bounding_box(const Topology& topology, std::span<const Point> V) {
+namespace {
+
+/// Vertices that are looked at to tell where most are. Which is a matter of speed alone.
+constexpr std::size_t kSampled = 1024;
+/// The part of them, on each side of each axis, that may be far.
+constexpr std::size_t kFarPart = 8;
+/// Lengths of the box of the others to each side of it that are not far. What is not far loses as many bits of the 24
+/// of the frame check's filter.
+constexpr double kFar = 64;
+
+Box bulk_box(const std::vector<Point>& points) {
+  const Box all = bounding_box(points);
+  const std::size_t stride = (points.size() + kSampled - 1) / kSampled;
+  Box most{};
+  double half_length = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < points.size(); i += stride) x.push_back(points[i][k]);
+    const auto far = static_cast<std::ptrdiff_t>(x.size() / kFarPart);
+    std::ranges::nth_element(x, x.begin() + far);
+    most.min[k] = x[static_cast<std::size_t>(far)];
+    std::ranges::nth_element(x, x.end() - 1 - far);
+    most.max[k] = *(x.end() - 1 - far);
+    half_length = std::max(half_length, most.max[k] / 2 - most.min[k] / 2);
+  }
+  if (!(half_length > 0)) return all;
+  Box bulk{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    bulk.min[k] = std::max(all.min[k], most.min[k] - 2 * kFar * half_length);
+    bulk.max[k] = std::min(all.max[k], most.max[k] + 2 * kFar * half_length);
+  }
+  return bulk;
+}
+
+}  // namespace
+
+Box bulk_box(const Topology& topology, std::span<const Point> V) {
   std::vector<Point> held;
   held.reserve(topology.vertices.cloth.size() + topology.vertices.body.size());
   for (const std::vector<std::int32_t>* part : {&topology.vertices.cloth, &topology.vertices.body}) {
     for (const std::int32_t v : *part) held.push_back(V[static_cast<std::size_t>(v)]);
   }
-  return held.empty() ? Box{} : bounding_box(held);
+  return held.empty() ? Box{} : bulk_box(held);
 }
 
 void require_positions(const Topology& topology, std::span<const Point> V) {

@@ -48,9 +48,10 @@ struct Topology {
 /// Whether any two faces are owed a check: not ignored, not both of bodies unless asked for, and not exempt.
 [[nodiscard]] bool owes_pairs(const Topology& topology, bool check_bodies);
 
-/// The smallest box that holds all vertices of both parts; of none, the origin. Trees span it: a vertex far away that
-/// no face holds would leave everything else in one cell.
-[[nodiscard]] Box bounding_box(const Topology& topology, std::span<const Point> V);
+/// The smallest box that holds the vertices of both parts, but for those that are many times farther away than most; of
+/// none, the origin. Trees span it: a vertex far away, as of a simulation that blew up, would leave everything else in
+/// one cell. O(#V).
+[[nodiscard]] Box bulk_box(const Topology& topology, std::span<const Point> V);
 
 /// Throws std::invalid_argument unless there are `topology.vertex_count` points and all are finite: no verdict is
 /// given on others.
