@@ -1,12 +1,15 @@
 #include "cli/start_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "io/error.h"
 #include "sim/points.h"
+#include "sim/spring_strain.h"
 #include "sim/untangle.h"
 #include "verify/check.h"
 
@@ -58,8 +61,48 @@ void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pair
   if (pairs.size() > kNamedPairs) fmt::print(stderr, "  and {} pairs more\n", pairs.size() - kNamedPairs);
 }
 
+std::array<VertexId, 3> corners(const sim::World& world, FaceId face) {
+  return world.triangles[static_cast<std::size_t>(face)];
+}
+
+bool is_without_area(const sim::FacePair& pair) { return pair[0] == pair[1]; }
+
+bool is_twice(const sim::World& world, const sim::FacePair& pair) {
+  const auto f = corners(world, pair[0]), g = corners(world, pair[1]);
+  return !is_without_area(pair) && std::ranges::is_permutation(f, g);
+}
+
+/// Corners of these faces that lie, to the bit, where another one lies.
+std::size_t count_coincident(const sim::World& world, const Positions& x, const std::vector<sim::FacePair>& pairs) {
+  std::set<VertexId> coincident;
+  for (const auto& [f, g] : pairs) {
+    for (const VertexId a : corners(world, f)) {
+      for (const VertexId b : corners(world, g)) {
+        if (a != b && x.row(a) == x.row(b)) coincident.insert({a, b});
+      }
+    }
+  }
+  return coincident.size();
+}
+
+/// What no repair can free is named first.
+std::string remedy(const sim::World& world, const Positions& x, const std::vector<sim::FacePair>& pairs) {
+  const auto twice = [&](const sim::FacePair& pair) { return is_twice(world, pair); };
+  if (std::ranges::any_of(pairs, is_without_area)) return "take the faces without area out of the mesh";
+  if (const auto pair = std::ranges::find_if(pairs, twice); pair != pairs.end()) {
+    return fmt::format("faces {} and {} have the same corners: take one of them out of the mesh", (*pair)[0],
+                       (*pair)[1]);
+  }
+  const std::size_t count = count_coincident(world, x, pairs);
+  if (count == 0) return "move them apart, or let --repair do it";
+  return fmt::format(
+      "move them apart, or let --repair do it; {} of their vertices lie where another one lies: along a seam, export "
+      "one for both",
+      count);
+}
+
 [[noreturn]] void refuse(const sim::Simulation& simulation, const std::vector<sim::FacePair>& pairs,
-                         const char* what_to_do) {
+                         const std::string& what_to_do) {
   const sim::World& world = simulation.world();
   print_pairs(world, pairs);
   const auto [f, g] = pairs.front();
@@ -99,23 +142,30 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   if (!repair) {
     const bool is_rounded = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
     refuse(simulation, pairs,
-           is_rounded ? "move them apart, or let --repair do it; coordinates are rounded to float32, so far from the "
-                        "origin precision = \"float64\" may be all it needs"
-                      : "move them apart, or let --repair do it");
+           remedy(simulation.world(), simulation.x(), pairs) +
+               (is_rounded ? "; coordinates are rounded to float32, so far from the origin precision = \"float64\" may "
+                             "be all it needs"
+                           : ""));
   }
   const sim::UntangleResult result = untangle(simulation, judge);
   if (!result.report.remaining.empty()) {
-    refuse(
-        simulation, result.report.remaining,
-        fmt::format("--repair found no way out for them, of {} pairs before; move them apart", pairs.size()).c_str());
+    const bool none_can = std::ranges::all_of(result.report.remaining, [&](const sim::FacePair& pair) {
+      return is_without_area(pair) || is_twice(simulation.world(), pair);
+    });
+    refuse(simulation, result.report.remaining,
+           fmt::format(
+               "--repair found no way out for them, of {} pairs before; {}", pairs.size(),
+               none_can ? remedy(simulation.world(), simulation.x(), result.report.remaining) : "move them apart"));
   }
   sim::SimulationState state = simulation.state();
   state.x = result.x;
   simulation.restore(state);
   fmt::print(stderr,
-             "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged\n",
+             "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged; "
+             "largest strain {:.2g}\n",
              pairs.size(), result.report.moved_vertices, simulation.world().cloth_vertex_count,
-             result.report.largest_move_m, result.report.rounds);
+             result.report.largest_move_m, result.report.rounds,
+             sim::largest_strain(simulation.world().springs, simulation.x()));
   return {std::ssize(pairs), result.report.moved_vertices, result.report.largest_move_m};
 }
 

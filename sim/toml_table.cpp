@@ -1,6 +1,7 @@
 #include "sim/toml_table.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,20 @@ bool has_control_character(std::string_view text) {
 // Integers are numbers too: "duration_s = 4".
 std::optional<double> as_number(const toml::node& node) {
   return node.is_number() ? node.value<double>() : std::nullopt;
+}
+
+/// Whether at most two letters differ, are missing or too many: Levenshtein's distance, row by row.
+bool is_misspelt(std::string_view key, std::string_view written) {
+  std::vector<std::size_t> row(key.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    std::size_t before = std::exchange(row[0], i + 1);  // the distance of both without their last letters
+    for (std::size_t j = 0; j < key.size(); ++j) {
+      const std::size_t changed = before + (written[i] == key[j] ? 0 : 1);
+      before = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back() <= 2;
 }
 
 }  // namespace
@@ -74,8 +89,14 @@ bool TomlTable::has(std::string_view key) const {
 const toml::node* TomlTable::find(std::string_view key, bool required, std::string_view what) {
   note_asked(key);
   const toml::node* node = table_.get(key);
-  if (node == nullptr && required) fail(fmt::format("{} is missing; add {} = {}", key, key, what));
-  return node;
+  if (node != nullptr || !required) return node;
+  for (const auto& [other, other_node] : table_) {
+    if (is_misspelt(key, other.str()) && std::ranges::find(asked_, other.str()) == asked_.end()) {
+      fail_at(other_node,
+              fmt::format("{}: unknown key \"{}\"; it may be meant for {}, which is missing", name_, other.str(), key));
+    }
+  }
+  fail(fmt::format("{} is missing; add {} = {}", key, key, what));
 }
 
 const toml::node* TomlTable::find_for_quality(std::string_view key) {

@@ -151,11 +151,31 @@ TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
   EXPECT_EQ(sim(far.substr(0, at) + far.substr(at + 1)).exit_code, 0);
 }
 
+TEST_F(SimCommand, AMeshThatNoRepairCanFreeSaysWhatIsWrongWithIt) {
+  struct Case {
+    const char* faces;
+    const char* message;
+  };
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const auto& [faces, message] :
+       {Case{"f 1 2 3\nf 1 2 5\n", "take the faces without area out of the mesh"},
+        {"f 1 2 3\nf 2 4 3\nf 3 1 2\n", "faces 0 and 2 have the same corners: take one of them out of the mesh"},
+        {"f 1 2 3\nf 6 4 7\n",
+         "; 4 of their vertices lie where another one lies: along a seam, export one for both"}}) {
+    spit(path("cloth.obj"), vertices + faces);
+    const auto run =
+        sim("[time]\nframes = 1\n[[cloth]]\nmesh = {file = \"cloth.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n");
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+  }
+}
+
 TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
   const auto run = sim(scene(4, 0.27, 0.27), {"--repair", "--record", "steps"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.err.find("repair     "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find(" of 100 cloth vertices moved, by at most 0.0"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("; largest strain 0."), std::string::npos) << run.err;
   EXPECT_EQ(run_program(folder_, {"verify", path("out")}).exit_code, 0);
   const auto told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
   EXPECT_GT(told["repaired_pairs"], 0);

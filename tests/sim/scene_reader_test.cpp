@@ -35,6 +35,10 @@ const BadScene kBadScenes[] = {
     {"no time", "gravity_m_s2 = [0, 0, -9.81]\n", 1, "[time] is missing"},
     {"no cloth", "[time]\nframes = 1\n", 1, "no cloth"},
     {"unknown root key", "gravty = 1\n" + kScene, 1, "unknown key \"gravty\"; known here: time, gravity_m_s2"},
+    {"a misspelt key that is required",
+     "[time]\nframes = 1\n[[cloth]]\nsheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}\n"
+     "density_kg_m2 = 1\nstreach_n_m = 1\n",
+     6, "unknown key \"streach_n_m\"; it may be meant for stretch_n_m, which is missing"},
     {"unknown key in a part", kScene + "[[body]]\nspher = {radius_m = 1}\nsphere = {radius_m = 1}\n", 10, "\"spher\""},
     {"unknown key in a surface", kScene + "[[body]]\nsphere = {radius_m = 1, cells = 2}\n", 10, "\"cells\""},
     {"unknown key beside frames", "[time]\nframes = 6\nfps = 24\n", 3,
