@@ -22,14 +22,14 @@ constexpr double kMostBraked = 1 + std::numbers::sqrt2;
 // what is left, the collision step repels. With a hundredth a sheet at rest on a slope creeps by 3e-6 m/s.
 constexpr double kForceResidual = 1e-3;
 constexpr int kForceRounds = 12;
-// Contacts may slide where the stage is solved to this, and what they bear found to this part: so a cone may seem by as
-// much too narrow. To wait until all is found took 1.3 times the iterations in the demo.
-constexpr double kSlideResidual_m = 1e-5, kSlideResidual = 1e-2;
+// Contacts may slide where what they bear is found to this part: so a cone may seem by as much too narrow. To wait until
+// all is found took 1.3 times the iterations in the demo.
+constexpr double kSlideResidual = 1e-2;
 // With those that follow where contacts begin to slide, which others may have to follow.
 constexpr int kMostRounds = 3 * kForceRounds;
-// The stage is solved to this first, then to a tenth of it and so on while what contacts bear is not yet found: to
-// 1e-9 m from the start took 1.2 to 1.7 times the iterations in the scenes of docs/numerics.md.
-constexpr double kFirstResidual_m = 1e-3;
+// The stage is solved to this first, then to a part of how far what the contacts bear has last changed, and to 1e-9 m
+// in the end. docs/numerics.md has what other ways take.
+constexpr double kFirstResidual_m = 1e-3, kShareOfChange = 0.1;
 
 void add_stage(const StageReport& stage, DynamicsReport& report) {
   ++report.solves;
@@ -121,13 +121,15 @@ void ImplicitDynamics::step_in_contact(Motion& motion, std::span<const double> i
     all = {all.newton_rounds + stage.newton_rounds, all.cg_iterations + stage.cg_iterations, stage.residual_m,
            stage.converged};
     if (!stage.converged) break;
-    const double left = terms.update();
-    const bool may_slide = (left <= kSlideResidual && enough_m <= kSlideResidual_m) || round >= last;
+    const ForceChange change = terms.update();
+    const double left = change.share();
+    const bool may_slide = left <= kSlideResidual || round >= last;
     const bool slides = may_slide && round < kMostRounds && terms.let_slide();
     if (slides) last = round + kForceRounds;
     const bool is_found = !slides && (left <= kForceResidual || round >= last);
     if (is_found && enough_m == ImplicitStage::kResidual_m) break;
-    enough_m = is_found ? ImplicitStage::kResidual_m : std::max(ImplicitStage::kResidual_m, enough_m / 10);
+    enough_m = is_found ? ImplicitStage::kResidual_m
+                        : std::clamp(kShareOfChange * change.change_m, ImplicitStage::kResidual_m, enough_m);
   }
   add_stage(all, report);
   if (all.converged) terms.finish();  // else what they bore is worth nothing

@@ -220,8 +220,8 @@ void StageContacts::changes(const Positions& step, double share, std::vector<dou
   });
 }
 
-double StageContacts::update() {
-  double largest_change_m = 0, largest_m = 0;
+ForceChange StageContacts::update() {
+  ForceChange found;
   for (Term& term : terms_) {
     Vec3 bears = term.asked;
     bears[0] = std::max(0.0, bears[0]);
@@ -229,11 +229,11 @@ double StageContacts::update() {
     const double size = bears.tail<2>().norm();
     term.is_at_border = size > radius;
     if (term.is_at_border) bears.tail<2>() *= radius / size;
-    largest_change_m = std::max(largest_change_m, (bears - term.borne).norm() * term.mobility_1_kg);
-    largest_m = std::max(largest_m, bears[0] * term.mobility_1_kg);
+    found.change_m = std::max(found.change_m, (bears - term.borne).norm() * term.mobility_1_kg);
+    found.largest_m = std::max(found.largest_m, bears[0] * term.mobility_1_kg);
     term.borne = bears;
   }
-  return largest_change_m > 0 ? largest_change_m / std::max(largest_change_m, largest_m) : 0;
+  return found;
 }
 
 bool StageContacts::let_slide() {

@@ -2,6 +2,7 @@
 // solver's, contact moves vertices of stiff springs against all others, and strains them by more energy than moves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -15,6 +16,16 @@ namespace selvage::sim {
 /// An internal step of a collision step, from share_t0 to share_t1 of it.
 struct StageSpan {
   double share_t0 = 0, share_t1 = 1, h_s = 0;
+};
+
+/// What contacts bear, as what it would move the pair alone by: weights on light cloth count as much as blows on heavy
+/// cloth.
+struct ForceChange {
+  double change_m = 0;   ///< the largest change of a force
+  double largest_m = 0;  ///< the largest force along the normal
+
+  /// Of the change in the largest of all.
+  [[nodiscard]] double share() const { return change_m > 0 ? change_m / std::max(change_m, largest_m) : 0; }
 };
 
 /// The conditions distance >= min(thickness, distance at the start), with Coulomb's friction, as terms of the stage's
@@ -44,9 +55,8 @@ class StageContacts : public Coupling {
   /// What `step` changes in each contact's potential, one number each.
   void changes(const Positions& step, double share, std::vector<double>& terms) const;
 
-  /// Takes what was found for what the contacts bear. The largest change of a force over the largest force, both in
-  /// what they would move the pair alone by: weights on light cloth count as much as blows on heavy cloth.
-  double update();
+  /// Takes what was found for what the contacts bear.
+  ForceChange update();
   /// After the forces were found: contacts at the border of the static cone slide from now on. Whether that changes
   /// what they bear. Asked before, forces that are not found yet, or cones that open with them, had cloth slide that
   /// sticks.
