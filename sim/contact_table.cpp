@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kernel/fp_env.h"
+
 namespace selvage::sim {
 namespace {
 
@@ -24,6 +26,7 @@ InputError validate(const Mesh& mesh, const ContactSurfaces& surfaces) {
 }  // namespace
 
 ContactTable::ContactTable(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces) : mesh_(mesh) {
+  const FpEnvGuard guard;
   const bool has_surfaces = !surfaces.properties.empty() || !surfaces.surface_of_vertex.empty();
   if (has_surfaces) {
     error_ = validate(mesh, surfaces);

@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "kernel/box_hierarchy.h"
+#include "kernel/fp_env.h"
 #include "kernel/proximities.h"
 
 namespace selvage::sim {
 
 std::vector<RestPair> find_rest_pairs(const Mesh& mesh, const PositionsRef& V_rest, double thickness_m) {
+  const FpEnvGuard guard;
   std::vector<RestPair> pairs;
   if (validate(mesh, V_rest, V_rest) != InputError::kNone) return pairs;
   BoxHierarchy hierarchy(mesh);

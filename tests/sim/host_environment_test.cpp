@@ -3,6 +3,10 @@
 
 #include <cfenv>
 
+#include <xmmintrin.h>
+
+#include "sim/contact_table.h"
+#include "sim/rest_pairs.h"
 #include "tests/sim/step_scene.h"
 
 namespace selvage::sim::testing {
@@ -34,6 +38,34 @@ TEST(HostEnvironment, ThatTrapsDivisionsOrRoundsUpwardsChangesNoBit) {
   EXPECT_EQ(trapping.x, plain.x);
   const CollisionStepResult upwards = step_in([] { std::fesetround(FE_UPWARD); });
   EXPECT_EQ(upwards.x, plain.x);
+}
+
+/// What a step is made of is found in a constructor, and by find_rest_pairs(): lengths of 1e-310 m are subnormal.
+TEST(HostEnvironment, ThatFlushesSubnormalsLosesNoThickness) {
+  StepScene scene;
+  scene.add(make_sheet(8, 8, 1e-310, 1e-310), Vec3::Zero());
+  const Mesh mesh = scene.mesh();
+  ContactSurfaces surfaces;
+  surfaces.properties = {{.thickness_m = 2e-311, .tolerance_m = 1e-312}};
+  surfaces.surface_of_vertex.assign(64, 0);
+  std::vector<RestPair> pairs;
+  double thickness = 0, tolerance = 0;
+  const auto look = [&] {
+    pairs = find_rest_pairs(mesh, scene.V_t0, 2e-311);
+    surfaces.rest_pairs = pairs;
+    const CollisionStep step(mesh, {}, surfaces);
+    const ContactTable& table = step.contact_table();
+    thickness = table.thickness_upper();
+    tolerance = table.tolerance_upper();
+  };
+  selvage::testing::in_host_environment([] {}, look);
+  const std::vector<RestPair> plain = pairs;
+  ASSERT_GT(plain.size(), 100U);
+  constexpr unsigned kFlushAndDenormalsAreZero = 0x8040;
+  selvage::testing::in_host_environment([] { _mm_setcsr(_mm_getcsr() | kFlushAndDenormalsAreZero); }, look);
+  EXPECT_TRUE(pairs == plain) << pairs.size();
+  EXPECT_EQ(thickness, 2e-311);
+  EXPECT_EQ(tolerance, 1e-312);
 }
 
 }  // namespace
