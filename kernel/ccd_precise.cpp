@@ -1,5 +1,7 @@
 #include "kernel/ccd_precise.h"
 
+#include <cmath>
+
 #include "kernel/closest_point.h"
 #include "kernel/separation.h"
 
@@ -17,6 +19,15 @@ constexpr Part kNarrow = Part{kNarrowWidth} << kPartBits;
 /// Distances below this are of the order of double-double rounding, as are those that a guessed time leaves: no
 /// direction will separate them.
 constexpr double kNoPreciseGap = 0x1p-94;
+
+/// Where to split an interval that is not certified, of which a direction separates this share at the begin. Where that
+/// is tiny, half way to it in powers of two: from a whole step down to a touch this takes a third of the splits that
+/// halving does. With 2^-8 a sixth, but then more contacts of slivers end without an alarm's gap: 16 of 167,000 in the
+/// fuzzer's classes, where halving alone leaves 5 and this 1.
+double split_share(double reach_share) {
+  constexpr double kTiny = 0x1p-20;
+  return reach_share > 0 && reach_share < kTiny ? std::sqrt(reach_share) : 0.5;
+}
 
 Polygon polygon_within(const PairMotion<DoubleDouble>& motion, Part time) {
   const auto tick = static_cast<Tick>(time >> kPartBits);
@@ -75,7 +86,8 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
     } else if (middle == begin || (width <= kNarrow && is_near(closest_point(motion.kind, at_end)))) {
       return static_cast<Tick>(begin >> kPartBits);
     } else {
-      ends[depth++] = middle;
+      const auto split = static_cast<Part>(split_share(reach.share) * static_cast<double>(width));
+      ends[depth++] = split > 0 ? begin + split : middle;
     }
   }
   return std::nullopt;

@@ -293,6 +293,26 @@ TEST(Ccd, SlidingPastWithinThePlaneRaisesNoAlarm) {
   }
 }
 
+/// Their touch is approached in the times between doubles: by halving from where doubles stop, 57 intervals each.
+TEST(Ccd, TouchesWithinAPlaneTakeFewIntervals) {
+  Random random(58);
+  std::int64_t touches = 0, intervals = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto x = [&] { return random.uniform() / 2; };
+    const Points x_t0 = {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(x(), 1 + x(), 0), Vec3(x(), 2 + x(), 0)};
+    Points x_t1 = x_t0;
+    const Vec3 move(x(), -2, 0);
+    for (const std::size_t corner : {2, 3}) x_t1[corner] += move;
+    const CcdResult result = ee_ccd(x_t0, x_t1, kNoTolerance);
+    if (result.verdict == CcdVerdict::kSeparated) continue;
+    EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+    ++touches;
+    intervals += result.intervals;
+  }
+  EXPECT_GT(touches, 500);
+  EXPECT_LT(intervals, 40 * touches);
+}
+
 TEST(Ccd, TheEndIsJudgedByTheTolerance) {
   Random random(51);
   int near = 0;
