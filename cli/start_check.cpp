@@ -9,7 +9,7 @@
 
 #include "io/error.h"
 #include "sim/points.h"
-#include "sim/spring_strain.h"
+#include "sim/relax_springs.h"
 #include "sim/untangle.h"
 #include "verify/check.h"
 
@@ -113,20 +113,41 @@ std::string remedy(const sim::World& world, const Positions& x, const std::vecto
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
 }
 
-sim::UntangleResult untangle(const sim::Simulation& simulation, const sim::FindIntersections& judge) {
-  const sim::World& world = simulation.world();
-  std::vector<double> inverse_mass = world.inverse_mass;
-  std::vector<std::int32_t> body(inverse_mass.size(), -1);
-  for (std::size_t id = 0; id < world.colliders.size(); ++id) {
-    if (!world.colliders[id].holds(0)) continue;
-    for (const VertexId vertex : world.colliders[id].vertices()) {
-      inverse_mass[static_cast<std::size_t>(vertex)] = 0;
-      body[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
+/// Who is cloth at the start.
+struct StartBodies {
+  std::vector<double> inverse_mass;
+  std::vector<std::int32_t> body;
+
+  explicit StartBodies(const sim::World& world) : inverse_mass(world.inverse_mass), body(inverse_mass.size(), -1) {
+    for (std::size_t id = 0; id < world.colliders.size(); ++id) {
+      if (!world.colliders[id].holds(0)) continue;
+      for (const VertexId vertex : world.colliders[id].vertices()) {
+        inverse_mass[static_cast<std::size_t>(vertex)] = 0;
+        body[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
+      }
     }
   }
-  const sim::CollisionOptions& collision = simulation.scene().collision;
-  return sim::untangle(world.mesh, simulation.x(), {inverse_mass, body},
-                       {collision.thickness_m, collision.tolerance_m, collision.precision}, judge);
+};
+
+/// What untangle() has stretched, drawn together.
+sim::RelaxedSprings relax(const sim::Simulation& simulation, const Positions& x, const sim::CollisionBodies& bodies) {
+  const sim::World& world = simulation.world();
+  sim::CollisionOptions options = simulation.scene().collision;
+  options.friction_static = options.friction_kinetic = 0;
+  sim::CollisionStep step(world.mesh, options);
+  const double limit = simulation.scene().strain.strain;
+  return sim::relax_springs(x, world.springs, world.stabilizers.empty() ? nullptr : &world.stabilizers, step, bodies,
+                            limit > 0 ? limit : sim::StrainLimits().strain);
+}
+
+sim::StartRepair repair_of(std::int64_t pairs, const Positions& before, const Positions& after) {
+  sim::StartRepair repair{pairs};
+  for (Eigen::Index v = 0; v < before.rows(); ++v) {
+    const double moved_m = (after.row(v) - before.row(v)).stableNorm();
+    repair.moved_vertices += moved_m > 0 ? 1 : 0;
+    repair.largest_move_m = std::max(repair.largest_move_m, moved_m);
+  }
+  return repair;
 }
 
 }  // namespace
@@ -147,7 +168,13 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
                              "be all it needs"
                            : ""));
   }
-  const sim::UntangleResult result = untangle(simulation, judge);
+  const sim::World& world = simulation.world();
+  const sim::CollisionOptions& collision = simulation.scene().collision;
+  const StartBodies start(world);
+  const sim::CollisionBodies bodies{start.inverse_mass, start.body};
+  const sim::UntangleResult result =
+      sim::untangle(world.mesh, simulation.x(), bodies,
+                    {collision.thickness_m, collision.tolerance_m, collision.precision}, judge);
   if (!result.report.remaining.empty()) {
     const bool none_can = std::ranges::all_of(result.report.remaining, [&](const sim::FacePair& pair) {
       return is_without_area(pair) || is_twice(simulation.world(), pair);
@@ -157,16 +184,17 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
                "--repair found no way out for them, of {} pairs before; {}", pairs.size(),
                none_can ? remedy(simulation.world(), simulation.x(), result.report.remaining) : "move them apart"));
   }
+  const sim::RelaxedSprings relaxed = relax(simulation, result.x, bodies);
+  const sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), relaxed.x);
   sim::SimulationState state = simulation.state();
-  state.x = result.x;
+  state.x = relaxed.x;
   simulation.restore(state);
   fmt::print(stderr,
              "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged; "
-             "largest strain {:.2g}\n",
-             pairs.size(), result.report.moved_vertices, simulation.world().cloth_vertex_count,
-             result.report.largest_move_m, result.report.rounds,
-             sim::largest_strain(simulation.world().springs, simulation.x()));
-  return {std::ssize(pairs), result.report.moved_vertices, result.report.largest_move_m};
+             "{} steps drew together what was stretched, largest strain {:.2g}\n",
+             pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, result.report.rounds,
+             relaxed.steps, relaxed.largest_strain);
+  return done;
 }
 
 }  // namespace selvage::cli
