@@ -18,9 +18,9 @@ struct RelaxedSprings {
 
 /// Certified steps from rest, each as far as the springs alone draw the cloth in 1/120 s (ImplicitDynamics), until no
 /// structural or shear spring is longer by more than `strain_limit` of its length at rest, or contact lets them come no
-/// nearer to that, or after kMostRelaxSteps: the step at which they were nearest. Vertices with inverse mass 0 stay. PRE
-/// and POST: x is free of intersections, as for CollisionStep. `stabilizers` may be null. Deterministic for any number
-/// of threads.
+/// nearer to that, or after kMostRelaxSteps: the step at which they were nearest. Vertices with inverse mass 0 stay.
+/// PRE and POST: x is free of intersections, as for CollisionStep. `stabilizers` may be null. Deterministic for any
+/// number of threads.
 [[nodiscard]] RelaxedSprings relax_springs(const Positions& x, const SpringSystem& springs,
                                            const StabilizerSystem* stabilizers, CollisionStep& collision_step,
                                            const CollisionBodies& bodies, double strain_limit);
