@@ -69,7 +69,7 @@ bool touched(const CollisionStepReport& report) { return report.repulsions + rep
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene)
+Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
     : scene_(scene),
       world_(build_world(scene_)),
       lengths_(scene_, world_),
@@ -83,6 +83,7 @@ Simulation::Simulation(const Scene& scene)
       patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
 
 StepResult Simulation::step() {
+  const FpEnvGuard guard;
   StepResult result;
   const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "kernel/fp_env.h"
 #include "sim/collision_step.h"
 #include "sim/contact_load.h"
 #include "sim/dynamics.h"
@@ -38,7 +39,7 @@ struct StepResult {
 class Simulation {
  public:
   /// Builds what the scene asks for. Throws io::Error.
-  explicit Simulation(const Scene& scene);
+  explicit Simulation(const Scene& scene) : Simulation(scene, FpEnvGuard()) {}
 
   /// Advances to the end of one collision step. PRE: the state is free of intersections (build_world does not check it;
   /// the command does). Where report.status is not kSafe, nothing was advanced.
@@ -52,6 +53,8 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
+  Simulation(const Scene& scene, const FpEnvGuard& during);
+
   struct Try {
     bool failed = false;             ///< to be tried with half the step
     Motion end;                      ///< of the dynamics

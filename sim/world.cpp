@@ -7,6 +7,7 @@
 
 #include "io/fail.h"
 #include "io/mesh_reader.h"
+#include "kernel/fp_env.h"
 #include "sim/cloth.h"
 #include "sim/scene_ranges.h"
 #include "sim/time_step.h"
@@ -274,6 +275,7 @@ void require_stable_step(const Scene& scene, double stable_step_s) {
 }  // namespace
 
 World build_world(const Scene& scene) {
+  const FpEnvGuard guard;
   WorldBuilder builder(scene);
   for (const ClothSpec& cloth : scene.cloths) builder.add_cloth(cloth);
   const std::int32_t cloth_vertex_count = builder.vertex_count();

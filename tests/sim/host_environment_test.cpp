@@ -7,10 +7,14 @@
 
 #include "sim/contact_table.h"
 #include "sim/rest_pairs.h"
+#include "sim/step.h"
+#include "tests/sim/small_scene.h"
 #include "tests/sim/step_scene.h"
 
 namespace selvage::sim::testing {
 namespace {
+
+constexpr unsigned kFlushAndDenormalsAreZero = 0x8040;
 
 /// Two sheets on each other: parallel edges, whose nearest points are found by dividing by zero.
 StepScene two_sheets() {
@@ -40,6 +44,30 @@ TEST(HostEnvironment, ThatTrapsDivisionsOrRoundsUpwardsChangesNoBit) {
   EXPECT_EQ(upwards.x, plain.x);
 }
 
+/// Positions after some frames of a simulation that a host builds and steps.
+template <typename Set>
+Positions simulated_in(const Set& set, const std::string& solver) {
+  const selvage::testing::ScratchFolder folder;
+  const Scene scene = selvage::testing::write_and_read_scene(
+      folder.path() / "scene.toml", selvage::testing::small_scene_text(8, "solver = \"" + solver + "\"\n"));
+  Positions x;
+  selvage::testing::in_host_environment(set, [&] {
+    Simulation simulation(scene);
+    for (int n = 0; n < 20; ++n) EXPECT_EQ(simulation.step().report.status, StepStatus::kSafe);
+    x = simulation.x();
+  });
+  return x;
+}
+
+TEST(HostEnvironment, DoesNotChangeASimulation) {
+  for (const std::string solver : {"explicit", "implicit"}) {
+    const Positions plain = simulated_in([] {}, solver);
+    EXPECT_EQ(simulated_in([] { feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW); }, solver), plain) << solver;
+    EXPECT_EQ(simulated_in([] { std::fesetround(FE_UPWARD); }, solver), plain) << solver;
+    EXPECT_EQ(simulated_in([] { _mm_setcsr(_mm_getcsr() | kFlushAndDenormalsAreZero); }, solver), plain) << solver;
+  }
+}
+
 /// What a step is made of is found in a constructor, and by find_rest_pairs(): lengths of 1e-310 m are subnormal.
 TEST(HostEnvironment, ThatFlushesSubnormalsLosesNoThickness) {
   StepScene scene;
@@ -61,7 +89,6 @@ TEST(HostEnvironment, ThatFlushesSubnormalsLosesNoThickness) {
   selvage::testing::in_host_environment([] {}, look);
   const std::vector<RestPair> plain = pairs;
   ASSERT_GT(plain.size(), 100U);
-  constexpr unsigned kFlushAndDenormalsAreZero = 0x8040;
   selvage::testing::in_host_environment([] { _mm_setcsr(_mm_getcsr() | kFlushAndDenormalsAreZero); }, look);
   EXPECT_TRUE(pairs == plain) << pairs.size();
   EXPECT_EQ(thickness, 2e-311);
