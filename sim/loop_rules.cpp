@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "kernel/assert.h"
 #include "sim/parallel.h"
@@ -14,37 +15,41 @@
 namespace selvage::sim {
 namespace {
 
+constexpr std::size_t kLeastValence = 3;
+
 /// What is around a vertex.
 struct Ring {
   enum class Kind { kInner, kBoundary, kOther } kind = Kind::kOther;
   std::vector<VertexId> neighbours;  ///< kInner: in order around the vertex; kBoundary: its two along the boundary
 };
 
-// The faces at a vertex as arrows from neighbour to neighbour; one closed chain is an inner vertex, one open chain a
-// boundary.
+// The faces at a vertex as links between its neighbours; one closed chain is an inner vertex, one open chain a
+// boundary. Whatever way round the faces are: cloth has no outside.
 Ring ring_of(VertexId vertex, const Mesh& mesh, std::span<const FaceId> faces_at) {
-  std::map<VertexId, VertexId> next, previous;
+  std::map<VertexId, std::vector<VertexId>> linked;
   for (const FaceId face : faces_at) {
     const auto& f = mesh.faces[static_cast<std::size_t>(face)];
     const std::size_t k = f[0] == vertex ? 0 : (f[1] == vertex ? 1 : 2);
     const VertexId from = f[(k + 1) % 3], to = f[(k + 2) % 3];
-    if (!next.emplace(from, to).second || !previous.emplace(to, from).second) return {};
+    linked[from].push_back(to);
+    linked[to].push_back(from);
   }
-  if (faces_at.empty()) return {};
-  VertexId start = next.begin()->first;
-  bool open = false;
-  for (const auto& [from, to] : next) {
-    if (previous.contains(from)) continue;
-    if (open) return {};
-    open = true;
-    start = from;
-  }
+  if (linked.empty()) return {};
+  const auto is_end = [](const auto& neighbour) { return neighbour.second.size() == 1; };
+  const auto first_end = std::ranges::find_if(linked, is_end);
+  const bool open = first_end != linked.end();
   Ring ring;
-  ring.neighbours.push_back(start);
-  for (auto step = next.find(start); step != next.end() && step->second != start; step = next.find(step->second)) {
-    ring.neighbours.push_back(step->second);
-  }
-  if (ring.neighbours.size() != faces_at.size() + (open ? 1 : 0)) return {};  // several chains
+  VertexId before = -1, now = open ? first_end->first : linked.begin()->first;
+  do {
+    ring.neighbours.push_back(now);
+    const std::vector<VertexId>& beside = linked.at(now);
+    if (beside.size() > 2) return {};
+    const VertexId next = beside.front() != before ? beside.front() : beside.back();
+    if (next == before) break;  // the other end
+    before = std::exchange(now, next);
+  } while (now != ring.neighbours.front());
+  if (ring.neighbours.size() != linked.size()) return {};          // several chains
+  if (!open && ring.neighbours.size() < kLeastValence) return {};  // two faces back to back
   ring.kind = open ? Ring::Kind::kBoundary : Ring::Kind::kInner;
   if (open) ring.neighbours = {ring.neighbours.front(), ring.neighbours.back()};
   return ring;
@@ -125,7 +130,7 @@ std::vector<RuleTerm> edge_rule(const std::array<VertexId, 2>& edge, const std::
 }  // namespace
 
 RingWeights ring_weights(std::int32_t n) {
-  SELVAGE_ASSERT(n >= 3);
+  SELVAGE_ASSERT(n >= std::int32_t{kLeastValence});
   RingWeights weights;
   std::vector<double> wave(static_cast<std::size_t>(n));
   constexpr std::int32_t kLastMode = 60;  // all beyond are 2^-59 together, below the rounding of a weight
@@ -148,14 +153,15 @@ RingWeights ring_weights(std::int32_t n) {
 LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
     : edges_(coarse.edges), coarse_count_(coarse.vertex_count) {
   const auto vertex_count = static_cast<std::size_t>(coarse_count_);
-  std::vector<std::uint8_t> stays(vertex_count, 0);
+  std::vector<std::uint8_t> stays(vertex_count, 0), edge_stays(edges_.size(), 0);
   std::vector<std::vector<VertexId>> opposite(edges_.size());
   for (std::size_t f = 0; f < coarse.faces.size(); ++f) {
     const auto& face = coarse.faces[f];
     std::array<VertexId, 3> middle{};
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!rigid.empty() && rigid[f] != 0) stays[static_cast<std::size_t>(face[k])] = 1;
-      opposite[static_cast<std::size_t>(coarse.face_edges[f][k])].push_back(face[k]);
+      const auto edge = static_cast<std::size_t>(coarse.face_edges[f][k]);
+      if (!rigid.empty() && rigid[f] != 0) stays[static_cast<std::size_t>(face[k])] = edge_stays[edge] = 1;
+      opposite[edge].push_back(face[k]);
       middle[k] = coarse_count_ + coarse.face_edges[f][k];
     }
     for (std::size_t k = 0; k < 3; ++k) triangles_.push_back({face[k], middle[(k + 2) % 3], middle[(k + 1) % 3]});
@@ -169,8 +175,7 @@ LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
     rows_.push_back(stays[v] != 0 ? std::vector<RuleTerm>{} : vertex_rule(static_cast<VertexId>(v), rings[v], weights));
   }
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const bool fixed = stays[static_cast<std::size_t>(edges_[e][0])] != 0;
-    rows_.push_back(fixed ? std::vector<RuleTerm>{} : edge_rule(edges_[e], opposite[e], rings, weights));
+    rows_.push_back(edge_stays[e] != 0 ? std::vector<RuleTerm>{} : edge_rule(edges_[e], opposite[e], rings, weights));
   }
   for (const auto& row : rows_) moves_.push_back(row.empty() ? 0 : 1);
 }

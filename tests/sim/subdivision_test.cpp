@@ -1,6 +1,9 @@
 #include "sim/subdivision.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -98,6 +101,57 @@ TEST(LoopRules, KeepAPlaneAPlaneAndShrinkASphereWithinItself) {
     return x.rowwise().norm().maxCoeff() / x.rowwise().norm().minCoeff() - 1;
   };
   EXPECT_LT(unevenness(smooth), 0.5 * unevenness(split));
+}
+
+/// Where the smooth rule takes the new points, by the edge's ends.
+std::map<std::array<VertexId, 2>, Vec3> smooth_edges(const Shape& shape, const std::vector<std::uint8_t>& rigid) {
+  const Mesh mesh = mesh_of(shape);
+  const Positions fine = LoopRules(mesh, rigid).smooth(shape.x);
+  std::map<std::array<VertexId, 2>, Vec3> points;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [a, b] = mesh.edges[e];
+    points[{std::min(a, b), std::max(a, b)}] = fine.row(shape.x.rows() + static_cast<Eigen::Index>(e));
+  }
+  return points;
+}
+
+TEST(LoopRules, DoNotAskWhichWayRoundFacesAre) {
+  const Shape ball = make_sphere(1, 2);
+  Shape mixed = ball;
+  for (std::size_t f = 0; f < mixed.triangles.size(); f += 3) std::swap(mixed.triangles[f][0], mixed.triangles[f][1]);
+  const auto vertices = [](const Shape& shape) -> Positions {
+    return LoopRules(mesh_of(shape), {}).smooth(shape.x).topRows(shape.x.rows());
+  };
+  EXPECT_LE((vertices(mixed) - vertices(ball)).cwiseAbs().maxCoeff(), 1e-15);
+  const auto expected = smooth_edges(ball, {}), edges = smooth_edges(mixed, {});
+  for (const auto& [edge, point] : expected) EXPECT_LE((edges.at(edge) - point).norm(), 1e-15);
+}
+
+/// A card with two sides and one face on each.
+TEST(LoopRules, VerticesOfTwoFacesBackToBackStay) {
+  Shape card;
+  card.x.resize(3, 3);
+  card.x << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  card.triangles = {{0, 1, 2}, {0, 2, 1}};
+  const Positions fine = LoopRules(mesh_of(card), {}).smooth(card.x);
+  EXPECT_EQ(fine.topRows(3), card.x);
+  EXPECT_TRUE(fine.allFinite());
+}
+
+/// A sheet whose faces left of the middle are of a body, with its vertices in either order.
+TEST(LoopRules, EdgesFromABodyIntoClothDoNotAskWhichEndComesFirst) {
+  Shape sheet = make_sheet(7, 5, 1, 1);
+  for (Eigen::Index v = 0; v < sheet.x.rows(); ++v) sheet.x(v, 2) = std::cos(9 * sheet.x(v, 0)) * sheet.x(v, 1);
+  std::vector<std::uint8_t> rigid;
+  for (const auto& t : sheet.triangles) rigid.push_back((sheet.x(t[0], 0) + sheet.x(t[1], 0) + sheet.x(t[2], 0)) < 0);
+  Shape turned = sheet;
+  turned.x = sheet.x.colwise().reverse();
+  const auto last = static_cast<VertexId>(sheet.x.rows() - 1);
+  for (auto& t : turned.triangles) t = {last - t[0], last - t[1], last - t[2]};
+  const auto one = smooth_edges(sheet, rigid), other = smooth_edges(turned, rigid);
+  for (const auto& [edge, point] : one) {
+    EXPECT_LE((other.at({last - edge[1], last - edge[0]}) - point).norm(), 1e-15) << edge[0] << " " << edge[1];
+  }
 }
 
 TEST(Subdivision, StopsWhatWouldTouchAndStaysExactlyFree) {
