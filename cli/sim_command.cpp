@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -31,6 +32,18 @@ struct SimArguments {
   bool resume = false, strict = false, repair = false;
 };
 
+const char* name_of_pair(PairKind kind) {
+  switch (kind) {
+    case PairKind::kVf:
+      return "vertex-face";
+    case PairKind::kEe:
+      return "edge-edge";
+    case PairKind::kSelf:
+      break;
+  }
+  return "vertex and opposite edge of a face";
+}
+
 void print_witness(const sim::Simulation& simulation, const sim::CollisionStepReport& report) {
   fmt::print(stderr, "stopped at {:.6f} s: no position of the cloth is safe between its scripted bodies",
              simulation.clock().time_s());
@@ -38,10 +51,12 @@ void print_witness(const sim::Simulation& simulation, const sim::CollisionStepRe
     const sim::World& world = simulation.world();
     const Collision& pair = *report.witness;
     std::string parts;
-    for (const VertexId vertex : pair_vertices(world.mesh, pair.kind, pair.first, pair.second)) {
+    const auto vertices = pair_vertices(world.mesh, pair.kind, pair.first, pair.second);
+    const bool is_self = pair.kind == PairKind::kSelf;  // of three vertices, the first of them twice
+    for (const VertexId vertex : std::span(vertices).first(is_self ? 3 : 4)) {
       parts += fmt::format("{}{} ({})", parts.empty() ? "" : ", ", vertex, part_of_vertex(world, vertex));
     }
-    fmt::print(stderr, "; witness: {} at vertices {}", pair.kind == PairKind::kEe ? "edge-edge" : "vertex-face", parts);
+    fmt::print(stderr, "; witness: {} at vertices {}", name_of_pair(pair.kind), parts);
   }
   fmt::print(stderr, "\nmove the bodies apart, or set squeeze = \"yield\" to let them wait\n");
 }
@@ -92,10 +107,11 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
     }
     const sim::StepResult step = simulation.step();
     if (step.report.status == sim::StepStatus::kInvalidInput) {
+      const bool is_explicit = simulation.scene().solver == sim::Solver::kExplicit;
       throw io::Error(io::ErrorKind::kBadInput,
-                      fmt::format("{}: at {:.6f} s {}; lower dynamics_step_s or raise damping_ratio",
-                                  simulation.scene().file.string(), simulation.clock().time_s(),
-                                  describe(step.report.input_error)));
+                      fmt::format("{}: at {:.6f} s {}; {}", simulation.scene().file.string(),
+                                  simulation.clock().time_s(), describe(step.report.input_error),
+                                  is_explicit ? "lower dynamics_step_s or raise damping_ratio" : "lower min_step_s"));
     }
     if (step.report.status == sim::StepStatus::kStopped) {
       recorder.finish(sim::RunEnd::kStopped);

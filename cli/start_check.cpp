@@ -85,6 +85,13 @@ std::size_t count_coincident(const sim::World& world, const Positions& x, const 
   return coincident.size();
 }
 
+/// Strain has no meaning there, whatever a repair does to the corners.
+bool has_edge_without_length(const sim::World& world) {
+  return std::ranges::any_of(world.springs.springs(), [](const sim::Spring& spring) {
+    return spring.kind == sim::SpringKind::kStructural && !(spring.rest_length_m > 0);
+  });
+}
+
 /// What no repair can free is named first.
 std::string remedy(const sim::World& world, const Positions& x, const std::vector<sim::FacePair>& pairs) {
   const auto twice = [&](const sim::FacePair& pair) { return is_twice(world, pair); };
@@ -169,6 +176,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
                            : ""));
   }
   const sim::World& world = simulation.world();
+  if (has_edge_without_length(world)) refuse(simulation, pairs, remedy(world, simulation.x(), pairs));
   const sim::CollisionOptions& collision = simulation.scene().collision;
   const StartBodies start(world);
   const sim::CollisionBodies bodies{start.inverse_mass, start.body};

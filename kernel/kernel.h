@@ -8,7 +8,8 @@
 //   Answers      kSeparated is a proof about the real trajectories of the stored doubles, rounding included.
 //   Failure      bad input: InputError from validate(), which whole steps REQUIRE to be kNone: without it they stop the
 //                program (SELVAGE_REQUIRE). Limit reached: kUnresolved. Broken invariant: SELVAGE_ASSERT.
-//                Nothing throws, prints or reads a clock; equal bits in give equal bits out.
+//                Nothing throws but std::bad_alloc (whole meshes need memory), prints but what stops the program, or
+//                reads a clock; equal bits in give equal bits out.
 #pragma once
 
 #include "kernel/box_hierarchy.h"

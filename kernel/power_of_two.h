@@ -40,7 +40,7 @@ inline double times_power_upper(double value, int e) {
 /// Never above value * 2^e, nor below 0; value >= 0.
 inline double times_power_lower(double value, int e) {
   const double result = times_power(value, e);
-  const bool inexact = result > 0 && result < std::numeric_limits<double>::min();
+  const bool inexact = result > 0 && result <= std::numeric_limits<double>::min();  // to which a tie rounds up
   return inexact ? result - std::numeric_limits<double>::denorm_min() : result;
 }
 

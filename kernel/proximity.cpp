@@ -17,11 +17,11 @@ namespace detail {
 
 namespace {
 
-/// What is known without an answer: nothing but that distances are not negative.
+/// What is known without an answer: nothing but that distances are not negative. Near, to whoever must be safe.
 Proximity unknown_proximity() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Proximity result;
-  result.distance = result.distance_upper = result.point_error_bound = kInfinity;
+  result.distance_upper = result.point_error_bound = kInfinity;
   return result;
 }
 

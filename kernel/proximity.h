@@ -27,7 +27,7 @@ struct Proximity {
 };
 
 /// x = {p, a, b, c}: point p against triangle (a, b, c), which may have zero area. REQUIRES |coordinate| <=
-/// kMaxCoordinate.
+/// kMaxCoordinate, all finite; anything else answers distance 0, bracket [0, infinity], and no weights.
 [[nodiscard]] Proximity vf_proximity(const std::array<Vec3, 4>& x);
 /// x = {a, b, c, d}: edge (a, b) against edge (c, d), parallel and zero-length ones included.
 [[nodiscard]] Proximity ee_proximity(const std::array<Vec3, 4>& x);

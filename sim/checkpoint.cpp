@@ -47,7 +47,7 @@ class Source {
 
   [[noreturn]] void fail(const char* what) const {
     throw io::Error(io::ErrorKind::kBadInput,
-                    file_.string() + ": " + what + "; remove the file and start the run again without --resume");
+                    file_.string() + ": " + what + "; start the run again in another folder, or remove this one first");
   }
   std::string_view take(std::size_t count) {
     if (count > bytes_.size()) fail("the checkpoint is cut short");

@@ -278,7 +278,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
                                               const CollisionBodies& bodies, double dt_s, const Patience& patience,
                                               std::span<const RepulsionContact> held) {
   const FpEnvGuard guard;
-  CollisionStepResult result;
+  CollisionStepResult result{V_t0, Positions::Zero(V_t0.rows(), 3), {}, {}};
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
   if (result.report.input_error == InputError::kNone) result.report.input_error = impl_->contacts.error();
   if (result.report.input_error == InputError::kNone) result.report.input_error = validate_held(impl_->mesh, held);
@@ -305,8 +305,6 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   if (conflict || attempt.is_abandoned()) {
     result.report.status = conflict ? StepStatus::kStopped : StepStatus::kAbandoned;
     if (conflict) result.report.witness = conflict->collision;
-    result.x = V_t0;
-    result.velocity = Positions::Zero(V_t0.rows(), 3);
     return result;
   }
   // What is not finite was not certified, whatever the tracker says.

@@ -69,7 +69,7 @@ enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kAbandoned,    ///< the caller's Patience ended; the returned positions are V_t0
-  kInvalidInput  ///< NaN, sizes, domain: nothing was done
+  kInvalidInput  ///< NaN, sizes, domain (input_error says which): nothing was done; the returned positions are V_t0
 };
 [[nodiscard]] std::string_view name_of(StepStatus status);
 
@@ -96,7 +96,7 @@ struct CollisionStepReport {
 };
 
 struct CollisionStepResult {
-  Positions x;  ///< #V by 3: certified; exactly the doubles to store
+  Positions x;  ///< #V by 3: certified where the status is kSafe, else V_t0; exactly the doubles to store
   /// #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x; at most the largest
   /// finite double.
   Positions velocity;
@@ -134,8 +134,9 @@ class CollisionStep {
   /// For dynamics that hold contacts (held_contacts.h): those that a motion from V_t0 to V_candidate would press, to be
   /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left.
   /// Those that rest, too: which a fall by `fall`, m, of one of the two alone would press. REQUIRES valid arguments, as
-  /// above; with an invalid one there is none. O(n log n) as a step; a step from the same V_t0 need not look for near
-  /// pairs again.
+  /// above; with an invalid one there is none. Time and memory grow with the pairs nearer than a thickness, as of a
+  /// step: O(n log n) where edges are not much shorter than that, all pairs of a mesh that is smaller than its cloth is
+  /// thick. A step from the same V_t0 need not look for near pairs again.
   [[nodiscard]] std::vector<RepulsionContact> find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                             const CollisionBodies& bodies,
                                                             const Vec3& fall = Vec3::Zero());

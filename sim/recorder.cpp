@@ -1,5 +1,8 @@
 #include "sim/recorder.h"
 
+#include <cmath>
+#include <type_traits>
+
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
@@ -64,6 +67,15 @@ void remove_leftovers(const std::filesystem::path& folder) {
   }
 }
 
+/// JSON has no word for what is not finite.
+template <class Number>
+std::string json_number(Number number) {
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (!std::isfinite(number)) return "null";
+  }
+  return fmt::format("{}", number);
+}
+
 }  // namespace
 
 Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
@@ -78,8 +90,8 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
   if (!checkpoint) {
     if (writer_.frame_count() > 1) {
       throw io::Error(io::ErrorKind::kBadInput, folder_.string() +
-                                                    ": holds frames but no checkpoint.bin; choose an "
-                                                    "empty folder");
+                                                    ": holds frames but no checkpoint.bin to go on from; start the run "
+                                                    "again in another folder, or remove this one first");
     }
     writer_.truncate(0);  // killed between the first frame and the first checkpoint
     remove_leftovers(folder_);
@@ -90,7 +102,9 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
   }
   if (checkpoint->scene_fingerprint != fingerprint_) {
     throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: the checkpoint belongs to another scene; resume with the scene that wrote it",
+                    fmt::format("{}: the checkpoint belongs to another scene: the scene file, one of its meshes or "
+                                "--quality is not what it was; resume with those that wrote it (--frames makes a run "
+                                "longer), or start again in another folder",
                                 (folder_ / kCheckpointFile).string()));
   }
   writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
@@ -114,8 +128,9 @@ void Recorder::finish(RunEnd end) {
   std::string json = fmt::format("{{\n  \"schema\": \"selvage.run/1\",\n  \"producer\": \"{}\",\n  \"end\": \"{}\",\n",
                                  producer_, name_of(end));
   json += fmt::format("  \"time_s\": {},\n", simulation_.clock().time_s());
-  for_each_total(totals_,
-                 [&](const char* name, const auto& field) { json += fmt::format("  \"{}\": {},\n", name, field); });
+  for_each_total(totals_, [&](const char* name, const auto& field) {
+    json += fmt::format("  \"{}\": {},\n", name, json_number(field));
+  });
   json += fmt::format("  \"scene_fingerprint\": \"{:016x}\"\n}}\n", fingerprint_);
   io::write_atomically(folder_ / kRunFile, json);
 }

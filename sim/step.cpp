@@ -153,7 +153,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
       tried.loads = contacts.loads();
       held_to_the_end = contacts.contacts();
     }
-    tried.failed = result.dynamics.unconverged > 0 && can_halve();
+    tried.failed = can_halve() && (result.dynamics.unconverged > 0 || !candidate.allFinite());
     if (tried.failed) return tried;
     const bool is_last = round == kHoldingRounds;
     {

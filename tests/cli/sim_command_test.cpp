@@ -155,16 +155,20 @@ TEST_F(SimCommand, AMeshThatNoRepairCanFreeSaysWhatIsWrongWithIt) {
   struct Case {
     const char* faces;
     const char* message;
+    bool is_asked_to_repair = false;
   };
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 0 0\nv 1 0 0\nv 0 1 0\n";
-  for (const auto& [faces, message] :
+  for (const auto& [faces, message, is_asked_to_repair] :
        {Case{"f 1 2 3\nf 1 2 5\n", "take the faces without area out of the mesh"},
+        {"f 1 2 3\nf 2 4 6\n", "take the faces without area out of the mesh"},
+        {"f 1 2 3\nf 2 4 6\n", "take the faces without area out of the mesh", true},
         {"f 1 2 3\nf 2 4 3\nf 3 1 2\n", "faces 0 and 2 have the same corners: take one of them out of the mesh"},
         {"f 1 2 3\nf 6 4 7\n",
          "; 4 of their vertices lie where another one lies: along a seam, export one for both"}}) {
     spit(path("cloth.obj"), vertices + faces);
     const auto run =
-        sim("[time]\nframes = 1\n[[cloth]]\nmesh = {file = \"cloth.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n");
+        sim("[time]\nframes = 1\n[[cloth]]\nmesh = {file = \"cloth.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n",
+            is_asked_to_repair ? std::vector<std::string>{"--repair"} : std::vector<std::string>{});
     EXPECT_EQ(run.exit_code, 3) << run.err;
     EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
   }

@@ -313,6 +313,11 @@ TEST(ScalingByPowersOfTwo, RoundsTheStatedWay) {
     const double unit = detail::times_power(value, -detail::exponent_of(value));
     EXPECT_TRUE(unit >= 0.5 && unit < 1);
   }
+  // A tie between the largest subnormal number and the least normal one, to which it rounds.
+  const double value = 1 - 0x1p-53;
+  const Rational real = testing::scaled_exactly(exact(value), -1022);
+  EXPECT_TRUE(exact(detail::times_power_lower(value, -1022)) <= real);
+  EXPECT_TRUE(exact(detail::times_power_upper(value, -1022)) >= real);
 }
 
 }  // namespace selvage

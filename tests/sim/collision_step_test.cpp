@@ -424,7 +424,8 @@ TEST(CollisionStep, InvalidInputDoesNothing) {
   const CollisionStepResult result = scene.step();
   EXPECT_EQ(result.report.status, StepStatus::kInvalidInput);
   EXPECT_EQ(result.report.input_error, InputError::kNotFinite);
-  EXPECT_EQ(result.x.rows(), 0);
+  EXPECT_EQ(result.x, scene.V_t0);
+  EXPECT_EQ(result.velocity, Positions::Zero(scene.V_t0.rows(), 3));
 }
 
 TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -283,6 +284,17 @@ TEST_F(RecorderTest, RunJsonHasTheTotals) {
         std::string("\"end\": \"complete\""), "\"steps\": " + std::to_string(recorder.totals().steps) + ","}) {
     EXPECT_NE(json.find(part), std::string::npos) << part;
   }
+}
+
+TEST_F(RecorderTest, RunJsonIsJsonWhateverTheNumbersAre) {
+  Simulation simulation(scene_);
+  Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
+  StepResult step = simulation.step();
+  step.largest_strain = std::numeric_limits<double>::infinity();
+  recorder.record(step);
+  recorder.finish(RunEnd::kComplete);
+  const std::string json = slurp(folder_.path() / "out" / "run.json");
+  EXPECT_NE(json.find("\"largest_strain\": null,"), std::string::npos) << json;
 }
 
 TEST_F(RecorderTest, PhasesOfARunAreTimed) {

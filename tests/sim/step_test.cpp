@@ -57,6 +57,19 @@ TEST(Simulation, FreeFallIsExactInPositionAndVelocity) {
   }
 }
 
+// Drag of 10^6 1/m on a sheet at 1 km/s: the dynamics of the longest step leaves the doubles, that of a shorter one not.
+TEST(Simulation, AStepThatLeavesTheNumbersIsShortened) {
+  Simulation simulation(parse_scene(
+      "quadratic_drag_1_m = 1e6\ngravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 1e-3\nframes = 1\n[[cloth]]\n"
+      "sheet = {nx = 6, ny = 6, width_m = 0.5, height_m = 0.5}\ndensity_kg_m2 = 0.2\nstretch_n_m = 1e-3\n"
+      "velocity_m_s = [1e3, 0, 0]\n",
+      "drag.toml"));
+  const StepResult step = simulation.step();
+  EXPECT_EQ(step.report.status, StepStatus::kSafe);
+  EXPECT_GT(step.halvings, 0);
+  EXPECT_TRUE(simulation.x().allFinite());
+}
+
 // A sheet 1 m wide that flies by 2 km a frame, farther than a step may go; then one whose step cannot be shortened.
 TEST(Simulation, AStepThatGoesTooFarIsShortenedOrSaysThatItWasCut) {
   const std::string sheet =
