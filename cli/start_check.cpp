@@ -136,12 +136,27 @@ struct StartBodies {
   }
 };
 
+/// What keeps parts apart in the scene; nothing rubs while a start is repaired.
+sim::UntangleOptions untangle_options(const sim::Simulation& simulation) {
+  const sim::CollisionOptions& collision = simulation.scene().collision;
+  sim::UntangleOptions options{collision.thickness_m, collision.tolerance_m, collision.precision,
+                               simulation.world().contacts};
+  for (sim::ContactProperties& part : options.surfaces.properties) {
+    part.friction_static = part.friction_kinetic = 0;
+    options.gap_m = std::max(options.gap_m, part.thickness_m);
+  }
+  return options;
+}
+
 /// What untangle() has stretched, drawn together.
-sim::RelaxedSprings relax(const sim::Simulation& simulation, const Positions& x, const sim::CollisionBodies& bodies) {
+sim::RelaxedSprings relax(const sim::Simulation& simulation, const Positions& x, const sim::CollisionBodies& bodies,
+                          const sim::UntangleOptions& untangled) {
   const sim::World& world = simulation.world();
-  sim::CollisionOptions options = simulation.scene().collision;
-  options.friction_static = options.friction_kinetic = 0;
-  sim::CollisionStep step(world.mesh, options);
+  sim::CollisionOptions options;
+  options.thickness_m = untangled.gap_m;
+  options.tolerance_m = untangled.tolerance_m;
+  options.precision = untangled.precision;
+  sim::CollisionStep step(world.mesh, options, untangled.surfaces);
   const double limit = simulation.scene().strain.strain;
   return sim::relax_springs(x, world.springs, world.stabilizers.empty() ? nullptr : &world.stabilizers, step, bodies,
                             limit > 0 ? limit : sim::StrainLimits().strain);
@@ -177,12 +192,10 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   }
   const sim::World& world = simulation.world();
   if (has_edge_without_length(world)) refuse(simulation, pairs, remedy(world, simulation.x(), pairs));
-  const sim::CollisionOptions& collision = simulation.scene().collision;
   const StartBodies start(world);
-  const sim::CollisionBodies bodies{start.inverse_mass, start.body};
-  const sim::UntangleResult result =
-      sim::untangle(world.mesh, simulation.x(), bodies,
-                    {collision.thickness_m, collision.tolerance_m, collision.precision}, judge);
+  const sim::CollisionBodies bodies{start.inverse_mass, start.body, sim::SqueezePolicy::kStop, world.body_count};
+  const sim::UntangleOptions options = untangle_options(simulation);
+  const sim::UntangleResult result = sim::untangle(world.mesh, simulation.x(), bodies, options, judge);
   if (!result.report.remaining.empty()) {
     const bool none_can = std::ranges::all_of(result.report.remaining, [&](const sim::FacePair& pair) {
       return is_without_area(pair) || is_twice(simulation.world(), pair);
@@ -192,7 +205,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
                "--repair found no way out for them, of {} pairs before; {}", pairs.size(),
                none_can ? remedy(simulation.world(), simulation.x(), result.report.remaining) : "move them apart"));
   }
-  const sim::RelaxedSprings relaxed = relax(simulation, result.x, bodies);
+  const sim::RelaxedSprings relaxed = relax(simulation, result.x, bodies, options);
   const sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), relaxed.x);
   sim::SimulationState state = simulation.state();
   state.x = relaxed.x;

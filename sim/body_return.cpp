@@ -26,9 +26,13 @@ CollisionOptions step_options(const UntangleOptions& untangle) {
   return options;
 }
 
+CollisionStep make_step(const UntangleState& state) {
+  return {state.mesh, step_options(state.options), state.options.surfaces};
+}
+
 class BodyReturn {
  public:
-  explicit BodyReturn(UntangleState& state) : state_(state), step_(state.mesh, step_options(state.options)) {
+  explicit BodyReturn(UntangleState& state) : state_(state), step_(make_step(state)) {
     for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
       if (state.mesh.vertex_owner[static_cast<std::size_t>(v)] < 0) continue;
       (state.is_body(v) ? body_box_ : cloth_box_).extend(Vec3(state.x.row(v)));
@@ -137,8 +141,7 @@ void approach_start(UntangleState& state) {
   for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
     if (state.x.row(v) == state.V.row(v)) inverse_mass[static_cast<std::size_t>(v)] = 0;
   }
-  CollisionOptions options = step_options(state.options);
-  CollisionStep step(state.mesh, options);
+  CollisionStep step = make_step(state);
   double left = (state.x - state.V).norm();
   for (int n = 0; n < kApproachSteps && left > 0; ++n) {
     Positions candidate = state.x;

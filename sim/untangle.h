@@ -25,6 +25,8 @@ struct UntangleOptions {
   double gap_m = 1e-3;        ///< that is tried to be left between what was apart, > 0: the thickness of the cloth
   double tolerance_m = 1e-6;  ///< as CollisionOptions
   CollisionOptions::Precision precision = CollisionOptions::Precision::kFloat64;
+  /// Of parts that have a thickness and tolerance of their own, as for CollisionStep; gap_m is the largest of them then.
+  ContactSurfaces surfaces = {};
 };
 
 struct UntangleReport {

@@ -57,7 +57,8 @@ TEST(Simulation, FreeFallIsExactInPositionAndVelocity) {
   }
 }
 
-// Drag of 10^6 1/m on a sheet at 1 km/s: the dynamics of the longest step leaves the doubles, that of a shorter one not.
+// Drag of 10^6 1/m on a sheet at 1 km/s: the dynamics of the longest step leaves the doubles, that of a shorter one
+// not.
 TEST(Simulation, AStepThatLeavesTheNumbersIsShortened) {
   Simulation simulation(parse_scene(
       "quadratic_drag_1_m = 1e6\ngravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 1e-3\nframes = 1\n[[cloth]]\n"

@@ -30,6 +30,7 @@ UntangleResult untangle_scene(const StepScene& scene, double gap_m = 1e-3) {
   UntangleOptions options;
   options.gap_m = gap_m;
   options.precision = scene.options.precision;
+  options.surfaces = scene.surfaces;
   return untangle(scene.mesh(), scene.V_t0, scene.bodies(), options, exact_judge(scene));
 }
 
@@ -206,6 +207,34 @@ TEST(Untangle, EndsCleanOrSaysWhatRemains) {
   }
   EXPECT_GT(tangled, 20);
   EXPECT_GE(repaired, tangled * 9 / 10) << "of " << tangled;
+}
+
+/// Thick cloth and a thick ball that overlap a little: left as near as thin ones, they would be thrown apart.
+TEST(Untangle, PartsKeepTheTolerancesThatTheyHave) {
+  for (const double tolerance_m : {1e-6, 0.008}) {
+    StepScene scene;
+    const StepScene::Part sheet = scene.add(make_sheet(12, 12, 0.3, 0.3), Vec3(0, 0, 0.099));
+    scene.add(make_sphere(0.1, 2), Vec3::Zero(), 0);
+    scene.surfaces.properties = {{.thickness_m = 0.01, .tolerance_m = tolerance_m}};
+    scene.surfaces.surface_of_vertex.assign(static_cast<std::size_t>(scene.V_t0.rows()), 0);
+    const UntangleResult result = untangle_scene(scene);
+    EXPECT_EQ(defect_of(scene, result), "");
+    EXPECT_TRUE(result.report.remaining.empty());
+    const Mesh mesh = scene.mesh();
+    BoxHierarchy hierarchy(mesh);
+    double nearest_m = 1;
+    for (const PairProximity& pair : find_proximities(mesh, hierarchy, result.x, 0.01)) {
+      const auto vertices = pair_vertices(mesh, pair.kind, pair.first, pair.second);
+      const bool is_between = std::ranges::any_of(vertices, [&](VertexId v) { return v < sheet.end; }) &&
+                              std::ranges::any_of(vertices, [&](VertexId v) { return v >= sheet.end; });
+      if (is_between) nearest_m = std::min(nearest_m, pair.proximity.distance);
+    }
+    if (tolerance_m > 1e-3) {
+      EXPECT_GE(nearest_m, tolerance_m);
+    } else {
+      EXPECT_LT(nearest_m, 0.008) << "the scene asks for something";
+    }
+  }
 }
 
 }  // namespace selvage::sim::testing
