@@ -1,6 +1,7 @@
 #include "cli/subdivide_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -48,16 +49,27 @@ std::vector<std::uint8_t> body_faces(std::size_t face_count, const std::vector<i
   return is_body;
 }
 
-/// Exactly; the stated number of pairs that intersect. Of no meaning once a signal has arrived.
-std::int64_t intersections(const io::Triangles& triangles, const std::vector<io::Group>& groups, const io::Points& V) {
+/// Of a frame, exactly.
+struct Intersections {
+  std::int64_t count = 0;
+  std::array<std::int32_t, 2> first{};  ///< faces; twice the same for one without area
+};
+
+/// Of no meaning once a signal has arrived.
+Intersections find_intersections(const io::Triangles& triangles, const std::vector<io::Group>& groups,
+                                 const io::Points& V) {
   const std::vector<std::uint8_t> is_body = body_faces(triangles.size(), groups);
   verify::CheckOptions options;
   options.max_violations = 1;
   options.stop = interrupted;
   try {
-    return verify::check_frame(verify::Surface{triangles, is_body}, V, options).violations_total.total();
+    const verify::CheckResult found = verify::check_frame(verify::Surface{triangles, is_body}, V, options);
+    if (found.violations.empty()) return {};
+    const verify::Violation& first = found.violations.front();
+    const bool one_face = first.event == verify::EventKind::kSelf;  // a vertex, and its face without area
+    return {found.violations_total.total(), {first.features[one_face ? 1 : 0], first.features[1]}};
   } catch (const verify::Stopped&) {
-    return 0;
+    return {};
   }
 }
 
@@ -99,22 +111,47 @@ io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, cons
 struct FineFrame {
   io::Points points;
   sim::SubdivisionCounts counts;
-  std::int64_t before = 0, after = 0;  ///< pairs that intersect
+  Intersections before, after;
 };
 
 FineFrame subdivide(const sim::Subdivision& subdivision, const io::MeshData& mesh,
                     const std::vector<io::Group>& groups) {
   FineFrame fine;
-  fine.before = intersections(mesh.triangles, groups, mesh.points);
-  if (fine.before > 0) return fine;  // section 8 begins with a frame that is free of intersections
+  fine.before = find_intersections(mesh.triangles, groups, mesh.points);
+  if (fine.before.count > 0) return fine;  // section 8 begins with a frame that is free of intersections
   Positions V(static_cast<Eigen::Index>(mesh.points.size()), 3);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     V.row(static_cast<Eigen::Index>(i)) << mesh.points[i][0], mesh.points[i][1], mesh.points[i][2];
   }
   fine.points = sim::points_of(subdivision(V, fine.counts, interrupted));
   if (interrupted()) return fine;
-  fine.after = intersections(subdivision.triangles(), subdivision.groups(), fine.points);
+  fine.after = find_intersections(subdivision.triangles(), subdivision.groups(), fine.points);
   return fine;
+}
+
+std::string pairs_intersect(std::int64_t count) {
+  return count == 1 ? "1 pair intersects" : fmt::format("{} pairs intersect", count);
+}
+
+/// What keeps the frame from being written, as faces of the input.
+std::string describe(const FineFrame& fine, std::int32_t levels) {
+  const bool is_input = fine.before.count > 0;
+  const Intersections& found = is_input ? fine.before : fine.after;
+  const std::int32_t parts = is_input ? 1 : 1 << (2 * levels);  // face f becomes faces 4 f .. 4 f + 3 at every level
+  const std::string where =
+      found.first[0] == found.first[1]
+          ? fmt::format("the first is face {}, which has no area", found.first[0] / parts)
+          : fmt::format("the first of faces {} and {}", found.first[0] / parts, found.first[1] / parts);
+  if (is_input) {
+    return fmt::format(
+        "{} already, {}; nothing is written: free the frame, or subdivide the others one by one with --frame",
+        pairs_intersect(found.count), where);
+  }
+  return fmt::format(
+      "{} after subdivision, {}, which are nearer than midpoints can be rounded; nothing is written: move them apart, "
+      "or "
+      "subdivide the other frames one by one with --frame",
+      pairs_intersect(found.count), where);
 }
 
 ExitCode run(const SubdivideArguments& arguments) {
@@ -157,9 +194,8 @@ ExitCode run(const SubdivideArguments& arguments) {
       return ExitCode::kInterrupted;
     }
     for (std::size_t k = 0; k < fine.size(); ++k) {
-      if (fine[k].before + fine[k].after > 0) {
-        fmt::print("{}: {} pairs intersect {}; nothing is written\n", input->frame_name(frame + k),
-                   fine[k].before + fine[k].after, fine[k].before > 0 ? "already" : "after subdivision");
+      if (fine[k].before.count + fine[k].after.count > 0) {
+        fmt::print(stderr, "selvage: {}: {}\n", input->frame_name(frame + k), describe(fine[k], arguments.levels));
         return ExitCode::kViolation;
       }
       written.points = std::move(fine[k].points);
@@ -171,7 +207,14 @@ ExitCode run(const SubdivideArguments& arguments) {
   output->finish();
   fmt::print("{} frames, {} faces to {}\n", end - begin, first.triangles.size(), subdivision.triangles().size());
   fmt::print("vertices stopped before a touch {}, in {} further rounds\n", counts.stopped, counts.rounds);
-  fmt::print("every frame checked exactly, before and after: 0 intersections\n");
+  const std::vector<std::uint8_t> is_body = body_faces(first.triangles.size(), groups);
+  const auto bodies = std::ranges::count(is_body, 1);
+  if (bodies == std::ssize(is_body)) {
+    fmt::print("nothing was smoothed or checked: all faces belong to bodies\n");
+  } else {
+    fmt::print("every frame checked exactly, before and after: 0 intersections{}\n",
+               bodies > 0 ? "; bodies not against each other or themselves" : "");
+  }
   return ExitCode::kClean;
 }
 

@@ -63,7 +63,7 @@ TEST(SubdivideCommand, RefusesFramesThatIntersect) {
   record(folder.path() / "run", 0);
   const auto result = run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_NE(result.out.find("intersect already"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find(" already, the first of faces "), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
 }
 
@@ -97,6 +97,25 @@ TEST(SubdivideCommand, WhatCannotBeSubdividedIsNamedAndLeavesNothing) {
   EXPECT_EQ(none.exit_code, 3);
   expect_text(none.err, "none.ply: no faces: there is nothing to subdivide");
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
+TEST(SubdivideCommand, SaysWhatItDidNotCheck) {
+  const TemporaryFolder folder;
+  using Role = io::Group::Role;
+  const io::Triangles triangles = {{0, 1, 2}, {3, 4, 5}};
+  for (const Role second : {Role::kCloth, Role::kBody}) {
+    const fs::path name = folder.path() / (second == Role::kBody ? "bodies" : "both");
+    io::SequenceWriter(name, {triangles,
+                              {{"stone", Role::kBody, 0, 1}, {"other", second, 1, 2}},
+                              io::SequenceKind::kFrames,
+                              io::Precision::kFloat64,
+                              "test"})
+        .append(0, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
+    const auto result = run_program(folder, {"subdivide", name, "-o", name.string() + "-fine"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    expect_text(result.out, second == Role::kBody ? "nothing was smoothed or checked: all faces belong to bodies"
+                                                  : "0 intersections; bodies not against each other or themselves");
+  }
 }
 
 TEST(SubdivideCommand, AFrameAloneHasItsOwnFacesAndGroups) {
