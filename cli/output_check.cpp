@@ -33,6 +33,15 @@ void require_no_dash(const fs::path& output) {
   throw UsageError("-: results are not written to standard output; name a file, /dev/stdout, or ./- for that name");
 }
 
+/// A slip of the hand: reports are named .json, .html or .png, and replace what they were before.
+void require_no_input(const fs::path& output) {
+  constexpr auto kInputs = std::to_array({".toml", ".obj", ".ply", ".npz", ".npy", ".pc2", ".mdd", ".csv"});
+  const auto names_one = [&](const char* extension) { return io::has_extension(output, extension); };
+  std::error_code absent;
+  if (!fs::is_regular_file(output, absent) || std::ranges::none_of(kInputs, names_one)) return;
+  throw UsageError(output.string() + " is there already, and a report would take its place; name another file");
+}
+
 }  // namespace
 
 void require_folder_name(const fs::path& output) {
@@ -55,6 +64,7 @@ void require_separate_outputs(const std::vector<fs::path>& inputs, const std::ve
     if (fs::exists(output, absent) && std::ranges::any_of(inputs, is_output)) {
       throw UsageError(output.string() + " is read, and would be overwritten; name another file");
     }
+    require_no_input(output);
     for (std::size_t k = 0; k < i; ++k) {
       if (outputs[k].empty() || !is_output(outputs[k])) continue;
       throw UsageError(output.string() + " is named for two outputs, and would be overwritten; name another file");

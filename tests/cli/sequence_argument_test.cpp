@@ -148,6 +148,20 @@ TEST(SequenceArgument, NoFileOfASequenceFolderIsOverwritten) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(run_program(folder, {"verify", run, "--json", run / "r.json"}).exit_code, 0);
 }
 
+TEST(SequenceArgument, NoReportTakesThePlaceOfAMeshOrAScene) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", other = folder.path() / "other.obj", scene = folder.path() / "s.toml";
+  for (const auto& file : {mesh, other, scene}) spit(file, kTwoFaces);
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", mesh, "--json", other},
+                                                    {"verify", mesh, "--html", scene},
+                                                    {"view", mesh, "-o", scene}}) {
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments[0] << result.out << result.err;
+    EXPECT_NE(result.err.find(arguments.back() + " is there already"), std::string::npos) << result.err;
+  }
+  for (const auto& file : {mesh, other, scene}) EXPECT_EQ(testing::slurp(file), kTwoFaces);
+}
+
 TEST(SequenceArgument, NoPartOfACampaignIsOverwritten) {
   const TemporaryFolder folder;
   const auto part = folder.path() / "part", ledger = part / "campaign.json";
