@@ -78,6 +78,7 @@ struct ClothSpec {
   double damping_ratio = 0;       ///< of each spring's critical damping
   std::vector<PinSpec> pins;
   std::optional<ContactProperties> contact;  ///< none: the scene's
+  std::size_t thickness_line = 0;  ///< in the file; whether the cloth is too thick for its mesh shows only in the world
 };
 
 struct BodySpec {

@@ -162,6 +162,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   note_stiffest(table, cloth);
   cloth.damping_ratio = table.number("damping_ratio", {0, 10}, 0);
   cloth.contact = contacts.read(table, true);
+  cloth.thickness_line = table.line("thickness_m");
   std::set<VertexId> pinned;
   for (TomlTable& pin_table : table.tables("pin")) {
     cloth.pins.push_back(read_pin(pin_table, cloth.surface));

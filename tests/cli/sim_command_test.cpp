@@ -112,6 +112,7 @@ TEST_F(SimCommand, WhatShowsOnlyInTheWorldNamesFileAndLineToo) {
            "shear_n_m = 1e20\n",
        13, 3, "\"stiff\": its springs are stable below steps of "},
       {"mesh = {file = \"flat.obj\"}\n", 3, 3, "\"cloth\" has no mass"},
+      {sheet + "thickness_m = 4.1\n", 7, 3, "is 4.1 m thick, more than 4 of its edges of 1 m"},
       {"mesh = {file = \"flat.obj\"}\nmasses = \"area\"\n", 7, 3, "give its faces an area"},
       {"mesh = {file = \"loose.obj\"}\nmasses = \"area\"\n", 7, 3, "or use masses = \"equal\""},
   };
