@@ -28,11 +28,7 @@ std::string part_of_face(const sim::World& world, FaceId face) {
 
 /// Exact; pairs of bodies are left out.
 sim::FindIntersections exact_judge(const sim::World& world) {
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-  }
+  const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
   const auto vertex_count = static_cast<std::size_t>(world.x_t0.rows());
   return [topology = verify::make_topology({world.triangles, is_body}, vertex_count)](const Positions& x) {
     verify::CheckOptions options;

@@ -40,15 +40,6 @@ struct SubdivideArguments {
 // 4^6 times the faces; a scene's draft has 10^7 then.
 constexpr std::int32_t kMaxLevels = 6;
 
-std::vector<std::uint8_t> body_faces(std::size_t face_count, const std::vector<io::Group>& groups) {
-  std::vector<std::uint8_t> is_body(face_count, 0);
-  for (const io::Group& group : groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-  }
-  return is_body;
-}
-
 /// Of a frame, exactly.
 struct Intersections {
   std::int64_t count = 0;
@@ -58,7 +49,7 @@ struct Intersections {
 /// Of no meaning once a signal has arrived.
 Intersections find_intersections(const io::Triangles& triangles, const std::vector<io::Group>& groups,
                                  const io::Points& V) {
-  const std::vector<std::uint8_t> is_body = body_faces(triangles.size(), groups);
+  const std::vector<std::uint8_t> is_body = io::body_faces(triangles.size(), groups);
   verify::CheckOptions options;
   options.max_violations = 1;
   options.stop = interrupted;
@@ -207,7 +198,7 @@ ExitCode run(const SubdivideArguments& arguments) {
   output->finish();
   fmt::print("{} frames, {} faces to {}\n", end - begin, first.triangles.size(), subdivision.triangles().size());
   fmt::print("vertices stopped before a touch {}, in {} further rounds\n", counts.stopped, counts.rounds);
-  const std::vector<std::uint8_t> is_body = body_faces(first.triangles.size(), groups);
+  const std::vector<std::uint8_t> is_body = io::body_faces(first.triangles.size(), groups);
   const auto bodies = std::ranges::count(is_body, 1);
   if (bodies == std::ssize(is_body)) {
     fmt::print("nothing was smoothed or checked: all faces belong to bodies\n");

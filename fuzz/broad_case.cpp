@@ -85,7 +85,7 @@ BroadTrial try_broad(const MeshCase& kept) {
       return trial;
     }
   }
-  const Mesh mesh = mesh_of(kept.faces, kept.vertex_count());
+  const Mesh mesh = make_mesh(static_cast<std::int32_t>(kept.vertex_count()), kept.faces);
   std::vector<BoxHierarchy> hierarchies;
   for (const HierarchyName& one : kHierarchies) hierarchies.emplace_back(mesh, one.kind);
   for (std::size_t motion = 0; motion < 2; ++motion) {

@@ -14,12 +14,7 @@ namespace {
 constexpr std::int64_t kMostSteps = 1000000;
 
 verify::Topology topology_of(const sim::World& world) {
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    for (std::int32_t face = group.face_begin; face < group.face_end; ++face)
-      is_body[static_cast<std::size_t>(face)] = 1;
-  }
+  const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
   return verify::make_topology({world.triangles, is_body}, static_cast<std::size_t>(world.x_t0.rows()));
 }
 

@@ -108,16 +108,8 @@ std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult&
   return count + result.violations_total.total() - static_cast<std::int64_t>(result.violations.size());
 }
 
-Mesh mesh_of(const Triples& triples, std::size_t vertex_count) {
-  Faces faces(static_cast<Eigen::Index>(triples.size()), 3);
-  for (std::size_t i = 0; i < triples.size(); ++i) {
-    for (int k = 0; k < 3; ++k) faces(static_cast<Eigen::Index>(i), k) = triples[i][static_cast<std::size_t>(k)];
-  }
-  return make_mesh(static_cast<std::int32_t>(vertex_count), faces);
-}
-
 void connect(StepWorld& world, const Triples& faces) {
-  world.mesh = mesh_of(faces, world.inverse_mass.size());
+  world.mesh = make_mesh(static_cast<std::int32_t>(world.inverse_mass.size()), faces);
   world.topology = verify::make_topology({faces, body_faces(world, faces)}, world.inverse_mass.size());
 }
 

@@ -34,7 +34,6 @@ struct StepWorld {
 };
 
 using Triples = std::vector<std::array<std::int32_t, 3>>;
-[[nodiscard]] Mesh mesh_of(const Triples& faces, std::size_t vertex_count);
 /// Sets mesh and topology. REQUIRES that the masses are set, which say what is scripted.
 void connect(StepWorld& world, const Triples& faces);
 /// Whether nothing of the cloth intersects, exactly.

@@ -31,23 +31,13 @@ Frame frame_of(const MeshCase& kept) {
   return frame;
 }
 
-std::vector<std::uint8_t> body_faces(const std::vector<io::Group>& groups) {
-  std::vector<std::uint8_t> flags;
-  for (const io::Group& group : groups) {
-    flags.insert(flags.end(), static_cast<std::size_t>(group.face_end - group.face_begin),
-                 group.role == io::Group::Role::kBody ? 1 : 0);
-  }
-  return flags;
-}
-
 verify::Topology topology_of(const Frame& frame) {
-  const std::vector<std::uint8_t> is_body = body_faces(frame.groups);
-  SELVAGE_ASSERT(is_body.size() == frame.triangles.size());
+  const std::vector<std::uint8_t> is_body = io::body_faces(frame.triangles.size(), frame.groups);
   return verify::make_topology({frame.triangles, is_body}, static_cast<std::size_t>(frame.x.rows()));
 }
 
 bool bodies_moved(const Frame& fine, const Positions& start) {
-  const std::vector<std::uint8_t> is_body = body_faces(fine.groups);
+  const std::vector<std::uint8_t> is_body = io::body_faces(fine.triangles.size(), fine.groups);
   for (std::size_t f = 0; f < is_body.size(); ++f) {
     for (const VertexId v : fine.triangles[f]) {
       if (is_body[f] != 0 && fine.x.row(v) != start.row(v)) return true;
@@ -62,8 +52,8 @@ bool subdivide(Frame& frame, SubdivisionTrial& trial) {
   sim::SubdivisionCounts counts;
   const Frame fine{subdivision.triangles(), subdivision.groups(), subdivision(frame.x, counts)};
   const verify::Topology topology = topology_of(fine);
-  const auto vertex_count = static_cast<std::size_t>(frame.x.rows());
-  const sim::LoopRules rules(mesh_of(frame.triangles, vertex_count), body_faces(frame.groups));
+  const sim::LoopRules rules(make_mesh(static_cast<std::int32_t>(frame.x.rows()), frame.triangles),
+                             io::body_faces(frame.triangles.size(), frame.groups));
   const Positions start = rules.midpoints(frame.x);
   const std::vector<verify::Point> before = sim::points_of(start), after = sim::points_of(fine.x);
   const std::string level = "level " + std::to_string(trial.levels + 1);

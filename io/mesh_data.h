@@ -23,6 +23,10 @@ struct Group {
   friend bool operator==(const Group&, const Group&) = default;
 };
 
+/// Of each of `face_count` faces: 1 where a group with the role of a body has it, else 0. O(faces). REQUIRES groups
+/// within the faces.
+[[nodiscard]] std::vector<std::uint8_t> body_faces(std::size_t face_count, const std::vector<Group>& groups);
+
 struct MeshData {
   Points points;
   Triangles triangles;

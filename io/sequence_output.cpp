@@ -100,12 +100,8 @@ std::unique_ptr<SequenceOutput> create_output(const fs::path& target, OutputHead
 }
 
 std::string role_bytes(std::size_t face_count, const std::vector<Group>& groups) {
-  std::string roles(face_count, '\0');
-  for (const Group& group : groups) {
-    if (group.role != Group::Role::kBody) continue;
-    std::fill(roles.begin() + group.face_begin, roles.begin() + group.face_end, '\1');
-  }
-  return roles;
+  const std::vector<std::uint8_t> is_body = body_faces(face_count, groups);
+  return {is_body.begin(), is_body.end()};
 }
 
 fs::path frame_path(const fs::path& target, std::size_t frame, const char* extension) {

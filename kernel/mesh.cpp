@@ -121,6 +121,11 @@ Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F) {
   return mesh;
 }
 
+Mesh make_mesh(std::int32_t vertex_count, std::span<const std::array<VertexId, 3>> faces) {
+  const VertexId* first = faces.empty() ? nullptr : faces.front().data();
+  return make_mesh(vertex_count, Eigen::Map<const Faces>(first, std::ssize(faces), 3));
+}
+
 InputError validate(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1) {
   const InputError error = validate_positions(mesh, V_t0);
   return error != InputError::kNone ? error : validate_positions(mesh, V_t1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "kernel/types.h"
@@ -49,6 +50,8 @@ enum class InputError : std::uint8_t {
 /// Builds edges and ownership; depends on indices alone. O(#F log #F). REQUIRES vertex_count >= 0 and
 /// validate_faces() == kNone. Non-manifold edges, duplicate faces, holes and loose vertices are valid.
 [[nodiscard]] Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F);
+/// Of a list of faces. The same otherwise.
+[[nodiscard]] Mesh make_mesh(std::int32_t vertex_count, std::span<const std::array<VertexId, 3>> faces);
 
 /// First thing wrong with the positions of a step, V_t0 before V_t1, or kNone. O(#V). Zero-area faces and coincident
 /// vertices are valid.

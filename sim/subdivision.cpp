@@ -14,14 +14,6 @@ constexpr double kStopShare = 0.9;
 /// log(kLeastShare) / log(kStopShare) = 44 times, and the search ends after 44 #V rounds. Measured: 1 to 6.
 constexpr double kLeastShare = 0.01;
 
-Faces to_faces(const io::Triangles& triangles) {
-  Faces F(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) F(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles[f][k];
-  }
-  return F;
-}
-
 /// Shortens the motion of every vertex of a collision, by what its earliest one leaves.
 void stop_before_touch(const CollisionTracker& tracker, std::vector<double>& share, StepMotion& motion,
                        const Positions& way) {
@@ -51,8 +43,7 @@ void stop_before_touch(const CollisionTracker& tracker, std::vector<double>& sha
 struct Subdivision::Level {
   Level(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
       : rules(coarse, rigid),
-        mesh(make_mesh(coarse.vertex_count + static_cast<std::int32_t>(coarse.edges.size()),
-                       to_faces(rules.triangles()))) {}
+        mesh(make_mesh(coarse.vertex_count + static_cast<std::int32_t>(coarse.edges.size()), rules.triangles())) {}
 
   LoopRules rules;
   Mesh mesh;
@@ -61,13 +52,10 @@ struct Subdivision::Level {
 Subdivision::Subdivision(const io::Triangles& triangles, std::int32_t vertex_count,
                          const std::vector<io::Group>& groups, std::int32_t levels)
     : groups_(groups) {
-  Mesh mesh = make_mesh(vertex_count, to_faces(triangles));
+  Mesh mesh = make_mesh(vertex_count, triangles);
   for (std::int32_t n = 0; n < levels; ++n) {
-    std::vector<std::uint8_t> rigid(mesh.faces.size(), 0);
+    const std::vector<std::uint8_t> rigid = io::body_faces(mesh.faces.size(), groups_);
     for (io::Group& group : groups_) {
-      if (group.role == io::Group::Role::kBody) {
-        std::fill(rigid.begin() + group.face_begin, rigid.begin() + group.face_end, std::uint8_t{1});
-      }
       group.face_begin *= 4;
       group.face_end *= 4;
     }

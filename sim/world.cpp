@@ -68,16 +68,6 @@ Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
   return shape;
 }
 
-Mesh mesh_of(VertexId vertex_count, const io::Triangles& triangles) {
-  Faces faces(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles[f][k];
-    }
-  }
-  return make_mesh(vertex_count, faces);
-}
-
 /// Thicknesses in an edge of the median length. Within two thicknesses of a vertex of a flat grid there are some 80
 /// pairs times the square of this: at 4 each costs 0.6 MB, and a step that is tried 1 ms of the processor (40 x 40
 /// vertices, one thread). Nor can cloth as thick fold: its pairs repel below their distance at rest.
@@ -149,7 +139,7 @@ class WorldBuilder {
                 {}};
     world.body_count = static_cast<std::int32_t>(world.colliders.size());
     std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
-    world.mesh = mesh_of(vertex_count(), world.triangles);
+    world.mesh = make_mesh(vertex_count(), world.triangles);
     world.stable_step_s = stable_step_s(world.springs, world.inverse_mass, world.stabilizers);
     const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
     world.x_t0 = float32 ? Positions(x_.cast<float>().cast<double>()) : std::move(x_);
@@ -209,7 +199,7 @@ class WorldBuilder {
   // Of the cloth that was added last, from `begin` on. Edges are numbered by their larger vertex, so that those of a
   // part follow one another as in a mesh of its own.
   void add_rest_pairs(const ClothSpec& spec, const Shape& rest, VertexId begin) {
-    const Mesh mesh = mesh_of(static_cast<VertexId>(rest.x.rows()), rest.triangles);
+    const Mesh mesh = make_mesh(static_cast<VertexId>(rest.x.rows()), rest.triangles);
     const double thickness_m = spec.contact.value_or(contact_of(scene_.collision)).thickness_m;
     const double edge_m = median_edge_m(mesh, rest.x);
     if (thickness_m > kMostThicknessInEdges * edge_m) {

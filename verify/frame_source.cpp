@@ -25,15 +25,6 @@ void require_one_role(const io::MeshData& mesh, const std::string& name) {
   }
 }
 
-std::vector<std::uint8_t> body_flags(const io::MeshData& mesh) {
-  std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
-  for (const io::Group& group : mesh.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-  }
-  return is_body;
-}
-
 template <class T>
 std::uint32_t crc32_of(const std::vector<T>& values, std::uint32_t start = 0) {
   return io::crc32({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}, start);
@@ -97,7 +88,7 @@ Frame FrameSource::read(std::size_t i) {
     throw io::Error(io::ErrorKind::kBadInput, name + ": no faces: there is nothing to check");
   }
   require_one_role(mesh, name);
-  std::vector<std::uint8_t> is_body = body_flags(mesh);
+  std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
   ResolvedRules resolved = resolve(user_rules_, mesh.groups, mesh.triangles.size());
   surface_changed_ = mesh.triangles != triangles_ || is_body != is_body_ || resolved != resolved_ ||
                      static_cast<std::int64_t>(mesh.points.size()) != topology_.vertex_count;

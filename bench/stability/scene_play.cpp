@@ -19,16 +19,6 @@ sim::Scene moved_scene(const std::string& toml, const Vec3& offset) {
   return scene;
 }
 
-std::vector<std::uint8_t> body_faces(const sim::World& world) {
-  std::vector<std::uint8_t> flags(world.triangles.size(), 0);
-  for (const io::Group& group : world.groups) {
-    if (group.role == io::Group::Role::kBody) {
-      std::fill(flags.begin() + group.face_begin, flags.begin() + group.face_end, std::uint8_t{1});
-    }
-  }
-  return flags;
-}
-
 }  // namespace
 
 std::string scene_start(double drag_1_s, double friction, const std::string& more) {
@@ -48,7 +38,7 @@ friction_static = {}
 ScenePlay::ScenePlay(Trial& trial, const std::string& toml, double length_m)
     : offset_(trial.offset(length_m)),
       simulation_(moved_scene(toml, offset_)),
-      watch_(trial, simulation_.world().triangles, body_faces(simulation_.world()),
+      watch_(trial, simulation_.world().triangles, io::body_faces(simulation_.world().triangles.size(), simulation_.world().groups),
              simulation_.world().mesh.vertex_count, simulation_.scene().collision) {
   watch_.start(simulation_.x());
 }

@@ -13,16 +13,6 @@
 namespace selvage::bench {
 namespace {
 
-Faces faces_of(const io::Triangles& triangles) {
-  Faces faces(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      faces(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles[f][k];
-    }
-  }
-  return faces;
-}
-
 StageSetup moved(StageSetup setup, const Vec3& offset) {
   setup.x.rowwise() += offset.transpose();
   for (StageSetup::Scripted& scripted : setup.scripted) {
@@ -101,7 +91,7 @@ Stage::Stage(Trial& trial, StageSetup setup)
     : trial_(trial),
       offset_(trial.offset(setup.length_m)),
       setup_(moved(std::move(setup), trial.offset(setup.length_m))),
-      mesh_(make_mesh(static_cast<std::int32_t>(setup_.x.rows()), faces_of(setup_.triangles))),
+      mesh_(make_mesh(static_cast<std::int32_t>(setup_.x.rows()), setup_.triangles)),
       springs_(setup_.springs, mesh_.vertex_count),
       collision_step_(mesh_, setup_.collision),
       watch_(trial, setup_.triangles, setup_.face_is_body, mesh_.vertex_count, setup_.collision),

@@ -1,26 +1,11 @@
 #include "cli/page/sequence_scene.h"
 
-#include <algorithm>
-
 namespace selvage::cli {
-namespace {
-
-std::vector<std::uint8_t> body_faces(const io::MeshData& mesh) {
-  std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
-  for (const io::Group& group : mesh.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-  }
-  return is_body;
-}
-
-}  // namespace
-
 page::Box stage_of(const io::SequenceReader& sequence, const std::vector<std::size_t>& frames) {
   page::Box cloth, all;
   for (const std::size_t i : frames) {
     const io::MeshData mesh = sequence.frame(i);
-    const std::vector<std::uint8_t> is_body = body_faces(mesh);
+    const std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
       for (const std::int32_t v : mesh.triangles[f]) {
         all.add(mesh.points[static_cast<std::size_t>(v)]);
@@ -33,7 +18,7 @@ page::Box stage_of(const io::SequenceReader& sequence, const std::vector<std::si
 
 bool add_frame(page::Scene& scene, const io::SequenceReader& sequence, std::size_t i, std::size_t byte_limit) {
   const io::MeshData mesh = sequence.frame(i);
-  const std::vector<std::uint8_t> is_body = body_faces(mesh);
+  const std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
   return scene.add_frame(
       {static_cast<std::int64_t>(i), sequence.frame_name(i), sequence.time(i), mesh.points, mesh.triangles, is_body},
       byte_limit);

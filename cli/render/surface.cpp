@@ -31,11 +31,7 @@ RenderSurface make_render_surface(const io::MeshData& mesh) {
   RenderSurface surface;
   for (const auto& point : mesh.points) surface.points.emplace_back(point[0], point[1], point[2]);
   surface.triangles = mesh.triangles;
-  surface.is_body.assign(mesh.triangles.size(), 0);
-  for (const io::Group& group : mesh.groups) {
-    if (group.role != io::Group::Role::kBody) continue;
-    std::fill(surface.is_body.begin() + group.face_begin, surface.is_body.begin() + group.face_end, std::uint8_t{1});
-  }
+  surface.is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
   set_normals(surface);
   return surface;
 }

@@ -35,14 +35,6 @@ int depth_bound(std::size_t face_count) {
   return static_cast<int>(std::ceil(2.41 * std::log2(static_cast<double>(face_count) + 1))) + 4;
 }
 
-Mesh mesh_of(VertexId vertex_count, const std::vector<std::array<VertexId, 3>>& faces) {
-  Faces F(static_cast<Eigen::Index>(faces.size()), 3);
-  for (Eigen::Index f = 0; f < F.rows(); ++f) {
-    for (Eigen::Index k = 0; k < 3; ++k) F(f, k) = faces[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)];
-  }
-  return make_mesh(vertex_count, F);
-}
-
 /// A strip of n quads along x; every face on the upper side carries a chain of `spike` faces.
 Mesh comb(int n, int spike) {
   std::vector<std::array<VertexId, 3>> faces;
@@ -61,7 +53,7 @@ Mesh comb(int n, int spike) {
     lower = next_lower;
     upper = next_upper;
   }
-  return mesh_of(next, faces);
+  return make_mesh(next, faces);
 }
 
 }  // namespace
@@ -91,7 +83,7 @@ TEST(FaceTree, IsShallowForDegenerateAdjacency) {
     loose.push_back({3 * i, 3 * i + 1, 3 * i + 2});  // components of one face
   }
   pages.push_back({0, 1, 2});
-  for (const Mesh& mesh : {mesh_of(kCount + 2, book), mesh_of(kCount + 3, pages), mesh_of(3 * kCount, loose),
+  for (const Mesh& mesh : {make_mesh(kCount + 2, book), make_mesh(kCount + 3, pages), make_mesh(3 * kCount, loose),
                            comb(kCount, 1), comb(kCount / 10, 9)}) {
     const int depth = depth_of(make_face_tree(mesh), mesh.faces.size());
     EXPECT_GE(depth, 0);

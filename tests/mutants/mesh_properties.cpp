@@ -29,12 +29,8 @@ MovingMesh make_moving_mesh(fuzz::ChoiceSource& source) {
   const auto& classes = fuzz::surface_classes();
   const fuzz::SurfaceDraft draft = classes[source.n(static_cast<std::uint32_t>(classes.size()))].make(source);
   const auto vertex_count = static_cast<std::int32_t>(draft.x.size());
-  Faces faces(static_cast<Eigen::Index>(draft.faces.size()), 3);
-  for (std::size_t i = 0; i < draft.faces.size(); ++i) {
-    for (int k = 0; k < 3; ++k) faces(static_cast<Eigen::Index>(i), k) = draft.faces[i][static_cast<std::size_t>(k)];
-  }
   MovingMesh moving;
-  moving.mesh = make_mesh(vertex_count, faces);
+  moving.mesh = make_mesh(vertex_count, draft.faces);
   moving.topology = verify::make_topology({draft.faces, {}}, draft.x.size());
   const bool on_lattice = source.coin();
   const int scale = source.one_in(4) ? static_cast<int>(source.zigzag(300)) : 0;

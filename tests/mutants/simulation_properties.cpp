@@ -52,12 +52,7 @@ bool runs(const sim::Simulation& simulation) {
 }
 
 verify::Surface surface_of(const sim::World& world, std::vector<std::uint8_t>& is_body) {
-  is_body.assign(world.triangles.size(), 0);
-  for (const io::Group& group : world.groups) {
-    for (FaceId f = group.face_begin; f < group.face_end; ++f) {
-      is_body[static_cast<std::size_t>(f)] = group.role == io::Group::Role::kBody;
-    }
-  }
+  is_body = io::body_faces(world.triangles.size(), world.groups);
   return {world.triangles, is_body};
 }
 

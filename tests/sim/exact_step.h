@@ -12,12 +12,7 @@ namespace selvage::testing {
 
 /// Of the frame x_t1, and of the motion that led to it.
 inline std::int64_t violations(const sim::World& world, const Positions& x_t0, const Positions& x_t1) {
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    for (FaceId f = group.face_begin; f < group.face_end; ++f) {
-      is_body[static_cast<std::size_t>(f)] = group.role == io::Group::Role::kBody;
-    }
-  }
+  const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
   const verify::Surface surface{world.triangles, is_body};
   return verify::check_frame(surface, sim::points_of(x_t1), {}).violations_total.total() +
          verify::check_motion(surface, sim::points_of(x_t0), sim::points_of(x_t1), {}).violations_total.total();

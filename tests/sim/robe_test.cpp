@@ -18,22 +18,12 @@ Scene coarse_robe() {
   return scene;
 }
 
-std::vector<std::uint8_t> body_flags(const World& world) {
-  std::vector<std::uint8_t> is_body(world.triangles.size());
-  for (const io::Group& group : world.groups) {
-    if (group.role == io::Group::Role::kBody) {
-      std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, std::uint8_t{1});
-    }
-  }
-  return is_body;
-}
-
 }  // namespace
 
 TEST(Robe, EveryStepIsExactlyFreeAlthoughThePartsOfTheFigureIntersect) {
   Simulation simulation(coarse_robe());
   const World& world = simulation.world();
-  const std::vector<std::uint8_t> is_body = body_flags(world);
+  const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
   const verify::Topology topology =
       verify::make_topology({world.triangles, is_body}, std::size_t(simulation.x().rows()));
   verify::CheckOptions with_bodies;

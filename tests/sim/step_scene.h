@@ -37,12 +37,7 @@ struct StepScene {
   }
   [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass, body, policy}; }
   [[nodiscard]] Mesh mesh() const {
-    Faces F(static_cast<Eigen::Index>(triangles.size()), 3);
-    for (std::size_t f = 0; f < triangles.size(); ++f) {
-      for (std::size_t k = 0; k < 3; ++k)
-        F(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = triangles[f][k];
-    }
-    return make_mesh(static_cast<std::int32_t>(V_t0.rows()), F);
+    return make_mesh(static_cast<std::int32_t>(V_t0.rows()), triangles);
   }
   [[nodiscard]] CollisionStepResult step() const {
     const Mesh connectivity = mesh();

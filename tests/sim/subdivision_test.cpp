@@ -22,12 +22,7 @@ std::int64_t violations(const io::Triangles& triangles, const Positions& x) {
 }
 
 Mesh mesh_of(const Shape& shape) {
-  Faces F(static_cast<Eigen::Index>(shape.triangles.size()), 3);
-  for (std::size_t f = 0; f < shape.triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k)
-      F(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = shape.triangles[f][k];
-  }
-  return make_mesh(static_cast<std::int32_t>(shape.x.rows()), F);
+  return make_mesh(static_cast<std::int32_t>(shape.x.rows()), shape.triangles);
 }
 
 // Two tents, one over the other: smoothing lowers the coarse upper ridge more than the fine lower one.

@@ -333,11 +333,7 @@ TEST(SequenceCheck, CountsWhatCgalCountsInPublicSequences) {
     ASSERT_EQ(sequence->frame_count(), expected.size()) << name;
     for (std::size_t i = 0; i < sequence->frame_count(); ++i) {
       const io::MeshData mesh = sequence->frame(i);
-      std::vector<std::uint8_t> is_body(mesh.triangles.size(), 0);
-      for (const io::Group& group : mesh.groups) {
-        const bool body = group.role == io::Group::Role::kBody;
-        std::fill(is_body.begin() + group.face_begin, is_body.begin() + group.face_end, body ? 1 : 0);
-      }
+      const std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
       const CheckResult result = check_frame({mesh.triangles, is_body}, mesh.points,
                                              {.max_violations = 1000000, .min_distance = {}, .check_bodies = false});
       std::int64_t cloth_pairs = 0, sharing = 0, body_pairs = 0;
