@@ -91,7 +91,11 @@ std::uint64_t scene_fingerprint(const Scene& scene, const World& world) {
   hash = fnv1a(
       {reinterpret_cast<const char*>(world.triangles.data()), world.triangles.size() * sizeof(world.triangles[0])},
       hash);
-  return fnv1a(bytes_of(world.v_t0), fnv1a(bytes_of(world.x_t0), hash));
+  hash = fnv1a(bytes_of(world.v_t0), fnv1a(bytes_of(world.x_t0), hash));
+  for (const Collider& collider : world.colliders) {
+    if (collider.sequence() != nullptr) hash = fnv1a(std::to_string(collider.sequence()->checksum()), hash);
+  }
+  return hash;
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {

@@ -19,7 +19,7 @@ struct Checkpoint {
 };
 
 /// FNV-1a of everything that determines the run: the scene file's bytes, the quality, the faces, and the positions and
-/// velocities at time 0 (which cover the mesh files).
+/// velocities at time 0 (which cover the mesh files), and the frames of animated bodies.
 [[nodiscard]] std::uint64_t scene_fingerprint(const Scene& scene, const World& world);
 
 /// Replaces `file` atomically. Little-endian numbers with a checksum at the end.

@@ -13,8 +13,14 @@ Collider::Collider(std::string name, std::vector<VertexId> vertices, Positions l
   SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == local_.rows());
 }
 
+Collider::Collider(std::string name, std::vector<VertexId> vertices, std::shared_ptr<const BodySequence> local,
+                   Linkage linkage)
+    : name_(std::move(name)), vertices_(std::move(vertices)), sequence_(std::move(local)), linkage_(std::move(linkage)) {
+  SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == sequence_->first().x.rows());
+}
+
 Positions Collider::placed_at(double time_s, bool round_to_float32) const {
-  Positions placed = transform(linkage_.at(time_s), local_);
+  Positions placed = transform(linkage_.at(time_s), sequence_ ? sequence_->at(time_s) : local_);
   if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
   return placed;
 }

@@ -1,10 +1,13 @@
-// Vertices that follow a script instead of the dynamics: rigid bodies, and pins of cloth.
+// Vertices that follow a script instead of the dynamics: rigid bodies, figures that a sequence animates, and pins of
+// cloth.
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "sim/body_sequence.h"
 #include "sim/linkage.h"
 
 namespace selvage::sim {
@@ -14,11 +17,17 @@ class Collider {
   /// Vertex vertices[i] is at row i of transform(linkage.at(t), local) until release_s.
   Collider(std::string name, std::vector<VertexId> vertices, Positions local, Linkage linkage,
            double release_s = std::numeric_limits<double>::infinity());
+  /// Vertex vertices[i] is at row i of transform(linkage.at(t), local->at(t)), for ever.
+  Collider(std::string name, std::vector<VertexId> vertices, std::shared_ptr<const BodySequence> local,
+           Linkage linkage);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
   [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
-  /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state.
+  /// Null where it is rigid.
+  [[nodiscard]] const BodySequence* sequence() const { return sequence_.get(); }
+  /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. Throws
+  /// io::Error where a frame of the sequence cannot be read any more.
   [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;
@@ -26,9 +35,10 @@ class Collider {
  private:
   std::string name_;
   std::vector<VertexId> vertices_;
-  Positions local_;
+  Positions local_;  ///< of a rigid one
+  std::shared_ptr<const BodySequence> sequence_;
   Linkage linkage_;
-  double release_s_;
+  double release_s_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace selvage::sim

@@ -47,7 +47,17 @@ struct MeshSpec {
   double scale = 1;      ///< m per unit of the file
   std::size_t line = 0;  ///< in the scene file; what the mesh file holds shows only in the world
 };
-using Surface = std::variant<SheetSpec, SphereSpec, EllipsoidSpec, CapsuleSpec, BoxSpec, GarmentSpec, MeshSpec>;
+/// A mesh that deforms over time; a body's alone.
+struct SequenceSpec {
+  std::filesystem::path file;          ///< a folder, an .npz, a point cache, or meshes with * for the frame's number
+  std::filesystem::path base;          ///< the mesh that a point cache moves; empty: the one beside it
+  double scale = 1;                    ///< m per unit of the file
+  std::optional<double> frames_per_s;  ///< none: the times of the file, in seconds
+  double start_s = 0;                  ///< the scene's time of its first frame
+  std::size_t line = 0;                ///< in the scene file; what the sequence holds shows only in the world
+};
+using Surface =
+    std::variant<SheetSpec, SphereSpec, EllipsoidSpec, CapsuleSpec, BoxSpec, GarmentSpec, MeshSpec, SequenceSpec>;
 
 struct ScriptSpec {
   Pose placement;             ///< the keys are relative to it

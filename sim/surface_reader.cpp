@@ -109,6 +109,17 @@ MeshSpec read_mesh_spec(TomlTable& table) {
   return mesh;
 }
 
+SequenceSpec read_sequence_spec(TomlTable& table) {
+  SequenceSpec sequence;
+  sequence.file = table.text("file");
+  sequence.line = table.line("file");
+  sequence.base = table.text("base", "");
+  sequence.scale = table.number("scale", kPositive, sequence.scale);
+  if (table.has("frames_per_s")) sequence.frames_per_s = table.number("frames_per_s", {1e-6, 1e6});
+  sequence.start_s = table.number("start_s", {-1e9, 1e9}, 0);
+  return sequence;
+}
+
 // Takes the one table of its owner that names a surface.
 class SurfaceChoice {
  public:
@@ -145,11 +156,12 @@ Surface read_body_surface(TomlTable& body) {
   SurfaceChoice choice(body);
   choice.take("sheet", read_sheet);
   choice.take("mesh", read_mesh_spec);
+  choice.take("sequence", read_sequence_spec);
   choice.take("sphere", read_sphere);
   choice.take("ellipsoid", read_ellipsoid);
   choice.take("capsule", read_capsule);
   choice.take("box", read_box);
-  return choice.chosen("sheet, sphere, ellipsoid, capsule, box or mesh");
+  return choice.chosen("sheet, sphere, ellipsoid, capsule, box, mesh or sequence");
 }
 
 }  // namespace selvage::sim

@@ -8,7 +8,9 @@
 #include "io/fail.h"
 #include "io/mesh_reader.h"
 #include "kernel/fp_env.h"
+#include "sim/body_sequence.h"
 #include "sim/cloth.h"
+#include "sim/mesh_shape.h"
 #include "sim/scene_ranges.h"
 #include "sim/time_step.h"
 
@@ -34,38 +36,14 @@ Shape make_shape(const GarmentSpec& garment, const Scene& scene) {
   }
 }
 
-// Of the file that the scene asks for in that line: a name that is wrong there is an error here.
-io::MeshData read_mesh(const MeshSpec& mesh, const Scene& scene) {
-  try {
-    return io::read_mesh(scene.file.parent_path() / mesh.file);
-  } catch (const io::Error& error) {
-    throw io::Error(error.kind(), fmt::format("{}:{}: mesh: {}", scene.file.string(), mesh.line, error.what()));
-  }
-}
-
-double scaled_m(const MeshSpec& mesh, const Scene& scene, std::size_t vertex, double coordinate) {
-  const double scaled = mesh.scale * coordinate;
-  if (!inside(scaled, kCoordinate)) {
-    io::bad_input_at_line(
-        scene.file.string(), mesh.line,
-        fmt::format("mesh: vertex {} of {} has the coordinate {:g}, with the scale {:g} beyond {:g} m; lower scale or "
-                    "correct the file",
-                    vertex, mesh.file.string(), coordinate, mesh.scale, kCoordinate.upper));
-  }
-  return scaled;
-}
-
 Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
-  const io::MeshData data = read_mesh(mesh, scene);
-  Shape shape;
-  shape.triangles = data.triangles;
-  shape.x.resize(static_cast<Eigen::Index>(data.points.size()), 3);
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      shape.x(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = scaled_m(mesh, scene, i, data.points[i][k]);
-    }
-  }
-  return shape;
+  return read_for_line(scene.file, mesh.line, "mesh", [&]() -> Shape {
+    const io::MeshData data = io::read_mesh(scene.file.parent_path() / mesh.file);
+    return {scaled_positions(data.points, mesh.scale, mesh.file.string()), data.triangles};
+  });
+}
+Shape make_shape(const SequenceSpec& sequence, const Scene& scene) {
+  return BodySequence(sequence, scene.file).first();
 }
 
 /// Thicknesses in an edge of the median length. Within two thicknesses of a vertex of a flat grid there are some 80
@@ -110,7 +88,9 @@ class WorldBuilder {
   }
 
   void add_body(const BodySpec& spec) {
-    const Shape shape = shape_of(spec.surface);
+    const auto* animated = std::get_if<SequenceSpec>(&spec.surface);
+    const auto sequence = animated != nullptr ? std::make_shared<const BodySequence>(*animated, scene_.file) : nullptr;
+    const Shape shape = sequence ? sequence->first() : shape_of(spec.surface);
     RigidPath path(spec.script.keys, spec.script.interpolation);
     linkages_.push_back(spec.parent ? Linkage(spec.script.placement, std::move(path), linkages_.at(*spec.parent))
                                     : Linkage(spec.script.placement, std::move(path)));
@@ -120,7 +100,11 @@ class WorldBuilder {
     inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
     std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
     std::iota(vertices.begin(), vertices.end(), begin);
-    bodies_.emplace_back(spec.name, std::move(vertices), shape.x, linkage);
+    if (sequence) {
+      bodies_.emplace_back(spec.name, std::move(vertices), sequence, linkage);
+    } else {
+      bodies_.emplace_back(spec.name, std::move(vertices), shape.x, linkage);
+    }
   }
 
   World take(std::int32_t cloth_vertex_count) {
@@ -321,6 +305,12 @@ std::string describe(const Scene& scene, const World& world) {
   for (const io::Group& group : world.groups) {
     line(group.role == io::Group::Role::kCloth ? "cloth" : "body",
          fmt::format("{}, {} faces", group.name, group.face_end - group.face_begin));
+  }
+  for (const Collider& collider : world.colliders) {
+    const BodySequence* sequence = collider.sequence();
+    if (sequence == nullptr) continue;
+    line("", fmt::format("{}: {} frames of a sequence, from {:g} to {:g} s", collider.name(), sequence->frame_count(),
+                         sequence->begin_s(), sequence->end_s()));
   }
   line("springs", fmt::format("{} structural", count(SpringKind::kStructural)));
   if (count(SpringKind::kShear) > 0) line("", fmt::format("{} shear", count(SpringKind::kShear)));

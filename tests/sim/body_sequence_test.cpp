@@ -1,0 +1,156 @@
+// Bodies that a sequence of meshes animates.
+#include "sim/body_sequence.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "sim/checkpoint.h"
+#include "sim/scene_reader.h"
+#include "sim/shapes.h"
+#include "sim/step.h"
+#include "tests/sim/exact_step.h"
+#include "tests/sim/small_scene.h"
+
+namespace selvage::sim {
+namespace {
+
+constexpr int kFrames = 13;  // 12 a second
+constexpr double kFrame_s = 1.0 / 12;
+
+/// A ball that rises, swells and leans over: no rigid motion.
+Positions ball(double time_s) {
+  static const Positions still = make_sphere(0.1, 2).x;
+  Positions x = still * (1 + 0.3 * std::sin(2 * time_s));
+  x.col(0) += 0.5 * time_s * x.col(2);
+  x.col(2).array() += 0.15 * std::sin(3 * time_s);
+  return x;
+}
+
+std::string obj(const Positions& x) {
+  std::string text;
+  for (Eigen::Index v = 0; v < x.rows(); ++v) text += fmt::format("v {} {} {}\n", x(v, 0), x(v, 1), x(v, 2));
+  for (const auto& t : make_sphere(0.1, 2).triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+class BodySequenceTest : public ::testing::Test {
+ protected:
+  void spit(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
+  [[nodiscard]] std::filesystem::path scene_file() const { return folder_.path() / "scene.toml"; }
+  void write_frames() const {
+    for (int i = 0; i < kFrames; ++i) spit("ball_" + std::to_string(i) + ".obj", obj(ball(i * kFrame_s)));
+  }
+  [[nodiscard]] SequenceSpec spec() const { return {.file = "ball_*.obj", .base = {}, .scale = 1, .frames_per_s = 12, .start_s = 0, .line = 7}; }
+  [[nodiscard]] std::string error_of(const SequenceSpec& bad) const {
+    try {
+      const BodySequence sequence(bad, scene_file());
+    } catch (const io::Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  /// A sheet that falls on it.
+  [[nodiscard]] Scene scene(const std::string& more = "") const {
+    spit("scene.toml", R"(gravity_m_s2 = [0, 0, -9.81]
+[time]
+duration_s = 1
+[collision]
+thickness_m = 0.005
+friction_static = 0.4
+[[cloth]]
+sheet = {nx = 16, ny = 16, width_m = 0.6, height_m = 0.6}
+position_m = [0.02, 0.01, 0.13]
+density_kg_m2 = 0.3
+stretch_n_m = 40
+shear_n_m = 20
+bend_n_m = 0.5
+damping_ratio = 0.1
+[[body]]
+sequence = {file = "ball_*.obj", frames_per_s = 12}
+)" + more);
+    return read_scene(scene_file());
+  }
+
+  testing::ScratchFolder folder_;
+};
+
+}  // namespace
+
+TEST_F(BodySequenceTest, IsAtItsFramesToTheBitAndStraightBetweenThem) {
+  write_frames();
+  SequenceSpec moved = spec();
+  moved.start_s = 0.5;
+  moved.scale = 0.5;
+  const BodySequence sequence(moved, scene_file());
+  ASSERT_EQ(sequence.frame_count(), kFrames);
+  const auto frame = [](int i) { return Positions(0.5 * ball(i * kFrame_s)); };
+  EXPECT_EQ(sequence.at(-1), frame(0)) << "stands still before the first frame";
+  EXPECT_EQ(sequence.at(100), frame(kFrames - 1)) << "and after the last";
+  for (const int i : {0, 7, 3, kFrames - 1}) EXPECT_EQ(sequence.at(0.5 + i / 12.0), frame(i)) << i;
+  const Positions between = sequence.at(0.5 + 3.25 / 12);
+  EXPECT_LT((between - (0.75 * frame(3) + 0.25 * frame(4))).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST_F(BodySequenceTest, EveryStepOnItIsExactlyFree) {
+  write_frames();
+  for (const std::string solver : {"explicit", "implicit"}) {
+    Scene falling = scene();
+    falling.solver = solver == "explicit" ? Solver::kExplicit : Solver::kImplicit;
+    falling.strain.strain_rate = 0;
+    Simulation simulation(falling);
+    const World& world = simulation.world();
+    std::int64_t contacts = 0;
+    while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
+      const Positions before = simulation.x();
+      const StepResult step = simulation.step();
+      ASSERT_EQ(step.report.status, StepStatus::kSafe);
+      ASSERT_EQ(testing::violations(world, before, simulation.x()), 0);
+      contacts += step.report.repulsions;
+      const Collider& body = world.colliders.front();
+      EXPECT_EQ(Positions(simulation.x()(body.vertices(), Eigen::all)), body.sequence()->at(simulation.clock().time_s()))
+          << "to the bit where its frames are, at " << simulation.clock().time_s() << " s";
+    }
+    EXPECT_GT(contacts, 1000);
+  }
+}
+
+TEST_F(BodySequenceTest, ThatChangesIsAnotherScene) {
+  write_frames();
+  const Scene same = scene();
+  const std::uint64_t before = scene_fingerprint(same, build_world(same));
+  EXPECT_EQ(scene_fingerprint(same, build_world(same)), before);
+  spit("ball_9.obj", obj(ball(9.01 * kFrame_s)));
+  EXPECT_NE(scene_fingerprint(same, build_world(same)), before) << "one frame, long after the start";
+}
+
+TEST_F(BodySequenceTest, HangsOnAParentAndFollowsKeys) {
+  write_frames();
+  const Scene moved = scene("name = \"ball\"\nposition_m = [1, 0, 0]\nrotation_deg = [0, 0, 90]\n");
+  const World world = build_world(moved);
+  const Positions placed = world.colliders.front().placed_at(7 / 12.0, false), own = ball(7 * kFrame_s);
+  EXPECT_LT((placed.col(0).array() - (1 - own.col(1).array())).abs().maxCoeff(), 1e-15);
+  EXPECT_LT((placed.col(1) - own.col(0)).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST_F(BodySequenceTest, WhatIsWrongNamesTheLineAndTheRemedy) {
+  EXPECT_NE(error_of(spec()).find("scene.toml:7: sequence: "), std::string::npos) << error_of(spec());
+  EXPECT_NE(error_of(spec()).find("no file has such a name"), std::string::npos) << error_of(spec());
+  write_frames();
+  EXPECT_EQ(error_of(spec()), "");
+  SequenceSpec bad = spec();
+  bad.frames_per_s.reset();
+  EXPECT_NE(error_of(bad).find("does not say when its frames are; add frames_per_s"), std::string::npos) << error_of(bad);
+  bad = spec();
+  bad.scale = 1e11;
+  EXPECT_NE(error_of(bad).find("beyond 1e+09 m"), std::string::npos) << error_of(bad);
+  std::filesystem::rename(folder_.path() / "ball_5.obj", folder_.path() / "away.obj");
+  EXPECT_NE(error_of(spec()).find("after ball_4.obj comes ball_6.obj"), std::string::npos) << error_of(spec());
+  spit("ball_5.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_NE(error_of(spec()).find("ball_5.obj has other faces or vertices than the first frame"), std::string::npos)
+      << error_of(spec());
+}
+
+}  // namespace selvage::sim
