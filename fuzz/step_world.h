@@ -2,6 +2,7 @@
 // candidate positions that try to break it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,16 @@ struct StepWorld {
   [[nodiscard]] bool is_scripted(std::int32_t vertex) const {
     return inverse_mass[static_cast<std::size_t>(vertex)] == 0;
   }
-  [[nodiscard]] sim::CollisionBodies bodies() const { return {inverse_mass, body, policy}; }
+  [[nodiscard]] bool deforms(std::int32_t vertex) const {
+    const auto number = static_cast<std::size_t>(body[static_cast<std::size_t>(vertex)]);  // -1 is beyond all
+    return number < kDeforms.size() && kDeforms[number] != 0;
+  }
+  [[nodiscard]] sim::CollisionBodies bodies() const {
+    return {.inverse_mass = inverse_mass, .body = body, .policy = policy, .deforms = kDeforms};
+  }
+
+  /// Every second body does, of any world: so a case that is kept need not say it.
+  static constexpr std::array<std::uint8_t, 8> kDeforms{0, 1, 0, 1, 0, 1, 0, 1};
 };
 
 using Triples = std::vector<std::array<std::int32_t, 3>>;

@@ -14,5 +14,8 @@ inline constexpr double kCatchUpTime_s = 0.1;
 /// kCatchUpTime_s, least_speed_m_s) on top; as far as that towards it elsewhere. All as many rows, at least one; m.
 [[nodiscard]] Positions catch_up(const Positions& x, const Positions& script_t0, const Positions& script_t1,
                                  double dt_s, double least_speed_m_s);
+/// The same for a body that deforms: every vertex by itself, straight.
+[[nodiscard]] Positions catch_up_each(const Positions& x, const Positions& script_t0, const Positions& script_t1,
+                                      double dt_s, double least_speed_m_s);
 
 }  // namespace selvage::sim

@@ -287,21 +287,16 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   ScriptedGroups groups(bodies);
   Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, bodies,
                   impl_->parts.cloth_flags(bodies), groups, dt_s, patience, held);
-  std::vector<std::int32_t> waiting;
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
-    SELVAGE_ASSERT(static_cast<GroupId>(waiting.size()) < groups.count());
-    for (const GroupId group : conflict->groups) {
-      groups.wait(group);
-      waiting.push_back(groups.body(group));
-    }
+    groups.wait(conflict->groups, conflict->vertices);  // of which one at least moved till now: so this ends
     conflict = attempt.run(V_t0, V_candidate);
   }
 
   result.report = std::move(attempt.report());
   result.met = std::move(attempt.met());
-  std::ranges::sort(waiting);
-  result.report.waiting_bodies = std::move(waiting);
+  result.report.waiting_bodies = groups.waiting_bodies();
+  result.report.waiting_vertices = groups.waiting_alone();
   if (conflict || attempt.is_abandoned()) {
     result.report.status = conflict ? StepStatus::kStopped : StepStatus::kAbandoned;
     if (conflict) result.report.witness = conflict->collision;

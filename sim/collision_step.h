@@ -45,7 +45,8 @@ struct CollisionOptions {
 /// What to do where cloth cannot avoid scripted bodies (S4).
 enum class SqueezePolicy : std::uint8_t {
   kStop,   ///< return kStopped with a witness; nothing is advanced
-  kYield,  ///< the bodies involved wait: their vertices keep their positions for this step
+  kYield,  ///< the bodies involved wait, or the vertices involved of those that deform: they keep their positions for
+           ///< this step
 };
 
 struct CollisionBodies {
@@ -56,6 +57,9 @@ struct CollisionBodies {
   SqueezePolicy policy = SqueezePolicy::kStop;
   /// The bodies from this one on are pins: what they hold is cloth, even a part of the mesh of which they hold all.
   std::int32_t first_pin = std::numeric_limits<std::int32_t>::max();
+  /// By body, shorter where the others do not: 1 where its motion is no rigid one. It waits vertex by vertex, and cloth
+  /// that has to move with it moves with what it meets.
+  std::span<const std::uint8_t> deforms = {};
 };
 
 /// When to give a step up, because the caller tries a shorter one then (paper, section 5). By default never.
@@ -88,6 +92,7 @@ struct CollisionStepReport {
   std::int64_t fail_safe_vertices = 0;       ///< 0 in ordinary scenes
   CollisionPhases phases;                    ///< where the time went; differs from run to run
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
+  std::vector<VertexId> waiting_vertices;    ///< sorted; of those of these bodies that deform
   std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
   std::optional<Collision> witness;          ///< for kStopped
   /// Of x: the pairs not proved separated (those of below_tolerance), and the queries of all rounds. A pair is asked
@@ -123,9 +128,9 @@ class CollisionStep {
   /// positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the
   /// scripts' too, are rounded to it; a script beyond the largest float32 is invalid (kTooLarge). POST (kSafe): the
   /// straight motion V_t0 -> x is exactly free of touching; what is nearer than its tolerance is named; scripted
-  /// vertices are at their (rounded) candidates, or at V_t0 where their body waits; all others are within
-  /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + 2) (impulse_iterations
-  /// + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
+  /// vertices are at their (rounded) candidates, or at V_t0 where they wait; all others are within
+  /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + vertices of those that deform + 2)
+  /// (impulse_iterations + zone_iterations + 3 #V + 1) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,
                                                const Patience& patience = {},

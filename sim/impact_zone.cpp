@@ -63,7 +63,7 @@ void ImpactZones::move_grown(const Positions& displacement, std::span<const doub
     std::ranges::sort(members_[static_cast<std::size_t>(id)]);  // the order of sums
     const std::int32_t script = script_[static_cast<std::size_t>(id)];
     RigidMotion rigid;
-    if (script >= 0) rigid = groups_.rigid_motion(script, motion);
+    if (script >= 0) rigid = groups_.rigid_motion(script, motion, members(id));
     if (script == kNoScript) {
       std::vector<Vec3> x, d;
       std::vector<double> m;

@@ -1,12 +1,14 @@
 #include "sim/scripted_groups.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 
 namespace selvage::sim {
 
-ScriptedGroups::ScriptedGroups(const CollisionBodies& bodies) : group_(bodies.inverse_mass.size(), kCloth) {
+ScriptedGroups::ScriptedGroups(const CollisionBodies& bodies)
+    : group_(bodies.inverse_mass.size(), kCloth), waits_(group_.size(), 0) {
   using Owner = std::optional<std::int32_t>;
   const auto before = [](const Owner& a, const Owner& b) { return a && (!b || *a < *b); };  // the pins after every body
   std::map<Owner, std::vector<VertexId>, decltype(before)> members(before);
@@ -17,17 +19,53 @@ ScriptedGroups::ScriptedGroups(const CollisionBodies& bodies) : group_(bodies.in
   }
   for (auto& [body, vertices] : members) {
     for (const VertexId v : vertices) group_[static_cast<std::size_t>(v)] = count();
-    groups_.push_back({body.value_or(-1), std::move(vertices)});
+    const bool deforms = body && static_cast<std::size_t>(*body) < bodies.deforms.size() &&
+                         bodies.deforms[static_cast<std::size_t>(*body)] != 0;
+    groups_.push_back({body.value_or(-1), std::move(vertices), deforms});
   }
 }
 
 Positions ScriptedGroups::targets(const PositionsRef& V_t0, const PositionsRef& V_candidate) const {
   Positions result = V_candidate;
-  for (const Group& group : groups_) {
-    if (!group.waits) continue;
-    for (const VertexId v : group.vertices) result.row(v) = V_t0.row(v);
+  for (Eigen::Index v = 0; v < result.rows(); ++v) {
+    if (waits(static_cast<VertexId>(v))) result.row(v) = V_t0.row(v);
   }
   return result;
+}
+
+void ScriptedGroups::wait(std::span<const GroupId> groups, std::span<const VertexId> vertices) {
+  bool any = false;
+  const auto wait_one = [&](VertexId v) {
+    any = any || !waits(v);
+    waits_[static_cast<std::size_t>(v)] = 1;
+  };
+  for (const VertexId v : vertices) {
+    if (is_scripted(v) && at(group(v)).deforms) wait_one(v);
+  }
+  for (const GroupId id : groups) {
+    if (!at(id).deforms) std::ranges::for_each(at(id).vertices, wait_one);
+  }
+  if (any) return;
+  for (const GroupId id : groups) std::ranges::for_each(at(id).vertices, wait_one);
+}
+
+std::vector<std::int32_t> ScriptedGroups::waiting_bodies() const {
+  std::vector<std::int32_t> bodies;
+  for (const Group& group : groups_) {
+    if (std::ranges::any_of(group.vertices, [&](VertexId v) { return waits(v); })) bodies.push_back(group.body);
+  }
+  std::ranges::sort(bodies);
+  return bodies;
+}
+
+std::vector<VertexId> ScriptedGroups::waiting_alone() const {
+  std::vector<VertexId> vertices;
+  for (const Group& group : groups_) {
+    if (!group.deforms) continue;
+    std::ranges::copy_if(group.vertices, std::back_inserter(vertices), [&](VertexId v) { return waits(v); });
+  }
+  std::ranges::sort(vertices);
+  return vertices;
 }
 
 void ScriptedGroups::observe(const StepMotion& motion) {
@@ -36,11 +74,12 @@ void ScriptedGroups::observe(const StepMotion& motion) {
   }
 }
 
-RigidMotion ScriptedGroups::rigid_motion(GroupId id, const StepMotion& motion) const {
-  const Group& group = groups_[static_cast<std::size_t>(id)];
+RigidMotion ScriptedGroups::rigid_motion(GroupId id, const StepMotion& motion, std::span<const VertexId> near) const {
+  const Group& group = at(id);
   if (!group.moves) return {};
   std::vector<Vec3> x_t0, x_t1;
-  for (const VertexId v : group.vertices) {
+  for (const VertexId v : group.deforms ? near : std::span<const VertexId>(group.vertices)) {
+    if (this->group(v) != id) continue;
     x_t0.emplace_back(motion.V_t0().row(v));
     x_t1.emplace_back(motion.x().row(v));
   }

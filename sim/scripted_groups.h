@@ -1,5 +1,5 @@
-// Who moves by script: every body is a group that moves, or waits, as a whole. Scripted vertices without a body (pins
-// in the cloth) form one group more.
+// Who moves by script: every body is a group that moves, or waits, as a whole, or vertex by vertex where it deforms.
+// Scripted vertices without a body (pins in the cloth) form one group more.
 #pragma once
 
 #include <cstdint>
@@ -25,29 +25,40 @@ class ScriptedGroups {
   [[nodiscard]] GroupId group(VertexId vertex) const { return group_[static_cast<std::size_t>(vertex)]; }
   [[nodiscard]] bool is_scripted(VertexId vertex) const { return group(vertex) != kCloth; }
   /// The caller's body, or -1 for the pins.
-  [[nodiscard]] std::int32_t body(GroupId group) const { return groups_[static_cast<std::size_t>(group)].body; }
+  [[nodiscard]] std::int32_t body(GroupId group) const { return at(group).body; }
 
-  /// Makes a group keep its start positions for this step.
-  void wait(GroupId group) { groups_[static_cast<std::size_t>(group)].waits = true; }
-  [[nodiscard]] bool waits(GroupId group) const { return groups_[static_cast<std::size_t>(group)].waits; }
-  /// V_candidate with the rows of waiting groups at V_t0.
+  [[nodiscard]] bool deforms(GroupId group) const { return at(group).deforms; }
+
+  /// Makes vertices keep their start positions for this step: all of the rigid ones of `groups`, and those of
+  /// `vertices` that belong to any group that deforms; where these are none, all of `groups`.
+  void wait(std::span<const GroupId> groups, std::span<const VertexId> vertices);
+  [[nodiscard]] bool waits(VertexId vertex) const { return waits_[static_cast<std::size_t>(vertex)] != 0; }
+  /// The caller's bodies of which a vertex waits, sorted.
+  [[nodiscard]] std::vector<std::int32_t> waiting_bodies() const;
+  /// The waiting vertices of bodies that deform, sorted.
+  [[nodiscard]] std::vector<VertexId> waiting_alone() const;
+  /// V_candidate with the rows of waiting vertices at V_t0.
   [[nodiscard]] Positions targets(const PositionsRef& V_t0, const PositionsRef& V_candidate) const;
 
   /// Finds out which groups move in `motion`. To be called when a motion starts.
   void observe(const StepMotion& motion);
-  [[nodiscard]] bool moves(GroupId group) const { return groups_[static_cast<std::size_t>(group)].moves; }
-  /// The rigid motion that the group's own motion is, or is nearest to; no motion for a group at rest.
-  [[nodiscard]] RigidMotion rigid_motion(GroupId group, const StepMotion& motion) const;
+  [[nodiscard]] bool moves(GroupId group) const { return at(group).moves; }
+  /// The rigid motion that the group's own motion is, or is nearest to; of one that deforms, to the motion of those of
+  /// `near` that belong to it. No motion for a group at rest.
+  [[nodiscard]] RigidMotion rigid_motion(GroupId group, const StepMotion& motion, std::span<const VertexId> near) const;
 
  private:
   struct Group {
     std::int32_t body;
     std::vector<VertexId> vertices;
-    bool waits = false;
+    bool deforms = false;
     bool moves = false;
   };
-  std::vector<GroupId> group_;  ///< #V
-  std::vector<Group> groups_;   ///< bodies by number, then the pins
+  [[nodiscard]] const Group& at(GroupId group) const { return groups_[static_cast<std::size_t>(group)]; }
+
+  std::vector<GroupId> group_;       ///< #V
+  std::vector<std::uint8_t> waits_;  ///< #V
+  std::vector<Group> groups_;        ///< bodies by number, then the pins
 };
 
 }  // namespace selvage::sim

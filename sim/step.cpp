@@ -80,7 +80,9 @@ Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
       parts_(world_.mesh),
       x_(world_.x_t0),
       v_(world_.v_t0),
-      patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
+      patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {
+  for (const Collider& collider : world_.colliders) deforms_.push_back(collider.sequence() != nullptr ? 1 : 0);
+}
 
 StepResult Simulation::step() {
   const FpEnvGuard guard;
@@ -88,6 +90,7 @@ StepResult Simulation::step() {
   const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);
   waits_.assign(world_.colliders.size(), 0);
+  vertex_waits_.assign(static_cast<std::size_t>(x_.rows()), 0);
   Try tried = try_step(result);
   while (tried.failed || others_wait(tried)) {
     if (tried.failed) {
@@ -123,6 +126,7 @@ StepResult Simulation::step() {
 bool Simulation::others_wait(Try& tried) {
   std::vector<std::int32_t>& waiting = tried.safe.report.waiting_bodies;
   for (const std::int32_t id : waiting) waits_[static_cast<std::size_t>(id)] = 1;
+  for (const VertexId v : tried.safe.report.waiting_vertices) vertex_waits_[static_cast<std::size_t>(v)] = 1;
   return !std::exchange(waiting, {}).empty();
 }
 
@@ -190,7 +194,7 @@ Positions Simulation::scripted_positions() {
   for (std::size_t id = 0; id < world_.colliders.size(); ++id) {
     const Collider& collider = world_.colliders[id];
     if (!collider.holds(clock_.time_s())) continue;
-    if (waits_[id] == 0) follow_script(collider, x);
+    if (waits_[id] == 0 || deforms_[id] != 0) follow_script(collider, x);
     for (const VertexId vertex : collider.vertices()) {
       inverse_mass_[static_cast<std::size_t>(vertex)] = 0;
       body_[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
@@ -207,10 +211,14 @@ void Simulation::follow_script(const Collider& collider, Positions& x) const {
     const Positions now = x_(vertices, Eigen::all), script_t0 = collider.placed_at(clock_.time_s(), float32);
     if (now != script_t0) {
       const double least_speed_m_s = scene_.collision.thickness_m / kCatchUpTime_s;
-      script_t1 = catch_up(now, script_t0, script_t1, clock_.dt_s(), least_speed_m_s);
+      const auto follow = collider.sequence() != nullptr ? catch_up_each : catch_up;
+      script_t1 = follow(now, script_t0, script_t1, clock_.dt_s(), least_speed_m_s);
     }
   }
-  x(vertices, Eigen::all) = script_t1;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (vertex_waits_[static_cast<std::size_t>(vertices[i])] == 0)
+      x.row(vertices[i]) = script_t1.row(static_cast<Eigen::Index>(i));
+  }
 }
 
 // Where a step leads without springs, and twice as deep as cloth falls in it: which contacts are likely to be pressed.

@@ -70,7 +70,9 @@ class Simulation {
   void follow_script(const Collider& collider, Positions& x) const;
   [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
   DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
-  [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass_, body_, scene_.squeeze, world_.body_count}; }
+  [[nodiscard]] CollisionBodies bodies() const {
+    return {inverse_mass_, body_, scene_.squeeze, world_.body_count, deforms_};
+  }
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
   [[nodiscard]] double fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const;
   /// That the longest step bears in all tries, and that count as none.
@@ -94,10 +96,12 @@ class Simulation {
   SurfaceParts parts_;
   Positions x_, v_;
   std::vector<ContactLoad> loads_;
-  Patience patience_;                 ///< while the step can be halved
-  std::vector<double> inverse_mass_;  ///< #V, now: pins that hold have 0
-  std::vector<std::int32_t> body_;    ///< #V, now: the collider that holds the vertex, or -1
-  std::vector<std::uint8_t> waits_;   ///< by collider: stands still in this step
+  Patience patience_;                       ///< while the step can be halved
+  std::vector<double> inverse_mass_;        ///< #V, now: pins that hold have 0
+  std::vector<std::int32_t> body_;          ///< #V, now: the collider that holds the vertex, or -1
+  std::vector<std::uint8_t> deforms_;       ///< by collider
+  std::vector<std::uint8_t> waits_;         ///< by collider: stands still in this step, or a vertex of it that deforms
+  std::vector<std::uint8_t> vertex_waits_;  ///< #V: of those that deform
 };
 
 }  // namespace selvage::sim

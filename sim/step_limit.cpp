@@ -43,7 +43,7 @@ std::int64_t StepLimiter::restrained_count() const {
 StepLimiter::Restrained StepLimiter::at_start_of_round(VertexId vertex, const std::vector<std::uint8_t>& raised) const {
   const auto v = static_cast<std::size_t>(vertex);
   if (raised[v] == 0) return state_[v];
-  return {static_cast<Restraint>(static_cast<int>(state_[v].level) - 1), ScriptedGroups::kCloth};
+  return {static_cast<Restraint>(static_cast<int>(state_[v].level) - 1), ScriptedGroups::kCloth, {}};
 }
 
 std::vector<GroupId> StepLimiter::moving_groups(const std::array<VertexId, 4>& pair,
@@ -75,7 +75,10 @@ bool StepLimiter::raise(const std::array<VertexId, 4>& pair, const std::vector<G
     const auto v = static_cast<std::size_t>(vertex);
     if (groups_.is_scripted(vertex) || raised[v] != 0 || state_[v].level != lowest) continue;
     state_[v].level = static_cast<Restraint>(static_cast<int>(lowest) + 1);
-    if (state_[v].level == Restraint::kCarried) state_[v].carrier = moving.front();
+    if (state_[v].level == Restraint::kCarried) {
+      state_[v].carrier = moving.front();
+      state_[v].met = pair;
+    }
     raised[v] = 1;
   }
   return true;
@@ -89,8 +92,14 @@ void StepLimiter::place(const std::vector<std::uint8_t>& raised, StepMotion& mot
   const bool any_limited = std::ranges::any_of(limited, [](std::uint8_t flag) { return flag != 0; });
   std::vector<double> free_distance;
   if (any_limited) free_distance = clearance(mesh_, hierarchy_, motion.V_t0(), reach_, limited);
-  std::vector<std::optional<RigidMotion>> carriers(static_cast<std::size_t>(groups_.count()));
-
+  std::vector<std::optional<RigidMotion>> rigid(static_cast<std::size_t>(groups_.count()));
+  const auto carry = [&](const Restrained& carried) {
+    std::optional<RigidMotion>& carrier = rigid[static_cast<std::size_t>(carried.carrier)];
+    if (!carrier || groups_.deforms(carried.carrier)) {
+      carrier = groups_.rigid_motion(carried.carrier, motion, carried.met);
+    }
+    return *carrier;
+  };
   for (VertexId vertex = 0; vertex < mesh_.vertex_count; ++vertex) {
     const auto v = static_cast<std::size_t>(vertex);
     if (raised[v] == 0) continue;
@@ -103,25 +112,30 @@ void StepLimiter::place(const std::vector<std::uint8_t>& raised, StepMotion& mot
     } else if (state_[v].level == Restraint::kFrozen) {
       motion.freeze(vertex);
     } else {
-      std::optional<RigidMotion>& carrier = carriers[static_cast<std::size_t>(state_[v].carrier)];
-      if (!carrier) carrier = groups_.rigid_motion(state_[v].carrier, motion);
-      motion.move(vertex, carrier->displacement(start));
+      motion.move(vertex, carry(state_[v]).displacement(start));
     }
   }
 }
 
 std::optional<StepLimiter::Conflict> StepLimiter::restrain(const CollisionTracker& tracker, StepMotion& motion) {
   std::vector<std::uint8_t> raised(state_.size(), 0);
+  std::optional<Conflict> conflict;
   for (const Collision& collision : tracker.collisions()) {
     if (collision.ccd.cause == CcdCause::kEnd) continue;
     const std::array<VertexId, 4> pair = tracker.vertices(collision);
     std::vector<GroupId> moving = moving_groups(pair, raised);
     if (raise(pair, moving, raised)) continue;
     SELVAGE_ASSERT(!moving.empty());  // else all four vertices are frozen, and the tracker drops such pairs
-    return Conflict{collision, std::move(moving)};
+    if (!conflict) conflict = Conflict{collision, std::move(moving), {}};
+    for (const VertexId v : pair) {
+      const Restrained& own = state_[static_cast<std::size_t>(v)];
+      for (const VertexId mover : own.level == Restraint::kCarried ? own.met : std::array{v, v, v, v}) {
+        if (groups_.is_scripted(mover) && motion.moves(mover)) conflict->vertices.push_back(mover);
+      }
+    }
   }
-  place(raised, motion);
-  return std::nullopt;
+  if (!conflict) place(raised, motion);
+  return conflict;
 }
 
 }  // namespace selvage::sim

@@ -5,7 +5,8 @@
 //   kLimited  in a ball about V_t0 whose radius is kBallShare of a proved lower bound on the distance from every
 //             feature of the vertex to every other feature at t = 0: two limited vertices' features cannot meet;
 //   kFrozen   x = V_t0, bit for bit: a pair that does not move cannot touch, V_t0 being free of intersections;
-//   kCarried  moved with a scripted body by that body's rigid motion: nothing that moves so can meet the body.
+//   kCarried  moved with a scripted body by that body's rigid motion: nothing that moves so can meet the body; with one
+//             that deforms by the motion of the features that it would have met.
 // A pair that still collides raises every cloth vertex of it that it can raise by one level: the lowest ones, and
 // carried only where a moving body takes part. Where none can be raised, bodies collide with something that cannot give
 // way, and the scene's policy has to decide. So each round raises a vertex or ends: at most 3 #V + 1 rounds.
@@ -36,10 +37,11 @@ static_assert(kBallShare < 0.5);
 
 class StepLimiter {
  public:
-  /// A collision in which nothing can be held back, and the moving groups in it.
+  /// Collisions in which nothing can be held back.
   struct Conflict {
-    Collision collision;
-    std::vector<GroupId> groups;  ///< sorted, not empty
+    Collision collision;             ///< the first
+    std::vector<GroupId> groups;     ///< that move in it; sorted, not empty
+    std::vector<VertexId> vertices;  ///< scripted ones that move in any of them, or carry what is in it
   };
 
   /// `reach`: how far clearances are looked for; a limited vertex moves at most kBallShare of it.
@@ -54,6 +56,7 @@ class StepLimiter {
   struct Restrained {
     Restraint level = Restraint::kFree;
     GroupId carrier = ScriptedGroups::kCloth;
+    std::array<VertexId, 4> met{};  ///< where it is carried: the pair that asked for it
   };
   /// Levels and carriers are those at the start of the round, so that the order of pairs does not matter.
   [[nodiscard]] Restrained at_start_of_round(VertexId vertex, const std::vector<std::uint8_t>& raised) const;

@@ -43,7 +43,9 @@ class BodySequenceTest : public ::testing::Test {
   void write_frames() const {
     for (int i = 0; i < kFrames; ++i) spit("ball_" + std::to_string(i) + ".obj", obj(ball(i * kFrame_s)));
   }
-  [[nodiscard]] SequenceSpec spec() const { return {.file = "ball_*.obj", .base = {}, .scale = 1, .frames_per_s = 12, .start_s = 0, .line = 7}; }
+  [[nodiscard]] SequenceSpec spec() const {
+    return {.file = "ball_*.obj", .base = {}, .scale = 1, .frames_per_s = 12, .start_s = 0, .line = 7};
+  }
   [[nodiscard]] std::string error_of(const SequenceSpec& bad) const {
     try {
       const BodySequence sequence(bad, scene_file());
@@ -110,11 +112,63 @@ TEST_F(BodySequenceTest, EveryStepOnItIsExactlyFree) {
       ASSERT_EQ(testing::violations(world, before, simulation.x()), 0);
       contacts += step.report.repulsions;
       const Collider& body = world.colliders.front();
-      EXPECT_EQ(Positions(simulation.x()(body.vertices(), Eigen::all)), body.sequence()->at(simulation.clock().time_s()))
+      EXPECT_EQ(Positions(simulation.x()(body.vertices(), Eigen::all)),
+                body.sequence()->at(simulation.clock().time_s()))
           << "to the bit where its frames are, at " << simulation.clock().time_s() << " s";
     }
     EXPECT_GT(contacts, 1000);
   }
+}
+
+// Two slabs of one figure that close on the border of a sheet, a little through each other, and open again.
+TEST_F(BodySequenceTest, UnderYieldGivesWayWhereItIsInTheWayAndComesBack) {
+  const Shape slab = make_box(Vec3(0.3, 0.3, 0.02), 4);
+  const auto n = slab.x.rows();
+  for (int i = 0; i <= 30; ++i) {
+    Positions jaws(2 * n, 3);
+    jaws << slab.x, slab.x;
+    jaws.bottomRows(n).col(2).array() += 0.05 - 0.035 * std::sin(i * 0.1047);
+    std::string text;
+    for (Eigen::Index v = 0; v < 2 * n; ++v) text += fmt::format("v {} {} {}\n", jaws(v, 0), jaws(v, 1), jaws(v, 2));
+    for (const Eigen::Index begin : {Eigen::Index{1}, n + 1}) {
+      for (const auto& t : slab.triangles)
+        text += fmt::format("f {} {} {}\n", t[0] + begin, t[1] + begin, t[2] + begin);
+    }
+    spit("jaws_" + std::to_string(i) + ".obj", text);
+  }
+  spit("jaws.toml", R"(squeeze = "yield"
+[time]
+frames = 40
+min_step_s = 0.008
+[collision]
+thickness_m = 0.004
+[[cloth]]
+sheet = {nx = 6, ny = 6, width_m = 0.2, height_m = 0.2}
+position_m = [0.2, 0, 0.025]
+density_kg_m2 = 0.2
+stretch_n_m = 60
+damping_ratio = 0.2
+[[body]]
+sequence = {file = "jaws_*.obj", frames_per_s = 30}
+)");
+  Simulation simulation(read_scene(folder_.path() / "jaws.toml"));
+  const Collider& body = simulation.world().colliders.front();
+  std::int64_t most_lag = 0, waits = 0;
+  Eigen::Index lag = 0;
+  while (simulation.clock().state().frame < 40) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    ASSERT_EQ(testing::violations(simulation.world(), before, simulation.x()), 0);
+    waits += std::ssize(step.report.waiting_bodies);
+    const Positions script = body.placed_at(simulation.clock().time_s(), false);
+    lag = (simulation.x()(body.vertices(), Eigen::all) - script).rowwise().any().count();
+    most_lag = std::max(most_lag, std::int64_t{lag});
+  }
+  EXPECT_GT(waits, 0);
+  EXPECT_GT(most_lag, 3);
+  EXPECT_LT(most_lag, n / 2) << "of the upper slab what is over the sheet";
+  EXPECT_EQ(lag, 0) << "back to the bit";
 }
 
 TEST_F(BodySequenceTest, ThatChangesIsAnotherScene) {
@@ -142,7 +196,8 @@ TEST_F(BodySequenceTest, WhatIsWrongNamesTheLineAndTheRemedy) {
   EXPECT_EQ(error_of(spec()), "");
   SequenceSpec bad = spec();
   bad.frames_per_s.reset();
-  EXPECT_NE(error_of(bad).find("does not say when its frames are; add frames_per_s"), std::string::npos) << error_of(bad);
+  EXPECT_NE(error_of(bad).find("does not say when its frames are; add frames_per_s"), std::string::npos)
+      << error_of(bad);
   bad = spec();
   bad.scale = 1e11;
   EXPECT_NE(error_of(bad).find("beyond 1e+09 m"), std::string::npos) << error_of(bad);

@@ -55,4 +55,22 @@ TEST(CatchUp, ComesBackInTimeToTheBit) {
   EXPECT_GT(steps, 100);
 }
 
+TEST(CatchUp, AVertexOfABodyThatDeformsComesBackByItself) {
+  Positions x = tetrahedron();
+  Positions script = moved(x, Vec3(0.1, 0, 0));
+  x.row(1) = script.row(1);
+  script.row(3) *= 2;
+  EXPECT_EQ(catch_up_each(x, script, script, kStep, 0).row(1), script.row(1));
+  const Positions next = catch_up_each(x, script, script, kStep, 0.03);
+  for (const int v : {0, 2, 3}) {
+    const double lag = (script.row(v) - x.row(v)).norm();
+    EXPECT_NEAR((next.row(v) - x.row(v)).norm(), std::max(lag * kStep / kCatchUpTime_s, kStep * 0.03), 1e-15);
+    EXPECT_NEAR((script.row(v) - next.row(v)).norm(), lag - (next.row(v) - x.row(v)).norm(), 1e-15) << "straight";
+  }
+  int steps = 0;
+  for (; x != script && steps < 1000; ++steps) x = catch_up_each(x, script, script, kStep, 0.03);
+  EXPECT_LT(steps, 800);
+  EXPECT_GT(steps, 100);
+}
+
 }  // namespace selvage::sim

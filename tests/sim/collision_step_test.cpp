@@ -470,6 +470,35 @@ TEST(CollisionStep, ClothThatPinsHoldAllOverDoesNotPassThroughABody) {
   EXPECT_EQ(status_with(2), StepStatus::kSafe) << "two bodies may pass through each other";
 }
 
+TEST(CollisionStep, ABodyThatDeformsWaitsWhereItIsInTheWay) {
+  StepScene scene;
+  scene.policy = SqueezePolicy::kYield;
+  scene.options.thickness_m = 1e-3;
+  scene.add(sheet(9), Vec3(0, 0, -5e-3), 0);
+  scene.add(sheet(9), Vec3(0.0031, 0.0017, 0));
+  const auto lid = scene.add(sheet(9), Vec3(1e-4, 2e-4, 5e-3), 0);
+  Positions& candidate = scene.V_candidate;
+  const double left = candidate.col(0).minCoeff();
+  for (VertexId v = lid.begin; v < lid.end; ++v) candidate(v, 2) -= 2e-1 * (candidate(v, 0) - left);
+  const std::int64_t beyond = (candidate.middleRows(lid.begin, lid.end - lid.begin).col(2).array() < -5e-3).count();
+  ASSERT_GT(beyond, 10) << "the lid closes through the floor, on its right";
+
+  const CollisionStepResult rigid = scene.step();
+  EXPECT_EQ(exact_defect(scene, rigid), "");
+  EXPECT_EQ(rigid.report.waiting_bodies, std::vector<std::int32_t>{0});
+  EXPECT_EQ(rigid.x.bottomRows(lid.end - lid.begin), scene.V_t0.bottomRows(lid.end - lid.begin));
+
+  scene.deforms = {1};
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.waiting_bodies, std::vector<std::int32_t>{0});
+  EXPECT_GE(std::ssize(result.report.waiting_vertices), beyond);
+  for (const VertexId v : result.report.waiting_vertices) {
+    EXPECT_GE(v, lid.begin) << "the floor does not move";
+    EXPECT_LT(candidate(v, 2), 2e-3) << "what is far above the cloth goes on";
+  }
+}
+
 TEST(CollisionStep, KeepsNoReferenceToATemporaryMesh) {
   static_assert(!std::is_constructible_v<CollisionStep, Mesh, CollisionOptions>);
   static_assert(std::is_constructible_v<CollisionStep, const Mesh&, CollisionOptions>);

@@ -35,10 +35,10 @@ struct StepScene {
   void push(const Part& part, const Vec3& displacement) {
     for (VertexId v = part.begin; v < part.end; ++v) V_candidate.row(v) += displacement.transpose();
   }
-  [[nodiscard]] CollisionBodies bodies() const { return {inverse_mass, body, policy}; }
-  [[nodiscard]] Mesh mesh() const {
-    return make_mesh(static_cast<std::int32_t>(V_t0.rows()), triangles);
+  [[nodiscard]] CollisionBodies bodies() const {
+    return {.inverse_mass = inverse_mass, .body = body, .policy = policy, .deforms = deforms};
   }
+  [[nodiscard]] Mesh mesh() const { return make_mesh(static_cast<std::int32_t>(V_t0.rows()), triangles); }
   [[nodiscard]] CollisionStepResult step() const {
     const Mesh connectivity = mesh();
     return CollisionStep(connectivity, options, surfaces)(V_t0, V_candidate, bodies(), dt_s);
@@ -57,6 +57,7 @@ struct StepScene {
   SqueezePolicy policy = SqueezePolicy::kStop;
   CollisionOptions options;
   ContactSurfaces surfaces;
+  std::vector<std::uint8_t> deforms;  ///< by body, as in CollisionBodies
   double dt_s = 1e-2;
 };
 
@@ -83,7 +84,10 @@ inline std::string exact_defect(const StepScene& scene, const CollisionStepResul
   for (std::size_t v = 0; v < scene.inverse_mass.size(); ++v) {
     if (scene.inverse_mass[v] > 0) continue;
     const auto row = static_cast<Eigen::Index>(v);
-    const bool waits = std::ranges::count(result.report.waiting_bodies, scene.body[v]) > 0;
+    const bool deforms = scene.body[v] >= 0 && static_cast<std::size_t>(scene.body[v]) < scene.deforms.size() &&
+                         scene.deforms[static_cast<std::size_t>(scene.body[v])] != 0;
+    const bool waits = std::ranges::count(result.report.waiting_bodies, scene.body[v]) > 0 &&
+                       (!deforms || std::ranges::count(result.report.waiting_vertices, static_cast<VertexId>(v)) > 0);
     if (result.x.row(row) != (waits ? scene.V_t0 : scene.V_candidate).row(row))
       return "a scripted vertex left its script";
   }
