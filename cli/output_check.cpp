@@ -9,6 +9,7 @@
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/fail.h"
+#include "io/sequence_json.h"
 
 namespace selvage::cli {
 namespace {
@@ -33,12 +34,16 @@ void require_no_dash(const fs::path& output) {
   throw UsageError("-: results are not written to standard output; name a file, /dev/stdout, or ./- for that name");
 }
 
-/// A slip of the hand: reports are named .json, .html or .png, and replace what they were before.
-void require_no_input(const fs::path& output) {
-  constexpr auto kInputs = std::to_array({".toml", ".obj", ".ply", ".npz", ".npy", ".pc2", ".mdd", ".csv"});
-  const auto names_one = [&](const char* extension) { return io::has_extension(output, extension); };
+/// A slip of the hand: reports are named .json, .html or .png, and replace what they were before. Nothing else may go,
+/// under whatever link.
+void require_replaceable(const fs::path& output) {
+  constexpr auto kKept =
+      std::to_array({".toml", ".obj", ".ply", ".npz", ".npy", ".pc2", ".mdd", ".csv", ".jsonl", ".bin"});
   std::error_code absent;
-  if (!fs::is_regular_file(output, absent) || std::ranges::none_of(kInputs, names_one)) return;
+  if (!fs::is_regular_file(output, absent)) return;
+  const fs::path file = io::behind_links(output);
+  const auto names_one = [&](const char* extension) { return io::has_extension(file, extension); };
+  if (std::ranges::none_of(kKept, names_one) && file.filename() != io::kHeaderFile) return;
   throw UsageError(output.string() + " is there already, and a report would take its place; name another file");
 }
 
@@ -64,7 +69,7 @@ void require_separate_outputs(const std::vector<fs::path>& inputs, const std::ve
     if (fs::exists(output, absent) && std::ranges::any_of(inputs, is_output)) {
       throw UsageError(output.string() + " is read, and would be overwritten; name another file");
     }
-    require_no_input(output);
+    require_replaceable(output);
     for (std::size_t k = 0; k < i; ++k) {
       if (outputs[k].empty() || !is_output(outputs[k])) continue;
       throw UsageError(output.string() + " is named for two outputs, and would be overwritten; name another file");

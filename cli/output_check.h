@@ -8,9 +8,9 @@
 namespace selvage::cli {
 
 /// Throws UsageError where an output is one of the inputs, or two outputs are one file, whatever their names: links are
-/// followed; or where an output is the name of a mesh, sequence, scene or query file that is there. Empty outputs were not
-/// asked for. Devices and pipes hold nothing that could be lost. Nor is one "-", which
-/// elsewhere is standard output.
+/// followed; or where an output is a mesh, scene or query file that is there, or a part of a sequence. Empty outputs
+/// were not asked for. Devices and pipes hold nothing that could be lost. Nor is one "-", which elsewhere is standard
+/// output.
 void require_separate_outputs(const std::vector<std::filesystem::path>& inputs,
                               const std::vector<std::filesystem::path>& outputs);
 

@@ -4,13 +4,13 @@
 #include <array>
 #include <cstdio>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "io/error.h"
 #include "sim/points.h"
-#include "sim/relax_springs.h"
-#include "sim/untangle.h"
+#include "sim/start_repair.h"
 #include "verify/check.h"
 
 namespace selvage::cli {
@@ -35,8 +35,7 @@ sim::FindIntersections exact_judge(const sim::World& world) {
     options.max_violations = kMostPairs;
     std::vector<sim::FacePair> pairs;
     for (const verify::Violation& found : verify::check_frame(topology, sim::points_of(x), options).violations) {
-      const bool one_face = found.event == verify::EventKind::kSelf;  // a vertex, and its face without area
-      pairs.push_back({found.features[one_face ? 1 : 0], found.features[1]});
+      pairs.push_back(verify::faces_of(found));
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -116,48 +115,6 @@ std::string remedy(const sim::World& world, const Positions& x, const std::vecto
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
 }
 
-/// Who is cloth at the start.
-struct StartBodies {
-  std::vector<double> inverse_mass;
-  std::vector<std::int32_t> body;
-
-  explicit StartBodies(const sim::World& world) : inverse_mass(world.inverse_mass), body(inverse_mass.size(), -1) {
-    for (std::size_t id = 0; id < world.colliders.size(); ++id) {
-      if (!world.colliders[id].holds(0)) continue;
-      for (const VertexId vertex : world.colliders[id].vertices()) {
-        inverse_mass[static_cast<std::size_t>(vertex)] = 0;
-        body[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
-      }
-    }
-  }
-};
-
-/// What keeps parts apart in the scene; nothing rubs while a start is repaired.
-sim::UntangleOptions untangle_options(const sim::Simulation& simulation) {
-  const sim::CollisionOptions& collision = simulation.scene().collision;
-  sim::UntangleOptions options{collision.thickness_m, collision.tolerance_m, collision.precision,
-                               simulation.world().contacts};
-  for (sim::ContactProperties& part : options.surfaces.properties) {
-    part.friction_static = part.friction_kinetic = 0;
-    options.gap_m = std::max(options.gap_m, part.thickness_m);
-  }
-  return options;
-}
-
-/// What untangle() has stretched, drawn together.
-sim::RelaxedSprings relax(const sim::Simulation& simulation, const Positions& x, const sim::CollisionBodies& bodies,
-                          const sim::UntangleOptions& untangled) {
-  const sim::World& world = simulation.world();
-  sim::CollisionOptions options;
-  options.thickness_m = untangled.gap_m;
-  options.tolerance_m = untangled.tolerance_m;
-  options.precision = untangled.precision;
-  sim::CollisionStep step(world.mesh, options, untangled.surfaces);
-  const double limit = simulation.scene().strain.strain;
-  return sim::relax_springs(x, world.springs, world.stabilizers.empty() ? nullptr : &world.stabilizers, step, bodies,
-                            limit > 0 ? limit : sim::StrainLimits().strain);
-}
-
 sim::StartRepair repair_of(std::int64_t pairs, const Positions& before, const Positions& after) {
   sim::StartRepair repair{pairs};
   for (Eigen::Index v = 0; v < before.rows(); ++v) {
@@ -188,29 +145,23 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   }
   const sim::World& world = simulation.world();
   if (has_edge_without_length(world)) refuse(simulation, pairs, remedy(world, simulation.x(), pairs));
-  const StartBodies start(world);
-  const sim::CollisionBodies bodies{start.inverse_mass, start.body, sim::SqueezePolicy::kStop, world.body_count};
-  const sim::UntangleOptions options = untangle_options(simulation);
-  const sim::UntangleResult result = sim::untangle(world.mesh, simulation.x(), bodies, options, judge);
-  if (!result.report.remaining.empty()) {
-    const bool none_can = std::ranges::all_of(result.report.remaining, [&](const sim::FacePair& pair) {
-      return is_without_area(pair) || is_twice(simulation.world(), pair);
-    });
-    refuse(simulation, result.report.remaining,
-           fmt::format(
-               "--repair found no way out for them, of {} pairs before; {}", pairs.size(),
-               none_can ? remedy(simulation.world(), simulation.x(), result.report.remaining) : "move them apart"));
+  sim::RepairedStart repaired = sim::repair_start(simulation, judge);
+  if (!repaired.remaining.empty()) {
+    const bool none_can = std::ranges::all_of(
+        repaired.remaining, [&](const sim::FacePair& pair) { return is_without_area(pair) || is_twice(world, pair); });
+    refuse(simulation, repaired.remaining,
+           fmt::format("--repair found no way out for them, of {} pairs before; {}", pairs.size(),
+                       none_can ? remedy(world, simulation.x(), repaired.remaining) : "move them apart"));
   }
-  const sim::RelaxedSprings relaxed = relax(simulation, result.x, bodies, options);
-  const sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), relaxed.x);
+  const sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), repaired.x);
   sim::SimulationState state = simulation.state();
-  state.x = relaxed.x;
+  state.x = std::move(repaired.x);
   simulation.restore(state);
   fmt::print(stderr,
              "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged; "
              "{} steps drew together what was stretched, largest strain {:.2g}\n",
-             pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, result.report.rounds,
-             relaxed.steps, relaxed.largest_strain);
+             pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
+             repaired.relax_steps, repaired.largest_strain);
   return done;
 }
 

@@ -57,8 +57,7 @@ Intersections find_intersections(const io::Triangles& triangles, const std::vect
     const verify::CheckResult found = verify::check_frame(verify::Surface{triangles, is_body}, V, options);
     if (found.violations.empty()) return {};
     const verify::Violation& first = found.violations.front();
-    const bool one_face = first.event == verify::EventKind::kSelf;  // a vertex, and its face without area
-    return {found.violations_total.total(), {first.features[one_face ? 1 : 0], first.features[1]}};
+    return {found.violations_total.total(), verify::faces_of(first)};
   } catch (const verify::Stopped&) {
     return {};
   }
@@ -129,20 +128,20 @@ std::string describe(const FineFrame& fine, std::int32_t levels) {
   const bool is_input = fine.before.count > 0;
   const Intersections& found = is_input ? fine.before : fine.after;
   const std::int32_t parts = is_input ? 1 : 1 << (2 * levels);  // face f becomes faces 4 f .. 4 f + 3 at every level
-  const std::string where =
-      found.first[0] == found.first[1]
-          ? fmt::format("the first is face {}, which has no area", found.first[0] / parts)
-          : fmt::format("the first of faces {} and {}", found.first[0] / parts, found.first[1] / parts);
+  const std::int32_t f = found.first[0] / parts, g = found.first[1] / parts;
+  const std::string pairs = pairs_intersect(found.count);
   if (is_input) {
     return fmt::format(
-        "{} already, {}; nothing is written: free the frame, or subdivide the others one by one with --frame",
-        pairs_intersect(found.count), where);
+        "{} already, the first {}; nothing is written: free the frame, or subdivide the others one by one with --frame",
+        pairs, f == g ? fmt::format("is face {}, which has no area", f) : fmt::format("of faces {} and {}", f, g));
   }
   return fmt::format(
-      "{} after subdivision, {}, which are nearer than midpoints can be rounded; nothing is written: move them apart, "
-      "or "
-      "subdivide the other frames one by one with --frame",
-      pairs_intersect(found.count), where);
+      "{} after subdivision, the first {}; nothing is written: {}, or subdivide the other frames one by "
+      "one with --frame",
+      pairs,
+      f == g ? fmt::format("within face {}, which is too thin for the rounding of its midpoints", f)
+             : fmt::format("of faces {} and {}, which are nearer than midpoints can be rounded", f, g),
+      f == g ? "take it out" : "move them apart");
 }
 
 ExitCode run(const SubdivideArguments& arguments) {

@@ -17,10 +17,10 @@ struct RelaxedSprings {
 };
 
 /// Certified steps from rest, each as far as the springs alone draw the cloth in 1/120 s (ImplicitDynamics), until no
-/// structural or shear spring is longer by more than `strain_limit` of its length at rest, or contact lets them come no
-/// nearer to that, or after kMostRelaxSteps: the step at which they were nearest. Vertices with inverse mass 0 stay.
-/// PRE and POST: x is free of intersections, as for CollisionStep. `stabilizers` may be null. Deterministic for any
-/// number of threads.
+/// structural or shear spring is longer by more than `strain_limit` of its length at rest, or the sum of what is beyond
+/// that falls no more, or after kMostRelaxSteps: the step at which that sum was least. Where vertices with inverse mass
+/// 0 hold the cloth, which stay, the longest of its springs may grow meanwhile. PRE and POST: x is free of
+/// intersections, as for CollisionStep. `stabilizers` may be null. Deterministic for any number of threads.
 [[nodiscard]] RelaxedSprings relax_springs(const Positions& x, const SpringSystem& springs,
                                            const StabilizerSystem* stabilizers, CollisionStep& collision_step,
                                            const CollisionBodies& bodies, double strain_limit);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.h"
+#include "io/fp_guard.h"
 #include "sim/contact_reader.h"
 #include "sim/surface_reader.h"
 #include "sim/time_step.h"
@@ -303,6 +304,7 @@ Scene read_root(TomlTable root) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, Quality quality) {
+  const io::FpGuard guard;
   try {
     const toml::table table = toml::parse(text);
     const TomlSource source{name, quality};

@@ -52,6 +52,7 @@ struct Subdivision::Level {
 Subdivision::Subdivision(const io::Triangles& triangles, std::int32_t vertex_count,
                          const std::vector<io::Group>& groups, std::int32_t levels)
     : groups_(groups) {
+  const FpEnvGuard guard;
   Mesh mesh = make_mesh(vertex_count, triangles);
   for (std::int32_t n = 0; n < levels; ++n) {
     const std::vector<std::uint8_t> rigid = io::body_faces(mesh.faces.size(), groups_);

@@ -109,6 +109,12 @@ struct Gap {
 
 enum class Verdict : std::uint8_t { kClean, kViolated, kUnknown };
 
+/// The faces of an overlap, or twice the face without area. REQUIRES a violation of a frame.
+[[nodiscard]] inline std::array<std::int32_t, 2> faces_of(const Violation& violation) {
+  const bool one_face = violation.event == EventKind::kSelf;  // features: a vertex, and its face
+  return {violation.features[one_face ? 1 : 0], violation.features[1]};
+}
+
 struct SequenceReport;
 
 struct SequenceOptions {

@@ -150,16 +150,22 @@ TEST(SequenceArgument, NoFileOfASequenceFolderIsOverwritten) {
 
 TEST(SequenceArgument, NoReportTakesThePlaceOfAMeshOrAScene) {
   const TemporaryFolder folder;
-  const auto mesh = folder.path() / "a.obj", other = folder.path() / "other.obj", scene = folder.path() / "s.toml";
-  for (const auto& file : {mesh, other, scene}) spit(file, kTwoFaces);
+  const auto mesh = folder.path() / "a.obj", other = folder.path() / "other.obj", scene = folder.path() / "s.toml",
+             header = folder.path() / "sequence.json", checkpoint = folder.path() / "checkpoint.bin",
+             link = folder.path() / "report.json";
+  for (const auto& file : {mesh, other, scene, header, checkpoint}) spit(file, kTwoFaces);
+  std::filesystem::create_symlink(other, link);
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"verify", mesh, "--json", other},
                                                     {"verify", mesh, "--html", scene},
+                                                    {"verify", mesh, "--json", link},
+                                                    {"verify", mesh, "--json", header},
+                                                    {"verify", mesh, "--json", checkpoint},
                                                     {"view", mesh, "-o", scene}}) {
     const auto result = run_program(folder, arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments[0] << result.out << result.err;
     EXPECT_NE(result.err.find(arguments.back() + " is there already"), std::string::npos) << result.err;
   }
-  for (const auto& file : {mesh, other, scene}) EXPECT_EQ(testing::slurp(file), kTwoFaces);
+  for (const auto& file : {mesh, other, scene, header, checkpoint}) EXPECT_EQ(testing::slurp(file), kTwoFaces);
 }
 
 TEST(SequenceArgument, NoPartOfACampaignIsOverwritten) {

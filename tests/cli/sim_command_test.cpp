@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -6,9 +7,12 @@
 #include <random>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/mesh_reader.h"
+#include "io/sequence.h"
 #include "tests/cli/run_program.h"
 
 namespace selvage {
@@ -199,6 +203,30 @@ TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
     EXPECT_EQ(slurp(path("parts") + name), slurp(path("out") + name)) << name;
     EXPECT_FALSE(slurp(path("out") + name).empty()) << name;
   }
+}
+
+TEST_F(SimCommand, ARepairLeavesCleanClothBesideItAlone) {
+  // Curved and flattened by its stabilisers: whatever moved it would show.
+  std::string curved;
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 2; ++j) curved += fmt::format("v {} {} {}\n", 5 + 0.05 * i, 0.1 * j, 0.01 * (i - 4) * (i - 4));
+  }
+  for (int i = 0; i < 8; ++i)
+    curved += fmt::format("f {0} {2} {1}\nf {1} {2} {3}\n", 2 * i + 1, 2 * i + 2, 2 * i + 3, 2 * i + 4);
+  spit(path("curved.obj"), curved);
+  const auto run = sim(scene(1, 0.27, 0.27) +
+                           "[[cloth]]\nname = \"bystander\"\nmesh = {file = \"curved.obj\"}\n"
+                           "density_kg_m2 = 0.2\nstretch_n_m = 40\nstabilize_n_m = 5\n",
+                       {"--repair"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_NE(run.err.find("repair     "), std::string::npos) << run.err;
+  const auto sequence = io::open_sequence({path("out")});
+  const io::MeshData start = sequence->frame(0), alone = io::read_mesh(path("curved.obj"));
+  const auto group = std::ranges::find(start.groups, std::string("bystander"), &io::Group::name);
+  ASSERT_NE(group, start.groups.end());
+  const auto first = static_cast<std::size_t>(start.triangles[static_cast<std::size_t>(group->face_begin)][0]);
+  const auto offset = first - static_cast<std::size_t>(alone.triangles[0][0]);
+  for (std::size_t v = 0; v < alone.points.size(); ++v) EXPECT_EQ(start.points[offset + v], alone.points[v]) << v;
 }
 
 TEST_F(SimCommand, ARepairedRunGoesOnFromItsCheckpointWithoutAnotherRepair) {

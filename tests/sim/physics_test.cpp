@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "sim/central_differences.h"
@@ -164,6 +165,33 @@ TEST(Physics, SheetSticksBelowTheAngleOfFrictionAndSlidesAboveItAsTheLawSays) {
     EXPECT_NEAR(speed(0.6), 0, 5e-4) << name;
     const double expected = kPush + (kSlope - 0.2) * kGravity / std::hypot(1, kSlope) * (kLast + kEnd) / 2;
     EXPECT_NEAR(speed(0.2), expected, 0.03 * expected) << name;
+  }
+}
+
+// What begins to slide by mistake goes on sliding. Under the explicit solver on one face alone: edges of the plane do
+// not remember friction (docs/numerics.md).
+TEST(Physics, SheetSticksWhereStaticFrictionHoldsItAndKineticWouldNot) {
+  constexpr double kDown = 4.1, kInto = 8.9;  // m/s^2, along and into the plane
+  const struct {
+    const char* solver;
+    int cells;  ///< vertices along a side of the plane
+    double margin;
+  } kCases[] = {{"explicit", 2, 1.02}, {"implicit", 2, 1.1}, {"implicit", 8, 1.1}};
+  for (const auto& [solver, cells, margin] : kCases) {
+    for (const int frames_per_s : {24, 30, 60}) {
+      Simulation simulation(parse_scene(
+          fmt::format("solver = \"{}\"\ngravity_m_s2 = [{}, 0, {}]\n[time]\nframes_per_s = {}\nduration_s = 0.25\n"
+                      "[collision]\nthickness_m = 0.003\nfriction_static = {}\nfriction_kinetic = 0.05\n"
+                      "[[cloth]]\nsheet = {{nx = 12, ny = 12, width_m = 0.3, height_m = 0.3}}\nposition_m = [0.1, 0, "
+                      "0.003]\ndensity_kg_m2 = 0.2\nstretch_n_m = 400\nshear_n_m = 100\nbend_n_m = 1\n"
+                      "damping_ratio = 0.1\n[[body]]\nsheet = {{nx = {}, ny = {}, width_m = 2.03, height_m = 2.01}}\n",
+                      solver, kDown, -kInto, frames_per_s, margin * kDown / kInto, cells, cells),
+          "slope.toml"));
+      const double start = mean(simulation.x(), 0, 144).x();
+      while (simulation.clock().state().frame < simulation.scene().time.frame_count) simulation.step();
+      EXPECT_NEAR(mean(simulation.x(), 0, 144).x(), start, 1e-8)
+          << solver << ", " << cells << " vertices a side, " << frames_per_s << " frames a second";
+    }
   }
 }
 

@@ -17,8 +17,7 @@ FindIntersections exact_judge(const StepScene& scene) {
     options.max_violations = 1'000'000;
     std::vector<FacePair> pairs;
     for (const verify::Violation& found : check_frame(surface, points_of(V), options).violations) {
-      const bool one_face = found.event == verify::EventKind::kSelf;
-      pairs.push_back({one_face ? found.features[1] : found.features[0], found.features[1]});
+      pairs.push_back(verify::faces_of(found));
     }
     std::ranges::sort(pairs);
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
