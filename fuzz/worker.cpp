@@ -106,8 +106,8 @@ std::string case_origin(const Property& property, const Stream& stream, std::uin
 
 void work(const WorkerSetting& setting, Progress& progress, int jobs, int events) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing goes on behind a driver that was killed
-  std::signal(SIGINT, SIG_IGN);      // the driver decides when to stop
-  std::signal(SIGTERM, SIG_DFL);
+  // The driver decides when to stop: a signal to the whole group, as `timeout` sends it, is no crash of what is tested.
+  for (const int stop : {SIGINT, SIGTERM, SIGHUP}) std::signal(stop, SIG_IGN);
   // A crash ends the worker by its signal, which the driver names; a sanitizer's handler would make an exit of it.
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(crash, SIG_DFL);
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);

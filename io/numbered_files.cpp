@@ -18,7 +18,8 @@ std::vector<fs::path> numbered_files(const fs::path& pattern) {
   const std::string name = pattern.filename().string();
   const std::size_t star = name.find('*');
   if (star == std::string::npos) return {pattern};
-  const std::string_view before = std::string_view(name).substr(0, star), after = std::string_view(name).substr(star + 1);
+  const std::string_view before = std::string_view(name).substr(0, star),
+                         after = std::string_view(name).substr(star + 1);
   if (after.find('*') != std::string_view::npos) {
     bad_input(pattern.string(), "two * in one name; put one in the place of the frame's number");
   }

@@ -28,7 +28,8 @@ bool is_in_seconds(const io::SequenceReader& reader, const std::filesystem::path
 std::vector<double> times_of(const io::SequenceReader& reader, const SequenceSpec& spec) {
   const bool has_seconds = is_in_seconds(reader, spec.file);
   if (!spec.frames_per_s && !has_seconds && reader.frame_count() > 1) {
-    throw io::Error(io::ErrorKind::kBadInput, spec.file.string() + " does not say when its frames are; add frames_per_s");
+    throw io::Error(io::ErrorKind::kBadInput,
+                    spec.file.string() + " does not say when its frames are; add frames_per_s");
   }
   std::vector<double> times_s;
   for (std::size_t i = 0; i < reader.frame_count(); ++i) {
@@ -36,8 +37,9 @@ std::vector<double> times_of(const io::SequenceReader& reader, const SequenceSpe
     if (spec.frames_per_s) since_first = (has_seconds ? static_cast<double>(i) : since_first) / *spec.frames_per_s;
     times_s.push_back(spec.start_s + since_first);
     if (i == 0 || times_s[i - 1] < times_s[i]) continue;
-    throw io::Error(io::ErrorKind::kBadInput,
-                    reader.frame_name(i) + " is no later than the frame before it; give frames_per_s, or correct the times");
+    throw io::Error(
+        io::ErrorKind::kBadInput,
+        reader.frame_name(i) + " is no later than the frame before it; give frames_per_s, or correct the times");
   }
   return times_s;
 }

@@ -15,7 +15,10 @@ Collider::Collider(std::string name, std::vector<VertexId> vertices, Positions l
 
 Collider::Collider(std::string name, std::vector<VertexId> vertices, std::shared_ptr<const BodySequence> local,
                    Linkage linkage)
-    : name_(std::move(name)), vertices_(std::move(vertices)), sequence_(std::move(local)), linkage_(std::move(linkage)) {
+    : name_(std::move(name)),
+      vertices_(std::move(vertices)),
+      sequence_(std::move(local)),
+      linkage_(std::move(linkage)) {
   SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == sequence_->first().x.rows());
 }
 

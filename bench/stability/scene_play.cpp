@@ -38,7 +38,8 @@ friction_static = {}
 ScenePlay::ScenePlay(Trial& trial, const std::string& toml, double length_m)
     : offset_(trial.offset(length_m)),
       simulation_(moved_scene(toml, offset_)),
-      watch_(trial, simulation_.world().triangles, io::body_faces(simulation_.world().triangles.size(), simulation_.world().groups),
+      watch_(trial, simulation_.world().triangles,
+             io::body_faces(simulation_.world().triangles.size(), simulation_.world().groups),
              simulation_.world().mesh.vertex_count, simulation_.scene().collision) {
   watch_.start(simulation_.x());
 }

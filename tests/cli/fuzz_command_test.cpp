@@ -1,5 +1,7 @@
 // Campaigns as the command runs them: how they end.
+#include <algorithm>
 #include <csignal>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +32,25 @@ TEST(FuzzCommand, AnInterruptedCampaignIs75WhateverItHasFound) {
   const auto result = testing::wait_for_program(folder.path(), child);
   EXPECT_TRUE(has_findings(artifacts / "campaign.json"));
   EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
+}
+
+// `timeout` and a scheduler signal the whole group.
+TEST(FuzzCommand, ASignalToTheWorkersIsNoFinding) {
+  const TemporaryFolder folder;
+  const auto artifacts = folder.path() / "artifacts";
+  const pid_t child =
+      testing::start_program(folder.path(), {"fuzz", "ccd", "--time", "600s", "--jobs", "2", "--artifacts", artifacts});
+  const std::string name = std::to_string(child);
+  const auto lines = [&] { return std::ranges::count(slurp(artifacts / "stats.jsonl"), '\n'); };
+  for (int i = 0; i < 6000 && lines() < 3; ++i) usleep(10000);  // a line a second, of work that is done
+  std::ifstream children("/proc/" + name + "/task/" + name + "/children");
+  int workers = 0;
+  for (pid_t worker = 0; children >> worker; ++workers) kill(worker, SIGTERM);
+  EXPECT_EQ(workers, 2);
+  kill(child, SIGTERM);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
+  EXPECT_FALSE(has_findings(artifacts / "campaign.json")) << result.out;
 }
 
 TEST(FuzzCommand, ShardsThatDoNotFitTogetherAreNamedWithARemedy) {
