@@ -16,6 +16,7 @@
 #include "cli/start_check.h"
 #include "cli/terminal.h"
 #include "cli/thread_limit.h"
+#include "cli/waiting_summary.h"
 #include "sim/recorder.h"
 #include "sim/scene_reader.h"
 #include "sim/step.h"
@@ -95,7 +96,7 @@ void print_totals(const sim::RunTotals& totals) {
   print_phases(totals);
 }
 
-ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
+ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSummary& waiting) {
   const std::int64_t frame_count = simulation.scene().time.frame_count;
   ProgressBar bar("simulating");
   while (simulation.clock().state().frame < frame_count) {
@@ -118,6 +119,7 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder) {
       print_witness(simulation, step.report);
       return ExitCode::kViolation;
     }
+    waiting.add(simulation, step);
     recorder.record(step);
   }
   recorder.finish(sim::RunEnd::kComplete);
@@ -138,8 +140,10 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
-  const ExitCode code = run(simulation, recorder);
+  WaitingSummary waiting;
+  const ExitCode code = run(simulation, recorder, waiting);
   print_totals(recorder.totals());
+  waiting.print(simulation.world());
   const std::string shortfalls = recorder.totals().shortfalls();
   if (!arguments.strict || code != ExitCode::kClean || shortfalls.empty()) return code;
   fmt::print(stderr, "selvage: --strict: {}\n", shortfalls);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -203,6 +204,40 @@ TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
     EXPECT_EQ(slurp(path("parts") + name), slurp(path("out") + name)) << name;
     EXPECT_FALSE(slurp(path("out") + name).empty()) << name;
   }
+}
+
+TEST_F(SimCommand, ABodyThatWaitedIsNamedWithTimesAndLag) {
+  const auto run = sim(R"(squeeze = "yield"
+[time]
+frames = 10
+max_step_s = 0.01
+min_step_s = 0.004
+[[cloth]]
+sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
+density_kg_m2 = 0.3
+stretch_n_m = 40
+[[body]]
+name = "anvil"
+box = {size_m = [1, 1, 0.1]}
+position_m = [0, 0, -0.06]
+[[body]]
+name = "hammer"
+box = {size_m = [1, 1, 0.1]}
+key = [{time_s = 0, position_m = [0, 0, 0.08]}, {time_s = 0.2, position_m = [0, 0, 0.03]}]
+)");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto at = run.out.find("\"hammer\" waited in ");
+  ASSERT_NE(at, std::string::npos) << run.out;
+  int steps = 0;
+  double begin_s = 0, end_s = 0, lag_m = 0;
+  ASSERT_EQ(std::sscanf(run.out.c_str() + at, "\"hammer\" waited in %d steps from %lf to %lf s, up to %lf m", &steps,
+                        &begin_s, &end_s, &lag_m),
+            4);
+  EXPECT_GT(steps, 3);
+  EXPECT_GT(begin_s, 0.1);
+  EXPECT_GT(end_s, begin_s);
+  // The script ends 10 mm lower than the sheet between the boxes, and its tolerance, leave room for.
+  EXPECT_NEAR(lag_m, 0.01, 2e-3);
 }
 
 TEST_F(SimCommand, ARepairLeavesCleanClothBesideItAlone) {
