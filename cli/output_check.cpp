@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <span>
 #include <system_error>
 
 #include "cli/exit_code.h"
@@ -15,6 +16,13 @@ namespace selvage::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Meshes, and files of sequences.
+constexpr auto kSequenceFiles = std::to_array({".npz", ".npy", ".obj", ".ply", ".pc2", ".mdd", ".pvd"});
+
+bool is_named(const fs::path& file, std::span<const char* const> extensions) {
+  return std::ranges::any_of(extensions, [&](const char* extension) { return io::has_extension(file, extension); });
+}
 
 /// Also of two names under which there is nothing yet.
 bool is_one_file(const fs::path& a, const fs::path& b) {
@@ -37,13 +45,11 @@ void require_no_dash(const fs::path& output) {
 /// A slip of the hand: reports are named .json, .html or .png, and replace what they were before. Nothing else may go,
 /// under whatever link.
 void require_replaceable(const fs::path& output) {
-  constexpr auto kKept =
-      std::to_array({".toml", ".obj", ".ply", ".npz", ".npy", ".pc2", ".mdd", ".csv", ".jsonl", ".bin"});
+  constexpr auto kKept = std::to_array({".toml", ".csv", ".jsonl", ".bin"});
   std::error_code absent;
   if (!fs::is_regular_file(output, absent)) return;
   const fs::path file = io::behind_links(output);
-  const auto names_one = [&](const char* extension) { return io::has_extension(file, extension); };
-  if (std::ranges::none_of(kKept, names_one) && file.filename() != io::kHeaderFile) return;
+  if (!is_named(file, kSequenceFiles) && !is_named(file, kKept) && file.filename() != io::kHeaderFile) return;
   throw UsageError(output.string() + " is there already, and a report would take its place; name another file");
 }
 
@@ -51,9 +57,7 @@ void require_replaceable(const fs::path& output) {
 
 void require_folder_name(const fs::path& output) {
   require_no_dash(output);
-  constexpr auto kFiles = std::to_array({".npz", ".npy", ".obj", ".ply", ".pc2", ".mdd", ".pvd"});
-  const auto names_one = [&](const char* extension) { return io::has_extension(output, extension); };
-  if (!output.has_filename() || std::ranges::none_of(kFiles, names_one)) return;
+  if (!output.has_filename() || !is_named(output, kSequenceFiles)) return;
   throw UsageError(output.string() + " would be a folder; name one without that extension, and write the file with " +
                    "`selvage convert FOLDER -o FILE`");
 }

@@ -32,13 +32,14 @@ Positions undisturbed(const StepWorld& world, const Positions& candidate) {
 StepDefect check_scripts(const StepWorld& world, const Positions& x_t0, const Positions& candidate,
                          const sim::CollisionStepResult& result) {
   const Positions target = undisturbed(world, candidate);
-  const auto &waiting = result.report.waiting_bodies, &alone = result.report.waiting_vertices;
+  const auto &bodies = result.report.waiting_bodies, &vertices = result.report.waiting_vertices;
   for (Eigen::Index i = 0; i < x_t0.rows(); ++i) {
     const auto vertex = static_cast<std::size_t>(i);
     if (world.inverse_mass[vertex] != 0) continue;
     const auto number = static_cast<std::int32_t>(i);
-    const bool body_waits = std::ranges::binary_search(waiting, world.body[vertex]);
-    const bool waits = body_waits && (!world.deforms(number) || std::ranges::binary_search(alone, number));
+    const bool waits = std::ranges::binary_search(vertices, number);
+    const bool body_waits = std::ranges::binary_search(bodies, world.body[vertex]);
+    if (waits != body_waits && !(body_waits && world.deforms(number))) return StepDefect::kOffScript;
     if (waits && world.policy == sim::SqueezePolicy::kStop) return StepDefect::kOffScript;
     if (result.x.row(i) != (waits ? x_t0.row(i) : target.row(i))) return StepDefect::kOffScript;
   }

@@ -18,14 +18,6 @@ constexpr double kStepGaps = 4;
 constexpr int kMostSteps = 256;   // so that bodies much larger than the gap come back too
 constexpr double kClearGaps = 4;  // between bodies that stand aside and the cloth
 
-CollisionOptions step_options(const UntangleOptions& untangle) {
-  CollisionOptions options;
-  options.thickness_m = untangle.gap_m;
-  options.tolerance_m = untangle.tolerance_m;
-  options.precision = untangle.precision;
-  return options;
-}
-
 CollisionStep make_step(const UntangleState& state) {
   return {state.mesh, step_options(state.options), state.options.surfaces};
 }

@@ -4,26 +4,25 @@
 
 namespace selvage::sim {
 
-Collider::Collider(std::string name, std::vector<VertexId> vertices, Positions local, Linkage linkage, double release_s)
+Collider::Collider(std::string name, std::vector<VertexId> vertices, Local local, Linkage linkage, double release_s)
     : name_(std::move(name)),
       vertices_(std::move(vertices)),
       local_(std::move(local)),
       linkage_(std::move(linkage)),
       release_s_(release_s) {
-  SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == local_.rows());
+  SELVAGE_ASSERT(std::ssize(vertices_) ==
+                 (sequence() != nullptr ? sequence()->first().x : std::get<Positions>(local_)).rows());
 }
 
-Collider::Collider(std::string name, std::vector<VertexId> vertices, std::shared_ptr<const BodySequence> local,
-                   Linkage linkage)
-    : name_(std::move(name)),
-      vertices_(std::move(vertices)),
-      sequence_(std::move(local)),
-      linkage_(std::move(linkage)) {
-  SELVAGE_ASSERT(static_cast<Eigen::Index>(vertices_.size()) == sequence_->first().x.rows());
+const BodySequence* Collider::sequence() const {
+  const auto* sequence = std::get_if<std::shared_ptr<const BodySequence>>(&local_);
+  return sequence != nullptr ? sequence->get() : nullptr;
 }
 
 Positions Collider::placed_at(double time_s, bool round_to_float32) const {
-  Positions placed = transform(linkage_.at(time_s), sequence_ ? sequence_->at(time_s) : local_);
+  const RigidFrame frame = linkage_.at(time_s);
+  Positions placed =
+      sequence() != nullptr ? transform(frame, sequence()->at(time_s)) : transform(frame, std::get<Positions>(local_));
   if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
   return placed;
 }

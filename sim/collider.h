@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "sim/body_sequence.h"
@@ -14,18 +15,18 @@ namespace selvage::sim {
 
 class Collider {
  public:
-  /// Vertex vertices[i] is at row i of transform(linkage.at(t), local) until release_s.
-  Collider(std::string name, std::vector<VertexId> vertices, Positions local, Linkage linkage,
+  /// In the frame of the linkage: as many rows as vertices, or what animates them.
+  using Local = std::variant<Positions, std::shared_ptr<const BodySequence>>;
+
+  /// Vertex vertices[i] is at row i of `local` at t, transformed by linkage.at(t), until release_s.
+  Collider(std::string name, std::vector<VertexId> vertices, Local local, Linkage linkage,
            double release_s = std::numeric_limits<double>::infinity());
-  /// Vertex vertices[i] is at row i of transform(linkage.at(t), local->at(t)), for ever.
-  Collider(std::string name, std::vector<VertexId> vertices, std::shared_ptr<const BodySequence> local,
-           Linkage linkage);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
   [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
   /// Null where it is rigid.
-  [[nodiscard]] const BodySequence* sequence() const { return sequence_.get(); }
+  [[nodiscard]] const BodySequence* sequence() const;
   /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. Throws
   /// io::Error where a frame of the sequence cannot be read any more.
   [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32) const;
@@ -35,10 +36,9 @@ class Collider {
  private:
   std::string name_;
   std::vector<VertexId> vertices_;
-  Positions local_;  ///< of a rigid one
-  std::shared_ptr<const BodySequence> sequence_;
+  Local local_;
   Linkage linkage_;
-  double release_s_ = std::numeric_limits<double>::infinity();
+  double release_s_;
 };
 
 }  // namespace selvage::sim

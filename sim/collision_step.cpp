@@ -296,7 +296,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   result.report = std::move(attempt.report());
   result.met = std::move(attempt.met());
   result.report.waiting_bodies = groups.waiting_bodies();
-  result.report.waiting_vertices = groups.waiting_alone();
+  result.report.waiting_vertices = groups.waiting_vertices();
   if (conflict || attempt.is_abandoned()) {
     result.report.status = conflict ? StepStatus::kStopped : StepStatus::kAbandoned;
     if (conflict) result.report.witness = conflict->collision;

@@ -92,7 +92,7 @@ struct CollisionStepReport {
   std::int64_t fail_safe_vertices = 0;       ///< 0 in ordinary scenes
   CollisionPhases phases;                    ///< where the time went; differs from run to run
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
-  std::vector<VertexId> waiting_vertices;    ///< sorted; of those of these bodies that deform
+  std::vector<VertexId> waiting_vertices;    ///< sorted; theirs: all, or some where they deform
   std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
   std::optional<Collision> witness;          ///< for kStopped
   /// Of x: the pairs not proved separated (those of below_tolerance), and the queries of all rounds. A pair is asked

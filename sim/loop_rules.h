@@ -34,11 +34,11 @@ struct RuleTerm {
 /// Mesh::edges. Face f becomes faces 4 f .. 4 f + 3: its three corners, then its middle.
 class LoopRules {
  public:
-  /// Vertices of faces flagged in `rigid` (#F, or empty) stay where they are, and the new points of these faces' edges
-  /// at the midpoints. At boundaries the surface follows the cubic B-spline of the boundary; vertices that are neither
-  /// inner nor on one boundary (of no face, where surfaces meet in a point or along an edge, or where two faces lie back
-  /// to back) stay. Which way round faces are does not matter. Time and memory O(n^2)
-  /// at an inner vertex of n edges: the new point of each of them is of all n.
+  /// Vertices of faces flagged in `rigid` (#F, or empty) stay where they are, and the new points of these faces'
+  /// edges at the midpoints. At boundaries the surface follows the cubic B-spline of the boundary; vertices that are
+  /// neither inner nor on one boundary (of no face, where surfaces meet in a point or along an edge, or where two faces
+  /// lie back to back) stay. Which way round faces are does not matter. Time and memory O(n^2) at an inner vertex of n
+  /// edges: the new point of each of them is of all n.
   LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid);
 
   [[nodiscard]] const io::Triangles& triangles() const { return triangles_; }

@@ -47,7 +47,9 @@ struct MeshSpec {
   double scale = 1;      ///< m per unit of the file
   std::size_t line = 0;  ///< in the scene file; what the mesh file holds shows only in the world
 };
-/// A mesh that deforms over time; a body's alone.
+using Surface = std::variant<SheetSpec, SphereSpec, EllipsoidSpec, CapsuleSpec, BoxSpec, GarmentSpec, MeshSpec>;
+
+/// A mesh that deforms over time.
 struct SequenceSpec {
   std::filesystem::path file;          ///< a folder, an .npz, a point cache, or meshes with * for the frame's number
   std::filesystem::path base;          ///< the mesh that a point cache moves; empty: the one beside it
@@ -56,8 +58,7 @@ struct SequenceSpec {
   double start_s = 0;                  ///< the scene's time of its first frame
   std::size_t line = 0;                ///< in the scene file; what the sequence holds shows only in the world
 };
-using Surface =
-    std::variant<SheetSpec, SphereSpec, EllipsoidSpec, CapsuleSpec, BoxSpec, GarmentSpec, MeshSpec, SequenceSpec>;
+using BodySurface = std::variant<Surface, SequenceSpec>;
 
 struct ScriptSpec {
   Pose placement;             ///< the keys are relative to it
@@ -93,7 +94,7 @@ struct ClothSpec {
 
 struct BodySpec {
   std::string name;
-  Surface surface;
+  BodySurface surface;
   ScriptSpec script;
   std::optional<std::size_t> parent;         ///< an earlier body, in whose frame the script is; none: the world
   std::optional<ContactProperties> contact;  ///< none: the scene's

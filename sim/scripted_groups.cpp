@@ -1,9 +1,10 @@
 #include "sim/scripted_groups.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <optional>
+
+#include "kernel/assert.h"
 
 namespace selvage::sim {
 
@@ -58,13 +59,11 @@ std::vector<std::int32_t> ScriptedGroups::waiting_bodies() const {
   return bodies;
 }
 
-std::vector<VertexId> ScriptedGroups::waiting_alone() const {
+std::vector<VertexId> ScriptedGroups::waiting_vertices() const {
   std::vector<VertexId> vertices;
-  for (const Group& group : groups_) {
-    if (!group.deforms) continue;
-    std::ranges::copy_if(group.vertices, std::back_inserter(vertices), [&](VertexId v) { return waits(v); });
+  for (VertexId v = 0; v < static_cast<VertexId>(waits_.size()); ++v) {
+    if (waits(v)) vertices.push_back(v);
   }
-  std::ranges::sort(vertices);
   return vertices;
 }
 
@@ -83,6 +82,7 @@ RigidMotion ScriptedGroups::rigid_motion(GroupId id, const StepMotion& motion, s
     x_t0.emplace_back(motion.V_t0().row(v));
     x_t1.emplace_back(motion.x().row(v));
   }
+  SELVAGE_ASSERT(!x_t0.empty());
   return best_fit_motion(x_t0, x_t1);
 }
 

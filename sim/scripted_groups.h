@@ -35,8 +35,8 @@ class ScriptedGroups {
   [[nodiscard]] bool waits(VertexId vertex) const { return waits_[static_cast<std::size_t>(vertex)] != 0; }
   /// The caller's bodies of which a vertex waits, sorted.
   [[nodiscard]] std::vector<std::int32_t> waiting_bodies() const;
-  /// The waiting vertices of bodies that deform, sorted.
-  [[nodiscard]] std::vector<VertexId> waiting_alone() const;
+  /// Sorted.
+  [[nodiscard]] std::vector<VertexId> waiting_vertices() const;
   /// V_candidate with the rows of waiting vertices at V_t0.
   [[nodiscard]] Positions targets(const PositionsRef& V_t0, const PositionsRef& V_candidate) const;
 
@@ -44,7 +44,7 @@ class ScriptedGroups {
   void observe(const StepMotion& motion);
   [[nodiscard]] bool moves(GroupId group) const { return at(group).moves; }
   /// The rigid motion that the group's own motion is, or is nearest to; of one that deforms, to the motion of those of
-  /// `near` that belong to it. No motion for a group at rest.
+  /// `near` that belong to it, at least one. No motion for a group at rest.
   [[nodiscard]] RigidMotion rigid_motion(GroupId group, const StepMotion& motion, std::span<const VertexId> near) const;
 
  private:

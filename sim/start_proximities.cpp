@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <iterator>
 #include <optional>
 
 #include "sim/local_proximities.h"
 #include "sim/parallel.h"
+#include "sim/points.h"
 #include "sim/repulsion.h"
 
 namespace selvage::sim {
-namespace {
-
-bool same_bits(const Positions& a, const Positions& b) {
-  return a.rows() == b.rows() &&
-         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
-
-}  // namespace
 
 void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, const std::vector<std::uint8_t>& surface) {
   known_.clear();

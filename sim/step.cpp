@@ -1,6 +1,8 @@
 #include "sim/step.h"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "kernel/assert.h"
@@ -80,17 +82,14 @@ Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
       parts_(world_.mesh),
       x_(world_.x_t0),
       v_(world_.v_t0),
-      patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {
-  for (const Collider& collider : world_.colliders) deforms_.push_back(collider.sequence() != nullptr ? 1 : 0);
-}
+      patience_{world_.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
 
 StepResult Simulation::step() {
   const FpEnvGuard guard;
   StepResult result;
   const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);
-  waits_.assign(world_.colliders.size(), 0);
-  vertex_waits_.assign(static_cast<std::size_t>(x_.rows()), 0);
+  waits_.assign(static_cast<std::size_t>(x_.rows()), 0);
   Try tried = try_step(result);
   while (tried.failed || others_wait(tried)) {
     if (tried.failed) {
@@ -102,9 +101,7 @@ StepResult Simulation::step() {
     tried = try_step(result);
   }
   result.dt_s = clock_.dt_s();
-  for (std::size_t id = 0; id < waits_.size(); ++id) {
-    if (waits_[id] != 0) tried.safe.report.waiting_bodies.push_back(static_cast<std::int32_t>(id));
-  }
+  std::tie(tried.safe.report.waiting_bodies, tried.safe.report.waiting_vertices) = waiting();
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried.safe, std::move(tried.end));
@@ -123,11 +120,20 @@ StepResult Simulation::step() {
 // Bodies that had to wait in a step are known before the next try, which starts from the same state: so the dynamics
 // sees them stand still. Where it saw them move, cloth took up a motion that never was: pinched between two spheres
 // that stood it came to 70 m/s.
-bool Simulation::others_wait(Try& tried) {
-  std::vector<std::int32_t>& waiting = tried.safe.report.waiting_bodies;
-  for (const std::int32_t id : waiting) waits_[static_cast<std::size_t>(id)] = 1;
-  for (const VertexId v : tried.safe.report.waiting_vertices) vertex_waits_[static_cast<std::size_t>(v)] = 1;
-  return !std::exchange(waiting, {}).empty();
+bool Simulation::others_wait(const Try& tried) {
+  for (const VertexId v : tried.safe.report.waiting_vertices) waits_[static_cast<std::size_t>(v)] = 1;
+  return !tried.safe.report.waiting_vertices.empty();
+}
+
+std::pair<std::vector<std::int32_t>, std::vector<VertexId>> Simulation::waiting() const {
+  std::set<std::int32_t> bodies;
+  std::vector<VertexId> vertices;
+  for (VertexId v = 0; v < static_cast<VertexId>(waits_.size()); ++v) {
+    if (waits_[static_cast<std::size_t>(v)] == 0) continue;
+    bodies.insert(scripted_.body[static_cast<std::size_t>(v)]);
+    vertices.push_back(v);
+  }
+  return {{bodies.begin(), bodies.end()}, std::move(vertices)};
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are
@@ -148,9 +154,12 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     std::vector<RepulsionContact> held_to_the_end;
     {
       const PhaseTimer timer(result.phases.dynamics);
-      const HeldSurface surface{
-          world_.mesh,        vertex_faces_, collision_step_.contact_table(), inverse_mass_, world_.cloth_vertex_count,
-          scene_.gravity_m_s2};
+      const HeldSurface surface{world_.mesh,
+                                vertex_faces_,
+                                collision_step_.contact_table(),
+                                scripted_.inverse_mass,
+                                world_.cloth_vertex_count,
+                                scene_.gravity_m_s2};
       HeldContacts contacts(held, loads_, surface, x_, candidate, dt_s, scene_.contact_sweeps);
       result.dynamics = advance_cloth(candidate, tried.end, held.empty() ? nullptr : &contacts);
       tried.held = contacts.count();
@@ -188,17 +197,10 @@ Simulation::Try Simulation::try_step(StepResult& result) {
 
 // The cloth where it is, and scripted vertices where their scripts are at the end of the step, or on their way there.
 Positions Simulation::scripted_positions() {
-  inverse_mass_ = world_.inverse_mass;
-  body_.assign(inverse_mass_.size(), -1);
+  scripted_ = scripted_at(world_, clock_.time_s());
   Positions x = x_;
-  for (std::size_t id = 0; id < world_.colliders.size(); ++id) {
-    const Collider& collider = world_.colliders[id];
-    if (!collider.holds(clock_.time_s())) continue;
-    if (waits_[id] == 0 || deforms_[id] != 0) follow_script(collider, x);
-    for (const VertexId vertex : collider.vertices()) {
-      inverse_mass_[static_cast<std::size_t>(vertex)] = 0;
-      body_[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
-    }
+  for (const Collider& collider : world_.colliders) {
+    if (collider.holds(clock_.time_s())) follow_script(collider, x);
   }
   return x;
 }
@@ -216,7 +218,7 @@ void Simulation::follow_script(const Collider& collider, Positions& x) const {
     }
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertex_waits_[static_cast<std::size_t>(vertices[i])] == 0)
+    if (waits_[static_cast<std::size_t>(vertices[i])] == 0)
       x.row(vertices[i]) = script_t1.row(static_cast<Eigen::Index>(i));
   }
 }
@@ -226,7 +228,7 @@ void Simulation::follow_script(const Collider& collider, Positions& x) const {
 // Running the dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s).
 Positions Simulation::in_free_flight(Positions x, double dt_s) const {
   for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
-    if (inverse_mass_[static_cast<std::size_t>(i)] == 0) continue;
+    if (scripted_.inverse_mass[static_cast<std::size_t>(i)] == 0) continue;
     x.row(i) += dt_s * (v_.row(i) + dt_s * scene_.gravity_m_s2.transpose());
   }
   return x;
@@ -237,7 +239,7 @@ DynamicsReport Simulation::advance_cloth(Positions& candidate, Motion& end, Held
   end.x = x_.topRows(cloth);
   end.v = v_.topRows(cloth);
   const DynamicsReport report =
-      dynamics_->advance(end, candidate.topRows(cloth), inverse_mass_, clock_.dt_s(), contacts);
+      dynamics_->advance(end, candidate.topRows(cloth), scripted_.inverse_mass, clock_.dt_s(), contacts);
   candidate.topRows(cloth) = end.x;
   return report;
 }
@@ -249,7 +251,7 @@ double Simulation::fastest_contact(const std::vector<RepulsionContact>& contacts
     PairVectors v;
     for (std::size_t i = 0; i < 4; ++i) {
       const VertexId vertex = contact.interaction.vertices[i];
-      const bool is_cloth = inverse_mass_[static_cast<std::size_t>(vertex)] > 0;
+      const bool is_cloth = scripted_.inverse_mass[static_cast<std::size_t>(vertex)] > 0;
       v[i] = v_.row(vertex);
       if (!is_cloth) v[i] = (candidate.row(vertex) - x_.row(vertex)) / clock_.dt_s();
     }
@@ -274,7 +276,8 @@ bool Simulation::overstrains(const Try& tried, const Positions& candidate) const
 bool Simulation::energizes(const Try& tried) const {
   if (scene_.solver != Solver::kExplicit || tried.safe.report.status != StepStatus::kSafe) return false;
   const double fall_m_s = clock_.dt_s() * scene_.gravity_m_s2.norm();
-  const auto energies = contact_energies(world_.springs, parts_, inverse_mass_, tried.end, tried.safe.x, fall_m_s);
+  const auto energies =
+      contact_energies(world_.springs, parts_, scripted_.inverse_mass, tried.end, tried.safe.x, fall_m_s);
   return std::ranges::any_of(
       energies, [](const ContactEnergy& energy) { return energy.gain_j > kEnergyBorne * energy.before_j; });
 }
@@ -287,7 +290,7 @@ void Simulation::commit(const CollisionStepResult& safe, Motion end) {
   if (touched(safe.report)) {
     end.x = x_.topRows(cloth);
     end.v = safe.velocity.topRows(cloth);
-    dynamics_->final_velocity(end, inverse_mass_, dt_s);
+    dynamics_->final_velocity(end, scripted_.inverse_mass, dt_s);
   }
   v_.topRows(cloth) = end.v;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "kernel/fp_env.h"
 #include "sim/collision_step.h"
@@ -31,14 +33,16 @@ struct StepResult {
   DynamicsReport dynamics;  ///< of the step that was taken
   double dt_s = 0;
   double largest_strain = 0;  ///< of structural and shear springs, at the end of the step (spring_strain.h)
-  /// Tries thrown away because repulsions were not enough, or the equations of implicit dynamics were not solved.
+  /// Tries thrown away because repulsions were not enough, the equations of implicit dynamics were not solved, or
+  /// candidates were not finite or cut back.
   std::int32_t halvings = 0;
   StepPhases phases;  ///< those tries included
 };
 
 class Simulation {
  public:
-  /// Builds what the scene asks for. Throws io::Error.
+  /// Builds what the scene asks for. Throws io::Error. The guard lives while the members are made, as no body of a
+  /// constructor could see to.
   explicit Simulation(const Scene& scene) : Simulation(scene, FpEnvGuard()) {}
 
   /// Advances to the end of one collision step. PRE: the state is free of intersections (build_world does not check it;
@@ -63,16 +67,16 @@ class Simulation {
     CollisionStepResult safe;
   };
   Try try_step(StepResult& result);
-  /// Whether bodies had to wait in the try; notes them.
-  bool others_wait(Try& tried);
+  /// Whether anyone had to wait in the try who did not stand still anyway; notes who.
+  bool others_wait(const Try& tried);
+  /// Bodies and vertices, as in CollisionStepReport.
+  [[nodiscard]] std::pair<std::vector<std::int32_t>, std::vector<VertexId>> waiting() const;
   Positions scripted_positions();
   /// Writes where the collider goes in the step.
   void follow_script(const Collider& collider, Positions& x) const;
   [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
   DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
-  [[nodiscard]] CollisionBodies bodies() const {
-    return {inverse_mass_, body_, scene_.squeeze, world_.body_count, deforms_};
-  }
+  [[nodiscard]] CollisionBodies bodies() const { return bodies_of(world_, scripted_, scene_.squeeze); }
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
   [[nodiscard]] double fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const;
   /// That the longest step bears in all tries, and that count as none.
@@ -96,12 +100,9 @@ class Simulation {
   SurfaceParts parts_;
   Positions x_, v_;
   std::vector<ContactLoad> loads_;
-  Patience patience_;                       ///< while the step can be halved
-  std::vector<double> inverse_mass_;        ///< #V, now: pins that hold have 0
-  std::vector<std::int32_t> body_;          ///< #V, now: the collider that holds the vertex, or -1
-  std::vector<std::uint8_t> deforms_;       ///< by collider
-  std::vector<std::uint8_t> waits_;         ///< by collider: stands still in this step, or a vertex of it that deforms
-  std::vector<std::uint8_t> vertex_waits_;  ///< #V: of those that deform
+  Patience patience_;                ///< while the step can be halved
+  ScriptedVertices scripted_;        ///< now
+  std::vector<std::uint8_t> waits_;  ///< #V: stands still in this step
 };
 
 }  // namespace selvage::sim

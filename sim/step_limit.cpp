@@ -58,6 +58,15 @@ std::vector<GroupId> StepLimiter::moving_groups(const std::array<VertexId, 4>& p
   return result;
 }
 
+std::array<VertexId, 4> StepLimiter::met_by(GroupId carrier, const std::array<VertexId, 4>& pair,
+                                            const std::vector<std::uint8_t>& raised) const {
+  if (std::ranges::any_of(pair, [&](VertexId v) { return groups_.group(v) == carrier; })) return pair;
+  const auto* carried =
+      std::ranges::find_if(pair, [&](VertexId v) { return at_start_of_round(v, raised).carrier == carrier; });
+  SELVAGE_ASSERT(carried != pair.end());  // else it does not move in the pair
+  return at_start_of_round(*carried, raised).met;
+}
+
 bool StepLimiter::raise(const std::array<VertexId, 4>& pair, const std::vector<GroupId>& moving,
                         std::vector<std::uint8_t>& raised) {
   Restraint lowest = Restraint::kCarried;
@@ -71,13 +80,14 @@ bool StepLimiter::raise(const std::array<VertexId, 4>& pair, const std::vector<G
   }
   const bool can_carry = moving.size() == 1 && !meets_rest;
   if (lowest == Restraint::kCarried || (lowest == Restraint::kFrozen && !can_carry)) return false;
+  const std::array<VertexId, 4> met = lowest == Restraint::kFrozen ? met_by(moving.front(), pair, raised) : pair;
   for (const VertexId vertex : pair) {
     const auto v = static_cast<std::size_t>(vertex);
     if (groups_.is_scripted(vertex) || raised[v] != 0 || state_[v].level != lowest) continue;
     state_[v].level = static_cast<Restraint>(static_cast<int>(lowest) + 1);
     if (state_[v].level == Restraint::kCarried) {
       state_[v].carrier = moving.front();
-      state_[v].met = pair;
+      state_[v].met = met;
     }
     raised[v] = 1;
   }
@@ -128,7 +138,7 @@ std::optional<StepLimiter::Conflict> StepLimiter::restrain(const CollisionTracke
     SELVAGE_ASSERT(!moving.empty());  // else all four vertices are frozen, and the tracker drops such pairs
     if (!conflict) conflict = Conflict{collision, std::move(moving), {}};
     for (const VertexId v : pair) {
-      const Restrained& own = state_[static_cast<std::size_t>(v)];
+      const Restrained own = at_start_of_round(v, raised);
       for (const VertexId mover : own.level == Restraint::kCarried ? own.met : std::array{v, v, v, v}) {
         if (groups_.is_scripted(mover) && motion.moves(mover)) conflict->vertices.push_back(mover);
       }

@@ -56,12 +56,15 @@ class StepLimiter {
   struct Restrained {
     Restraint level = Restraint::kFree;
     GroupId carrier = ScriptedGroups::kCloth;
-    std::array<VertexId, 4> met{};  ///< where it is carried: the pair that asked for it
+    std::array<VertexId, 4> met{};  ///< where it is carried: a pair in which the carrier takes part itself
   };
   /// Levels and carriers are those at the start of the round, so that the order of pairs does not matter.
   [[nodiscard]] Restrained at_start_of_round(VertexId vertex, const std::vector<std::uint8_t>& raised) const;
   [[nodiscard]] std::vector<GroupId> moving_groups(const std::array<VertexId, 4>& pair,
                                                    const std::vector<std::uint8_t>& raised) const;
+  /// The pair, or, where the carrier is in it by what it carries alone, the pair that this met.
+  [[nodiscard]] std::array<VertexId, 4> met_by(GroupId carrier, const std::array<VertexId, 4>& pair,
+                                               const std::vector<std::uint8_t>& raised) const;
   /// Whether anything was raised.
   bool raise(const std::array<VertexId, 4>& pair, const std::vector<GroupId>& moving,
              std::vector<std::uint8_t>& raised);

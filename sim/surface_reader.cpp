@@ -121,6 +121,7 @@ SequenceSpec read_sequence_spec(TomlTable& table) {
 }
 
 // Takes the one table of its owner that names a surface.
+template <class AnySurface>
 class SurfaceChoice {
  public:
   explicit SurfaceChoice(TomlTable& owner) : owner_(owner) {}
@@ -132,28 +133,28 @@ class SurfaceChoice {
     if (surface_) owner_.fail(key, fmt::format("{} is a second surface; keep one", key));
     surface_ = read_whole(*table, read);
   }
-  [[nodiscard]] Surface chosen(std::string_view choices) const {
+  [[nodiscard]] AnySurface chosen(std::string_view choices) const {
     if (!surface_) owner_.fail(fmt::format("no surface; add a table {}", choices));
     return *surface_;
   }
 
  private:
   TomlTable& owner_;
-  std::optional<Surface> surface_;
+  std::optional<AnySurface> surface_;
 };
 
 }  // namespace
 
 Surface read_cloth_surface(TomlTable& cloth) {
-  SurfaceChoice choice(cloth);
+  SurfaceChoice<Surface> choice(cloth);
   choice.take("sheet", read_sheet);
   choice.take("garment", read_garment);
   choice.take("mesh", read_mesh_spec);
   return choice.chosen("sheet, garment or mesh");
 }
 
-Surface read_body_surface(TomlTable& body) {
-  SurfaceChoice choice(body);
+BodySurface read_body_surface(TomlTable& body) {
+  SurfaceChoice<BodySurface> choice(body);
   choice.take("sheet", read_sheet);
   choice.take("mesh", read_mesh_spec);
   choice.take("sequence", read_sequence_spec);

@@ -8,6 +8,6 @@ namespace selvage::sim {
 
 /// Throw io::Error as the functions of TomlTable do, and where there is no surface, or a second one.
 [[nodiscard]] Surface read_cloth_surface(TomlTable& cloth);
-[[nodiscard]] Surface read_body_surface(TomlTable& body);
+[[nodiscard]] BodySurface read_body_surface(TomlTable& body);
 
 }  // namespace selvage::sim

@@ -9,6 +9,14 @@
 
 namespace selvage::sim {
 
+CollisionOptions step_options(const UntangleOptions& options) {
+  CollisionOptions result;
+  result.thickness_m = options.gap_m;
+  result.tolerance_m = options.tolerance_m;
+  result.precision = options.precision;
+  return result;
+}
+
 UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                         const UntangleOptions& options, const FindIntersections& find) {
   const FpEnvGuard guard;

@@ -25,9 +25,13 @@ struct UntangleOptions {
   double gap_m = 1e-3;        ///< that is tried to be left between what was apart, > 0: the thickness of the cloth
   double tolerance_m = 1e-6;  ///< as CollisionOptions
   CollisionOptions::Precision precision = CollisionOptions::Precision::kFloat64;
-  /// Of parts that have a thickness and tolerance of their own, as for CollisionStep; gap_m is the largest of them then.
+  /// Of parts that have a thickness and tolerance of their own, as for CollisionStep; gap_m is the largest of them
+  /// then.
   ContactSurfaces surfaces = {};
 };
+
+/// Of its certified steps; nothing rubs.
+[[nodiscard]] CollisionOptions step_options(const UntangleOptions& options);
 
 struct UntangleReport {
   std::vector<FacePair> before, remaining;
@@ -42,9 +46,9 @@ struct UntangleResult {
 };
 
 /// Scripted vertices (inverse mass 0) are where they were. PRE: finite positions in the domain, on the lattice of the
-/// precision; `bodies` as for CollisionStep. POST: no pairs remain as `find` judges, or x
-/// is V and the pairs say which: pinned across a body, a crossing that no way out was found for. What is clean already
-/// is returned as it is. Ends after at most kMaxUntangleRounds + 4 judgements. Deterministic, if `find` is.
+/// precision; `bodies` as for CollisionStep. POST: no pairs remain as `find` judges, or x is V and the pairs say which:
+/// pinned across a body, a crossing that no way out was found for. What is clean already is returned as it is. Ends
+/// after at most kMaxUntangleRounds + 4 judgements. Deterministic, if `find` is.
 [[nodiscard]] UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                                       const UntangleOptions& options, const FindIntersections& find);
 

@@ -42,9 +42,6 @@ Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
     return {scaled_positions(data.points, mesh.scale, mesh.file.string()), data.triangles};
   });
 }
-Shape make_shape(const SequenceSpec& sequence, const Scene& scene) {
-  return BodySequence(sequence, scene.file).first();
-}
 
 /// Thicknesses in an edge of the median length. Within two thicknesses of a vertex of a flat grid there are some 80
 /// pairs times the square of this: at 4 each costs 0.6 MB, and a step that is tried 1 ms of the processor (40 x 40
@@ -88,9 +85,16 @@ class WorldBuilder {
   }
 
   void add_body(const BodySpec& spec) {
-    const auto* animated = std::get_if<SequenceSpec>(&spec.surface);
-    const auto sequence = animated != nullptr ? std::make_shared<const BodySequence>(*animated, scene_.file) : nullptr;
-    const Shape shape = sequence ? sequence->first() : shape_of(spec.surface);
+    Shape shape;
+    Collider::Local local;
+    if (const auto* animated = std::get_if<SequenceSpec>(&spec.surface)) {
+      auto sequence = std::make_shared<const BodySequence>(*animated, scene_.file);
+      shape = sequence->first();
+      local = std::move(sequence);
+    } else {
+      shape = shape_of(std::get<Surface>(spec.surface));
+      local = shape.x;
+    }
     RigidPath path(spec.script.keys, spec.script.interpolation);
     linkages_.push_back(spec.parent ? Linkage(spec.script.placement, std::move(path), linkages_.at(*spec.parent))
                                     : Linkage(spec.script.placement, std::move(path)));
@@ -100,11 +104,7 @@ class WorldBuilder {
     inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
     std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
     std::iota(vertices.begin(), vertices.end(), begin);
-    if (sequence) {
-      bodies_.emplace_back(spec.name, std::move(vertices), sequence, linkage);
-    } else {
-      bodies_.emplace_back(spec.name, std::move(vertices), shape.x, linkage);
-    }
+    bodies_.emplace_back(spec.name, std::move(vertices), std::move(local), linkage);
   }
 
   World take(std::int32_t cloth_vertex_count) {
@@ -117,12 +117,14 @@ class WorldBuilder {
                 StabilizerSystem(std::move(stabilizers_), cloth_vertex_count),
                 std::move(bodies_),
                 0,
+                {},
                 take_contacts(),
                 0,
                 {},
                 {}};
     world.body_count = static_cast<std::int32_t>(world.colliders.size());
     std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
+    for (const Collider& collider : world.colliders) world.deforms.push_back(collider.sequence() != nullptr ? 1 : 0);
     world.mesh = make_mesh(vertex_count(), world.triangles);
     world.stable_step_s = stable_step_s(world.springs, world.inverse_mass, world.stabilizers);
     const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
@@ -294,6 +296,22 @@ std::vector<std::string> describe(const ContactProperties& contact, bool repulsi
 }
 
 }  // namespace
+
+ScriptedVertices scripted_at(const World& world, double time_s) {
+  ScriptedVertices scripted{world.inverse_mass, std::vector<std::int32_t>(world.inverse_mass.size(), -1)};
+  for (std::size_t id = 0; id < world.colliders.size(); ++id) {
+    if (!world.colliders[id].holds(time_s)) continue;
+    for (const VertexId vertex : world.colliders[id].vertices()) {
+      scripted.inverse_mass[static_cast<std::size_t>(vertex)] = 0;
+      scripted.body[static_cast<std::size_t>(vertex)] = static_cast<std::int32_t>(id);
+    }
+  }
+  return scripted;
+}
+
+CollisionBodies bodies_of(const World& world, const ScriptedVertices& scripted, SqueezePolicy squeeze) {
+  return {scripted.inverse_mass, scripted.body, squeeze, world.body_count, world.deforms};
+}
 
 std::string describe(const Scene& scene, const World& world) {
   std::string text;

@@ -7,6 +7,7 @@
 #include "io/mesh_data.h"
 #include "kernel/mesh.h"
 #include "sim/collider.h"
+#include "sim/collision_step.h"
 #include "sim/scene.h"
 #include "sim/spring.h"
 
@@ -18,18 +19,28 @@ struct World {
   std::vector<io::Group> groups;  ///< one per cloth and per body
   Mesh mesh;
   std::int32_t cloth_vertex_count = 0;
-  std::vector<double> inverse_mass;  ///< #V, 1/kg; pins do not show here, as they may be released; 0 for bodies
-  SpringSystem springs;              ///< of the cloth vertices
-  StabilizerSystem stabilizers;      ///< of the cloth vertices
-  std::vector<Collider> colliders;   ///< the bodies, then the pins; the index is the collision step's body id
-  std::int32_t body_count = 0;       ///< of the colliders
-  ContactSurfaces contacts;          ///< empty where no part has properties of its own, and no rest pairs
-  double stable_step_s = 0;          ///< of the springs
-  Positions x_t0, v_t0;              ///< #V by 3 at time 0, on the lattice of the scene's precision
+  std::vector<double> inverse_mass;   ///< #V, 1/kg; pins do not show here, as they may be released; 0 for bodies
+  SpringSystem springs;               ///< of the cloth vertices
+  StabilizerSystem stabilizers;       ///< of the cloth vertices
+  std::vector<Collider> colliders;    ///< the bodies, then the pins; the index is the collision step's body id
+  std::int32_t body_count = 0;        ///< of the colliders
+  std::vector<std::uint8_t> deforms;  ///< by collider: 1 where a sequence animates it
+  ContactSurfaces contacts;           ///< empty where no part has properties of its own, and no rest pairs
+  double stable_step_s = 0;           ///< of the springs
+  Positions x_t0, v_t0;               ///< #V by 3 at time 0, on the lattice of the scene's precision
 };
 
-/// Reads the mesh files and builds. Throws io::Error: with the line of the scene, a bad mesh, a vertex without mass,
-/// a pinned vertex out of range, sleeves that do not fit, and springs too stiff for explicit dynamics.
+/// Who follows a script at a time.
+struct ScriptedVertices {
+  std::vector<double> inverse_mass;  ///< #V, 1/kg; 0 for what a collider holds
+  std::vector<std::int32_t> body;    ///< #V: that collider, or -1
+};
+[[nodiscard]] ScriptedVertices scripted_at(const World& world, double time_s);
+/// Refers to both.
+[[nodiscard]] CollisionBodies bodies_of(const World& world, const ScriptedVertices& scripted, SqueezePolicy squeeze);
+
+/// Reads the mesh and sequence files and builds. Throws io::Error: with the line of the scene, a bad mesh, a vertex
+/// without mass, a pinned vertex out of range, sleeves that do not fit, and springs too stiff for explicit dynamics.
 [[nodiscard]] World build_world(const Scene& scene);
 
 /// What the run models, one line each, for a person: what the scene does not ask for is not built and not listed.

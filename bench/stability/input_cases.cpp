@@ -1,4 +1,3 @@
-#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -51,12 +50,6 @@ struct StepInput {
   double dt_s = 0.01;
 };
 
-/// Bit for bit, so that a position that is no number equals itself.
-bool have_the_same_bits(const Positions& a, const Positions& b) {
-  return a.rows() == b.rows() &&
-         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-}
-
 /// `spoil` makes the input of one step invalid: it must be refused with `error` and move nothing, and the step must
 /// afterwards give the bits of one that never saw it.
 template <class Spoil>
@@ -70,7 +63,7 @@ void refuses(Trial& trial, InputError error, Spoil spoil) {
   trial.require(refused.report.status == sim::StepStatus::kInvalidInput, "it was not refused");
   trial.require(refused.report.input_error == error,
                 fmt::format("the error is \"{}\"", describe(refused.report.input_error)));
-  trial.require(have_the_same_bits(refused.x, bad.x) && refused.velocity.isZero(0), "a refused step moved something");
+  trial.require(sim::same_bits(refused.x, bad.x) && refused.velocity.isZero(0), "a refused step moved something");
   const sim::CollisionStepResult after = good.run(step), alone = good.run(untouched);
   trial.require(after.report.status == sim::StepStatus::kSafe && after.x == alone.x && after.velocity == alone.velocity,
                 "the step after it gave other bits");

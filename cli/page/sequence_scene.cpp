@@ -1,6 +1,7 @@
 #include "cli/page/sequence_scene.h"
 
 namespace selvage::cli {
+
 page::Box stage_of(const io::SequenceReader& sequence, const std::vector<std::size_t>& frames) {
   page::Box cloth, all;
   for (const std::size_t i : frames) {

@@ -15,6 +15,7 @@
 #include "io/mesh_reader.h"
 #include "io/sequence.h"
 #include "tests/cli/run_program.h"
+#include "tests/squeeze_scene.h"
 
 namespace selvage {
 
@@ -207,24 +208,7 @@ TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
 }
 
 TEST_F(SimCommand, ABodyThatWaitedIsNamedWithTimesAndLag) {
-  const auto run = sim(R"(squeeze = "yield"
-[time]
-frames = 10
-max_step_s = 0.01
-min_step_s = 0.004
-[[cloth]]
-sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
-density_kg_m2 = 0.3
-stretch_n_m = 40
-[[body]]
-name = "anvil"
-box = {size_m = [1, 1, 0.1]}
-position_m = [0, 0, -0.06]
-[[body]]
-name = "hammer"
-box = {size_m = [1, 1, 0.1]}
-key = [{time_s = 0, position_m = [0, 0, 0.08]}, {time_s = 0.2, position_m = [0, 0, 0.03]}]
-)");
+  const auto run = sim(testing::squeeze_scene_text("yield", "0.03"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto at = run.out.find("\"hammer\" waited in ");
   ASSERT_NE(at, std::string::npos) << run.out;

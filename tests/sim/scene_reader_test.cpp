@@ -268,7 +268,7 @@ rotation_deg = [0, 0, 90]
   EXPECT_EQ(cloth.pins.at(1).vertices, (std::vector<VertexId>{0, 1}));
   EXPECT_EQ(cloth.pins.at(1).script.keys.at(1).pose.position_m, Vec3(1, 0, 0));
   EXPECT_EQ(cloth.pins.at(1).script.interpolation, Interpolation::kSmooth);
-  EXPECT_EQ(std::get<BoxSpec>(scene.bodies.at(0).surface).cells, 4);
+  EXPECT_EQ(std::get<BoxSpec>(std::get<Surface>(scene.bodies.at(0).surface)).cells, 4);
   EXPECT_EQ(scene.bodies.at(0).script.keys.at(0).pose.rotation_deg, Vec3(0, 0, 90));
 }
 
@@ -310,10 +310,10 @@ key = [{time_s = 1}, {time_s = 1.5, rotation_deg = [0, 20, 0]}, {time_s = 3}]
   EXPECT_EQ(garment.rings.at(1).width_m, 0.8);
   EXPECT_EQ(garment.sleeves.value().down_deg, 40);
   EXPECT_FALSE(scene.bodies.at(0).parent.has_value());
-  EXPECT_EQ(std::get<EllipsoidSpec>(scene.bodies.at(0).surface).size_m, Vec3(0.2, 0.3, 0.5));
+  EXPECT_EQ(std::get<EllipsoidSpec>(std::get<Surface>(scene.bodies.at(0).surface)).size_m, Vec3(0.2, 0.3, 0.5));
   const BodySpec& arm = scene.bodies.at(1);
   EXPECT_EQ(arm.parent, 0u);
-  EXPECT_EQ(std::get<CapsuleSpec>(arm.surface).end_radius_m, 0.05) << "that of the start";
+  EXPECT_EQ(std::get<CapsuleSpec>(std::get<Surface>(arm.surface)).end_radius_m, 0.05) << "that of the start";
   EXPECT_EQ(arm.script.placement.position_m, Vec3(0, 0.2, 0.1));
   EXPECT_EQ(arm.script.interpolation, Interpolation::kSpline);
   std::vector<double> times_s;

@@ -10,6 +10,7 @@
 #include "sim/scripted_groups.h"
 #include "sim/step.h"
 #include "tests/sim/exact_step.h"
+#include "tests/squeeze_scene.h"
 
 namespace selvage {
 
@@ -18,33 +19,8 @@ using testing::violations;
 
 namespace {
 
-// Two boxes close on a sheet between them.
 Scene squeeze_scene(const std::string& policy) {
-  return parse_scene("squeeze = \"" + policy + R"("
-[time]
-frames = 10
-max_step_s = 0.01
-min_step_s = 0.004
-[[cloth]]
-sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
-density_kg_m2 = 0.3
-stretch_n_m = 40
-shear_n_m = 20
-[[body]]
-name = "anvil"
-box = {size_m = [1, 1, 0.1]}
-position_m = [0, 0, -0.06]
-[[body]]
-name = "hammer"
-box = {size_m = [1, 1, 0.1]}
-[[body.key]]
-time_s = 0
-position_m = [0, 0, 0.08]
-[[body.key]]
-time_s = 0.2
-position_m = [0, 0, 0.04]
-)",
-                     "squeeze.toml");
+  return parse_scene(testing::squeeze_scene_text(policy), "squeeze.toml");
 }
 
 }  // namespace

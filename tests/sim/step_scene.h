@@ -13,6 +13,8 @@
 
 namespace selvage::sim::testing {
 
+inline Shape sheet(std::int32_t side, double width_m = 0.1) { return make_sheet(side, side, width_m, width_m); }
+
 struct StepScene {
   struct Part {
     VertexId begin = 0, end = 0;
@@ -61,6 +63,13 @@ struct StepScene {
   double dt_s = 1e-2;
 };
 
+inline double lowest(const Positions& x, const StepScene::Part& part) {
+  return x.block(part.begin, 2, part.end - part.begin, 1).minCoeff();
+}
+inline double highest(const Positions& x, const StepScene::Part& part) {
+  return x.block(part.begin, 2, part.end - part.begin, 1).maxCoeff();
+}
+
 /// What the exact checker holds against a state, "" for nothing.
 inline std::string exact_defect(const StepScene& scene, const Positions& x) {
   const verify::Surface surface{scene.triangles, scene.face_is_body};
@@ -86,8 +95,9 @@ inline std::string exact_defect(const StepScene& scene, const CollisionStepResul
     const auto row = static_cast<Eigen::Index>(v);
     const bool deforms = scene.body[v] >= 0 && static_cast<std::size_t>(scene.body[v]) < scene.deforms.size() &&
                          scene.deforms[static_cast<std::size_t>(scene.body[v])] != 0;
-    const bool waits = std::ranges::count(result.report.waiting_bodies, scene.body[v]) > 0 &&
-                       (!deforms || std::ranges::count(result.report.waiting_vertices, static_cast<VertexId>(v)) > 0);
+    const bool body_waits = std::ranges::count(result.report.waiting_bodies, scene.body[v]) > 0;
+    const bool waits = std::ranges::binary_search(result.report.waiting_vertices, static_cast<VertexId>(v));
+    if (waits != body_waits && !(body_waits && deforms)) return "a rigid body waits in part, or unsaid";
     if (result.x.row(row) != (waits ? scene.V_t0 : scene.V_candidate).row(row))
       return "a scripted vertex left its script";
   }
