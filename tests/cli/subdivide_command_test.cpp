@@ -1,3 +1,4 @@
+#include <cmath>
 #include <csignal>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,27 @@ TEST(SubdivideCommand, RefusesFramesThatIntersect) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find(" already, the first of faces "), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
+/// A face one rounding unit wide: two corners of it have no midpoint between them.
+TEST(SubdivideCommand, AFaceTooThinForItsMidpointsIsNamedAsInTheInput) {
+  const TemporaryFolder folder;
+  io::MeshData mesh;
+  for (std::int32_t k = 0; k < 4; ++k) {
+    const double beside = k == 3 ? std::nextafter(1.0, 2.0) : 1.5;
+    mesh.points.insert(mesh.points.end(), {{1, 0, 1.0 * k}, {beside, 0, 1.0 * k}, {1, 1, 1.0 * k}});
+    mesh.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  }
+  io::SequenceWriter(folder.path() / "run",
+                     {mesh.triangles, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"})
+      .append(0, mesh.points);
+  for (const char* levels : {"1", "3"}) {
+    const auto result =
+        run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--levels", levels});
+    EXPECT_EQ(result.exit_code, 1) << result.out;
+    expect_text(result.err, "within face 3, which is too thin for the rounding of its midpoints");
+    EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+  }
 }
 
 TEST(SubdivideCommand, WhatCannotBeSubdividedIsNamedAndLeavesNothing) {

@@ -203,6 +203,12 @@ TEST_F(BodySequenceTest, WhatIsWrongNamesTheLineAndTheRemedy) {
   EXPECT_NE(error_of(bad).find("beyond 1e+09 m"), std::string::npos) << error_of(bad);
   std::filesystem::rename(folder_.path() / "ball_5.obj", folder_.path() / "away.obj");
   EXPECT_NE(error_of(spec()).find("after ball_4.obj comes ball_6.obj"), std::string::npos) << error_of(spec());
+  std::string turned = obj(ball(5 * kFrame_s));
+  const auto last = turned.rfind("f ");
+  turned.replace(last, std::string::npos, "f 1 2 3\n");
+  spit("ball_5.obj", turned);
+  EXPECT_NE(error_of(spec()).find("ball_5.obj has other faces or vertices than the first frame"), std::string::npos)
+      << "as many of both";
   spit("ball_5.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_NE(error_of(spec()).find("ball_5.obj has other faces or vertices than the first frame"), std::string::npos)
       << error_of(spec());

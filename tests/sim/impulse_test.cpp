@@ -60,7 +60,8 @@ TEST(Distribute, DoesNotThrowTheFreeCornerOfAPinnedTriangle) {
   const std::array<double, 4> inverse_mass{0, 1, 0, 0};
   for (const double lever : {2.0, kMaxLever, 16.0, 64.0, 1e9}) {
     const double weight = 1 / lever;
-    const Interaction pair = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, weight, 0.5, 0.5 - weight}, inverse_mass);
+    const Interaction pair =
+        make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, weight, 0.5, 0.5 - weight}, inverse_mass);
     const PairVectors change = distribute(pair, Vec3(0, 0, 1));
     const double moved = lever > kMaxLever ? kMaxLever * kMaxLever / lever : lever;
     EXPECT_NEAR(change[1].z(), -moved, 1e-12 * moved) << lever;

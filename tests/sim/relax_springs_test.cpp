@@ -108,5 +108,19 @@ TEST(RelaxSprings, EndsWhereTheLimitCannotBeReached) {
   for (const VertexId pin : {0, 11, 132, 143}) EXPECT_EQ(relaxed.x.row(pin), start.scene.V_t0.row(pin));
 }
 
+/// One spring that pins hold at three times its length: what the others gain by it in later steps is nothing.
+TEST(RelaxSprings, EndsWhereAStepGainsLittle) {
+  SheetOverBall start;
+  constexpr VertexId kBeside = SheetOverBall::kPin + 1;
+  start.scene.inverse_mass[kBeside] = 0;
+  start.scene.V_t0.row(kBeside) +=
+      2 * (start.scene.V_t0.row(kBeside) - start.scene.V_t0.row(SheetOverBall::kPin)) + Eigen::RowVector3d(0, 0, 0.01);
+  ASSERT_EQ(exact_defect(start.scene, start.scene.V_t0), "");
+  const RelaxedSprings relaxed = start.relax();
+  EXPECT_EQ(exact_defect(start.scene, relaxed.x), "");
+  EXPECT_GT(relaxed.steps, 0);
+  EXPECT_LT(relaxed.steps, kMostRelaxSteps);
+}
+
 }  // namespace
 }  // namespace selvage::sim::testing

@@ -21,9 +21,7 @@ std::int64_t violations(const io::Triangles& triangles, const Positions& x) {
   return verify::check_frame(verify::Surface{triangles, {}}, points_of(x), {}).violations_total.total();
 }
 
-Mesh mesh_of(const Shape& shape) {
-  return make_mesh(static_cast<std::int32_t>(shape.x.rows()), shape.triangles);
-}
+Mesh mesh_of(const Shape& shape) { return make_mesh(static_cast<std::int32_t>(shape.x.rows()), shape.triangles); }
 
 // Two tents, one over the other: smoothing lowers the coarse upper ridge more than the fine lower one.
 Shape two_tents(double gap_m) {
