@@ -16,7 +16,7 @@ void WaitingSummary::add(const sim::Simulation& simulation, const sim::StepResul
     if (is_first) wait->second.begin_s = now_s - step.dt_s;
     ++wait->second.steps;
     wait->second.end_s = now_s;
-    const double lag_m = (body.placed_at(now_s, float32) - placed).rowwise().norm().maxCoeff();
+    const double lag_m = (body.placed_at(now_s, float32, simulation.x()) - placed).rowwise().norm().maxCoeff();
     wait->second.largest_lag_m = std::max(wait->second.largest_lag_m, lag_m);
   }
 }

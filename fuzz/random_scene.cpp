@@ -177,12 +177,27 @@ void crowd(SceneText& scene) {
   }
 }
 
+void carry(SceneText& scene) {
+  scene.cloth(scene.source().range(2, 7), 1, 0, 0, 0.6, 0);
+  scene.line("[[cloth.pin]]\nbody = \"body 1\"");
+  scene.line(scene.source().coin() ? "edge = \"right\"" : "vertices = [0, 1]");
+  if (scene.source().coin()) scene.value("release_s", 0.5);
+  scene.body_shape(0.5);
+  scene.key(0, scene.jitter(0.2), scene.jitter(0.2), scene.source().coin() ? 1 : 0.2);
+  scene.line("rotation_deg = [" + std::to_string(scene.jitter(90)) + ", 0.0, 0.0]");
+  scene.key(0.1 * scene.source().range(2, 10), scene.jitter(1), scene.jitter(1), scene.jitter(1));
+  scene.line("rotation_deg = [0.0, " + std::to_string(scene.jitter(180)) + ", 0.0]");
+  scene.body_shape(0.3);
+  scene.place("position_m", scene.jitter(0.5), scene.jitter(0.5), -0.3);
+  if (scene.source().coin()) scene.ground(-0.7);
+}
+
 struct SceneClass {
   std::string_view name;
   void (*make)(SceneText&);
 };
-constexpr std::array<SceneClass, 5> kClasses{
-    {{"fall", fall}, {"stack", stack}, {"pinch", pinch}, {"fling", fling}, {"crowd", crowd}}};
+constexpr std::array<SceneClass, 6> kClasses{
+    {{"fall", fall}, {"stack", stack}, {"pinch", pinch}, {"fling", fling}, {"crowd", crowd}, {"carry", carry}}};
 
 }  // namespace
 

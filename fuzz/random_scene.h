@@ -10,7 +10,8 @@
 namespace selvage::fuzz {
 
 /// fall: a sheet onto a body. stack: several sheets. pinch: cloth between two moving bodies. fling: pinned cloth that
-/// is thrown and turned, into itself. crowd: small cloths and bodies at high speed.
+/// is thrown and turned, into itself. crowd: small cloths and bodies at high speed. carry: cloth
+/// that a body carries, past another.
 [[nodiscard]] const std::vector<std::string_view>& scene_classes();
 
 /// TOML in the schema of docs/scenes.md. No trigonometry, so that the same scene has the same bits everywhere.

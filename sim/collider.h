@@ -1,5 +1,5 @@
 // Vertices that follow a script instead of the dynamics: rigid bodies, figures that a sequence animates, and pins of
-// cloth.
+// cloth, which may hang on a body.
 #pragma once
 
 #include <limits>
@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/attachment.h"
 #include "sim/body_sequence.h"
 #include "sim/linkage.h"
 
@@ -15,29 +16,39 @@ namespace selvage::sim {
 
 class Collider {
  public:
-  /// In the frame of the linkage: as many rows as vertices, or what animates them.
-  using Local = std::variant<Positions, std::shared_ptr<const BodySequence>>;
+  /// x_world = linkage.at(t)(local), as many rows as vertices.
+  struct Rigid {
+    Positions local;
+    Linkage linkage;
+  };
+  struct Animated {
+    std::shared_ptr<const BodySequence> local;
+    Linkage linkage;
+  };
+  using Motion = std::variant<Rigid, Animated, Attachment>;
 
-  /// Vertex vertices[i] is at row i of `local` at t, transformed by linkage.at(t), until release_s.
-  Collider(std::string name, std::vector<VertexId> vertices, Local local, Linkage linkage,
+  /// Vertex vertices[i] is at row i of the motion, until release_s.
+  Collider(std::string name, std::vector<VertexId> vertices, Motion motion,
            double release_s = std::numeric_limits<double>::infinity());
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
   [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
-  /// Null where it is rigid.
+  /// Null where none animates it.
   [[nodiscard]] const BodySequence* sequence() const;
-  /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. Throws
-  /// io::Error where a frame of the sequence cannot be read any more.
-  [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32) const;
+  /// Whether its vertices may move against each other: then each waits, and catches up, by itself.
+  [[nodiscard]] bool deforms() const { return !std::holds_alternative<Rigid>(motion_); }
+  /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. x: all
+  /// vertices, of which an attachment looks where its body is. Throws io::Error where a frame of the sequence cannot be
+  /// read any more.
+  [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32, const Positions& x) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;
 
  private:
   std::string name_;
   std::vector<VertexId> vertices_;
-  Local local_;
-  Linkage linkage_;
+  Motion motion_;
   double release_s_;
 };
 

@@ -66,11 +66,12 @@ struct ScriptSpec {
   Interpolation interpolation = Interpolation::kLinear;
 };
 
-/// Vertices of a cloth that a script holds instead of the dynamics.
+/// Vertices of a cloth that a script or a body holds instead of the dynamics.
 struct PinSpec {
-  std::vector<VertexId> vertices;  ///< of the cloth, sorted, unique
-  std::size_t vertices_line = 0;   ///< in the file; whether a mesh has them shows only in the world
-  ScriptSpec script;               ///< relative to where the vertices start, turning about their mean
+  std::vector<VertexId> vertices;   ///< of the cloth, sorted, unique
+  std::size_t vertices_line = 0;    ///< in the file; whether a mesh has them shows only in the world
+  ScriptSpec script;                ///< relative to where the vertices start, turning about their mean
+  std::optional<std::size_t> body;  ///< that carries them, in place of the script
   double release_s = std::numeric_limits<double>::infinity();
 };
 

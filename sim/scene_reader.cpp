@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,8 @@ constexpr Range kDegrees{-1e6, 1e6};
 
 constexpr std::int64_t kMaxRepeats = 100'000;  // more steps of a walk than a run has frames for
 constexpr std::size_t kMaxKeys = 1'000'000;
+
+constexpr const char* kBodyName = "body";  // where a body has none of its own
 
 Pose read_pose(TomlTable& table) {
   return {table.vector("position_m", kCoordinate, Vec3::Zero()), table.vector("rotation_deg", kDegrees, Vec3::Zero())};
@@ -88,7 +91,33 @@ std::vector<VertexId> sheet_edge(const SheetSpec& sheet, std::size_t edge) {
   return vertices;
 }
 
-PinSpec read_pin(TomlTable table, const Surface& surface) {
+/// The one of `bodies` that `key` names; `else_do` ends what is said where there is none.
+std::size_t read_body_index(TomlTable& table, std::string_view key, std::span<const std::string> bodies,
+                           std::string_view else_do) {
+  const std::string name = table.text(key);
+  const auto found = std::ranges::find(bodies, name);
+  if (found == bodies.end()) table.fail(key, fmt::format("no body \"{}\"{}", name, else_do));
+  return static_cast<std::size_t>(found - bodies.begin());
+}
+
+void read_pin_motion(TomlTable& table, std::span<const std::string> bodies, PinSpec& pin) {
+  if (table.has("body")) {
+    for (const char* key : {"key", "position_m", "rotation_deg", "interpolation", "repeat"}) {
+      if (table.has(key)) table.fail(key, fmt::format("a pin with a body moves as that does; leave out {}", key));
+    }
+    pin.body = read_body_index(table, "body", bodies, "; name one of the scene");
+  }
+  pin.script = read_script(table);
+  const PoseKey& first = pin.script.keys.front();
+  const auto is_zero = [](const Pose& pose) {
+    return pose.position_m == Vec3::Zero() && pose.rotation_deg == Vec3::Zero();
+  };
+  if (first.time_s != 0 || !is_zero(first.pose) || !is_zero(pin.script.placement)) {
+    table.fail("a pin starts where its vertices are; give it a first key with time_s = 0 alone");
+  }
+}
+
+PinSpec read_pin(TomlTable table, const Surface& surface, std::span<const std::string> bodies) {
   PinSpec pin;
   const auto* sheet = std::get_if<SheetSpec>(&surface);
   if (table.has("edge")) {
@@ -106,14 +135,7 @@ PinSpec read_pin(TomlTable table, const Surface& surface) {
       table.fail("vertices", "a vertex is listed twice; remove one");
     }
   }
-  pin.script = read_script(table);
-  const PoseKey& first = pin.script.keys.front();
-  const auto is_zero = [](const Pose& pose) {
-    return pose.position_m == Vec3::Zero() && pose.rotation_deg == Vec3::Zero();
-  };
-  if (first.time_s != 0 || !is_zero(first.pose) || !is_zero(pin.script.placement)) {
-    table.fail("a pin starts where its vertices are; give it a first key with time_s = 0 alone");
-  }
+  read_pin_motion(table, bodies, pin);
   pin.release_s = table.number("release_s", kNotNegative, pin.release_s);
   table.finish();
   return pin;
@@ -140,7 +162,8 @@ void note_stiffest(const TomlTable& table, ClothSpec& cloth) {
 }
 
 /// The cloth and its copies, each further along by `copy_offset_m`: stacks, and rows of hanging sheets.
-std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names, ContactReader& contacts) {
+std::vector<ClothSpec> read_cloth(TomlTable table, std::span<const std::string> bodies, std::set<std::string>& names,
+                                  ContactReader& contacts) {
   ClothSpec cloth;
   cloth.name = read_name(table, "cloth", names);
   const std::int64_t copies = table.integer("copies", 1, kMaxCopies, 1);
@@ -166,7 +189,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
   cloth.thickness_line = table.line("thickness_m");
   std::set<VertexId> pinned;
   for (TomlTable& pin_table : table.tables("pin")) {
-    cloth.pins.push_back(read_pin(pin_table, cloth.surface));
+    cloth.pins.push_back(read_pin(pin_table, cloth.surface, bodies));
     for (const VertexId vertex : cloth.pins.back().vertices) {
       if (!pinned.insert(vertex).second) {
         pin_table.fail(fmt::format("vertex {} is pinned already; a vertex has one pin", vertex));
@@ -187,18 +210,13 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::set<std::string>& names,
 }
 
 // `earlier`: the bodies that the table may name as its parent; so there are no cycles.
-BodySpec read_body(TomlTable table, const std::vector<BodySpec>& earlier, std::set<std::string>& names,
+BodySpec read_body(TomlTable table, std::span<const std::string> earlier, std::set<std::string>& names,
                    ContactReader& contacts) {
   BodySpec body;
-  body.name = read_name(table, "body", names);
+  body.name = read_name(table, kBodyName, names);
   body.surface = read_body_surface(table);
   if (table.has("parent")) {
-    const std::string parent = table.text("parent");
-    const auto found = std::find_if(earlier.begin(), earlier.end(), [&](const auto& b) { return b.name == parent; });
-    if (found == earlier.end()) {
-      table.fail("parent", fmt::format("no body \"{}\" above; name one, and put it before what hangs on it", parent));
-    }
-    body.parent = static_cast<std::size_t>(found - earlier.begin());
+    body.parent = read_body_index(table, "parent", earlier, " above; name one, and put it before what hangs on it");
   }
   body.script = read_script(table);
   body.contact = contacts.read(table, false);
@@ -286,11 +304,17 @@ Scene read_root(TomlTable root) {
   }
   ContactReader contacts(scene.collision);
   std::set<std::string> names;
+  std::vector<TomlTable> bodies = root.tables("body");
+  std::vector<std::string> body_names;
+  for (TomlTable& body : bodies) body_names.push_back(body.text("name", kBodyName));
   for (TomlTable& table : root.tables("cloth")) {
-    for (ClothSpec& cloth : read_cloth(table, names, contacts)) scene.cloths.push_back(std::move(cloth));
+    for (ClothSpec& cloth : read_cloth(table, body_names, names, contacts)) scene.cloths.push_back(std::move(cloth));
   }
   if (scene.cloths.empty()) root.fail("no cloth; add a table [[cloth]]");
-  for (TomlTable& body : root.tables("body")) scene.bodies.push_back(read_body(body, scene.bodies, names, contacts));
+  for (TomlTable& body : bodies) {
+    const auto earlier = std::span(body_names).first(scene.bodies.size());
+    scene.bodies.push_back(read_body(body, earlier, names, contacts));
+  }
   root.finish();
   if (!stiffness_given) {
     // Paper, 7.2: "matching the stiffness of the stretch springs in the cloth gave good results".

@@ -195,7 +195,8 @@ Simulation::Try Simulation::try_step(StepResult& result) {
   }
 }
 
-// The cloth where it is, and scripted vertices where their scripts are at the end of the step, or on their way there.
+// The cloth where it is, and scripted vertices where their scripts are at the end of the step, or on their way there:
+// first the bodies, then the pins, which may hang on them.
 Positions Simulation::scripted_positions() {
   scripted_ = scripted_at(world_, clock_.time_s());
   Positions x = x_;
@@ -208,12 +209,12 @@ Positions Simulation::scripted_positions() {
 void Simulation::follow_script(const Collider& collider, Positions& x) const {
   const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
   const std::vector<VertexId>& vertices = collider.vertices();
-  Positions script_t1 = collider.placed_at(clock_.end_s(), float32);
+  Positions script_t1 = collider.placed_at(clock_.end_s(), float32, x);
   if (scene_.squeeze == SqueezePolicy::kYield) {  // else none has ever waited
-    const Positions now = x_(vertices, Eigen::all), script_t0 = collider.placed_at(clock_.time_s(), float32);
+    const Positions now = x_(vertices, Eigen::all), script_t0 = collider.placed_at(clock_.time_s(), float32, x_);
     if (now != script_t0) {
       const double least_speed_m_s = scene_.collision.thickness_m / kCatchUpTime_s;
-      const auto follow = collider.sequence() != nullptr ? catch_up_each : catch_up;
+      const auto follow = collider.deforms() ? catch_up_each : catch_up;
       script_t1 = follow(now, script_t0, script_t1, clock_.dt_s(), least_speed_m_s);
     }
   }

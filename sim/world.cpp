@@ -79,32 +79,28 @@ class WorldBuilder {
       for (VertexId& vertex : stabilizer.vertices) vertex += begin;
       stabilizers_.push_back(stabilizer);
     }
-    for (std::size_t n = 0; n < spec.pins.size(); ++n) {
-      add_pin(fmt::format("{} pin {}", spec.name, n), spec.pins[n], begin, static_cast<VertexId>(rest.x.rows()));
-    }
+    cloths_.push_back({begin, static_cast<VertexId>(rest.x.rows())});
   }
 
   void add_body(const BodySpec& spec) {
-    Shape shape;
-    Collider::Local local;
-    if (const auto* animated = std::get_if<SequenceSpec>(&spec.surface)) {
-      auto sequence = std::make_shared<const BodySequence>(*animated, scene_.file);
-      shape = sequence->first();
-      local = std::move(sequence);
-    } else {
-      shape = shape_of(std::get<Surface>(spec.surface));
-      local = shape.x;
-    }
     RigidPath path(spec.script.keys, spec.script.interpolation);
     linkages_.push_back(spec.parent ? Linkage(spec.script.placement, std::move(path), linkages_.at(*spec.parent))
                                     : Linkage(spec.script.placement, std::move(path)));
-    const Linkage& linkage = linkages_.back();
-    const VertexId begin = add_part(spec.name, io::Group::Role::kBody, shape, transform(linkage.at(0), shape.x));
-    add_contact(spec.contact);
-    inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
-    std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
-    std::iota(vertices.begin(), vertices.end(), begin);
-    bodies_.emplace_back(spec.name, std::move(vertices), std::move(local), linkage);
+    if (const auto* animated = std::get_if<SequenceSpec>(&spec.surface)) {
+      const auto sequence = std::make_shared<const BodySequence>(*animated, scene_.file);
+      add_collider(spec, sequence->first(), Collider::Animated{sequence, linkages_.back()});
+    } else {
+      const Shape shape = shape_of(std::get<Surface>(spec.surface));
+      add_collider(spec, shape, Collider::Rigid{shape.x, linkages_.back()});
+    }
+  }
+
+  /// Of cloth number `cloth` of the scene, after all bodies.
+  void add_pins(std::size_t cloth) {
+    const ClothSpec& spec = scene_.cloths[cloth];
+    for (std::size_t n = 0; n < spec.pins.size(); ++n) {
+      add_pin(fmt::format("{} pin {}", spec.name, n), spec.pins[n], cloths_[cloth]);
+    }
   }
 
   World take(std::int32_t cloth_vertex_count) {
@@ -124,7 +120,7 @@ class WorldBuilder {
                 {}};
     world.body_count = static_cast<std::int32_t>(world.colliders.size());
     std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
-    for (const Collider& collider : world.colliders) world.deforms.push_back(collider.sequence() != nullptr ? 1 : 0);
+    for (const Collider& collider : world.colliders) world.deforms.push_back(collider.deforms() ? 1 : 0);
     world.mesh = make_mesh(vertex_count(), world.triangles);
     world.stable_step_s = stable_step_s(world.springs, world.inverse_mass, world.stabilizers);
     const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
@@ -204,25 +200,45 @@ class WorldBuilder {
     edge_begin_ += static_cast<EdgeId>(mesh.edges.size());
   }
 
-  void add_pin(const std::string& name, const PinSpec& spec, VertexId begin, VertexId count) {
-    if (spec.vertices.back() >= count) {
+  void add_collider(const BodySpec& spec, const Shape& shape, Collider::Motion motion) {
+    std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
+    std::iota(vertices.begin(), vertices.end(), vertex_count());
+    bodies_.emplace_back(spec.name, std::move(vertices), std::move(motion));
+    add_part(spec.name, io::Group::Role::kBody, shape, bodies_.back().placed_at(0, false, x_));
+    add_contact(spec.contact);
+    inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
+  }
+
+  struct ClothRows {
+    VertexId begin, count;
+  };
+
+  void add_pin(const std::string& name, const PinSpec& spec, const ClothRows& cloth) {
+    if (spec.vertices.back() >= cloth.count) {
       io::bad_input_at_line(scene_.file.string(), spec.vertices_line,
                             fmt::format("{} holds vertex {}, but its cloth has {}, numbered from 0; correct the list",
-                                        name, spec.vertices.back(), count));
+                                        name, spec.vertices.back(), cloth.count));
     }
     std::vector<VertexId> vertices;
+    for (const VertexId vertex : spec.vertices) vertices.push_back(cloth.begin + vertex);
+    Collider::Motion motion = spec.body ? carried_by(*spec.body, vertices) : scripted(spec.script, vertices);
+    pins_.emplace_back(name, std::move(vertices), std::move(motion), spec.release_s);
+  }
+
+  [[nodiscard]] Collider::Motion carried_by(std::size_t body, const std::vector<VertexId>& vertices) const {
+    const io::Group& group = groups_[scene_.cloths.size() + body];
+    return Attachment(x_(vertices, Eigen::all),
+                      std::span(triangles_).subspan(group.face_begin, group.face_end - group.face_begin), x_);
+  }
+
+  // About the mean of the vertices.
+  [[nodiscard]] Collider::Motion scripted(const ScriptSpec& script, const std::vector<VertexId>& vertices) const {
     Vec3 mean = Vec3::Zero();
-    for (const VertexId vertex : spec.vertices) {
-      vertices.push_back(begin + vertex);
-      mean += x_.row(begin + vertex).transpose() / double(spec.vertices.size());
-    }
-    Positions local(static_cast<Eigen::Index>(vertices.size()), 3);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      local.row(static_cast<Eigen::Index>(i)) = x_.row(vertices[i]) - mean.transpose();
-    }
-    pins_.emplace_back(name, std::move(vertices), std::move(local),
-                       Linkage({mean, Vec3::Zero()}, RigidPath(spec.script.keys, spec.script.interpolation)),
-                       spec.release_s);
+    for (const VertexId vertex : vertices) mean += x_.row(vertex).transpose() / double(vertices.size());
+    Positions local = x_(vertices, Eigen::all);
+    local.rowwise() -= mean.transpose();
+    return Collider::Rigid{std::move(local),
+                           Linkage({mean, Vec3::Zero()}, RigidPath(script.keys, script.interpolation))};
   }
 
   const Scene& scene_;
@@ -232,6 +248,7 @@ class WorldBuilder {
   std::vector<double> inverse_mass_;
   std::vector<Spring> springs_;
   std::vector<Stabilizer> stabilizers_;
+  std::vector<ClothRows> cloths_;
   std::vector<Collider> bodies_, pins_;
   std::vector<Linkage> linkages_;  ///< of the bodies
   ContactSurfaces contacts_;
@@ -277,6 +294,7 @@ World build_world(const Scene& scene) {
   for (const ClothSpec& cloth : scene.cloths) builder.add_cloth(cloth);
   const std::int32_t cloth_vertex_count = builder.vertex_count();
   for (const BodySpec& body : scene.bodies) builder.add_body(body);
+  for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) builder.add_pins(cloth);
   World world = builder.take(cloth_vertex_count);
   if (scene.solver == Solver::kExplicit) require_stable_step(scene, world.stable_step_s);
   return world;
@@ -343,8 +361,13 @@ std::string describe(const Scene& scene, const World& world) {
   if (scene.drag_1_s > 0) line("air", fmt::format("drag {:g} 1/s", scene.drag_1_s));
   if (scene.quadratic_drag_1_m > 0) line("air", fmt::format("drag {:g} 1/m, quadratic", scene.quadratic_drag_1_m));
   if (scene.solver == Solver::kImplicit) line("solver", "implicit");
-  for (std::size_t n = static_cast<std::size_t>(world.body_count); n < world.colliders.size(); ++n) {
-    line("pin", fmt::format("{}, {} vertices", world.colliders[n].name(), world.colliders[n].vertices().size()));
+  auto n = static_cast<std::size_t>(world.body_count);
+  for (const ClothSpec& cloth : scene.cloths) {
+    for (const PinSpec& spec : cloth.pins) {
+      const Collider& pin = world.colliders[n++];
+      const std::string carrier = spec.body ? ", on " + scene.bodies[*spec.body].name : "";
+      line("pin", fmt::format("{}, {} vertices{}", pin.name(), pin.vertices().size(), carrier));
+    }
   }
   const char* what = "contact";
   for (const std::string& part : describe(contact_of(scene.collision), scene.collision.repulsion)) {

@@ -24,7 +24,7 @@ struct World {
   StabilizerSystem stabilizers;       ///< of the cloth vertices
   std::vector<Collider> colliders;    ///< the bodies, then the pins; the index is the collision step's body id
   std::int32_t body_count = 0;        ///< of the colliders
-  std::vector<std::uint8_t> deforms;  ///< by collider: 1 where a sequence animates it
+  std::vector<std::uint8_t> deforms;  ///< by collider: 1 where it deforms (collider.h)
   ContactSurfaces contacts;           ///< empty where no part has properties of its own, and no rest pairs
   double stable_step_s = 0;           ///< of the springs
   Positions x_t0, v_t0;               ///< #V by 3 at time 0, on the lattice of the scene's precision

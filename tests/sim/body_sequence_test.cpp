@@ -120,6 +120,30 @@ TEST_F(BodySequenceTest, EveryStepOnItIsExactlyFree) {
   }
 }
 
+TEST_F(BodySequenceTest, CarriesWhatIsPinnedToIt) {
+  write_frames();
+  Scene hung = scene("name = \"ball\"\n");
+  PinSpec pin;
+  pin.vertices = {119, 120, 135, 136};
+  pin.script.keys.emplace_back();
+  pin.body = 0;
+  hung.cloths[0].pins = {pin};
+  Simulation simulation(hung);
+  const World& world = simulation.world();
+  const Positions x_t0 = simulation.x();
+  while (simulation.clock().state().frame < 30) {
+    const Positions before = simulation.x();
+    ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+    ASSERT_EQ(testing::violations(world, before, simulation.x()), 0);
+    const Positions carried = world.colliders.back().placed_at(simulation.clock().time_s(), false, simulation.x());
+    ASSERT_EQ(Positions(simulation.x()(pin.vertices, Eigen::all)), carried);
+  }
+  const auto above = [](const Positions& x) {
+    return (x.bottomRows(make_sphere(0.1, 2).x.rows()).rowwise() - x.row(119)).rowwise().norm().minCoeff();
+  };
+  EXPECT_NEAR(above(simulation.x()), above(x_t0), 0.01) << "0.03 m over a ball that leans over and moves by 0.15 m";
+}
+
 // Two slabs of one figure that close on the border of a sheet, a little through each other, and open again.
 TEST_F(BodySequenceTest, UnderYieldGivesWayWhereItIsInTheWayAndComesBack) {
   const Shape slab = make_box(Vec3(0.3, 0.3, 0.02), 4);
@@ -161,7 +185,7 @@ sequence = {file = "jaws_*.obj", frames_per_s = 30}
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     ASSERT_EQ(testing::violations(simulation.world(), before, simulation.x()), 0);
     waits += std::ssize(step.report.waiting_bodies);
-    const Positions script = body.placed_at(simulation.clock().time_s(), false);
+    const Positions script = body.placed_at(simulation.clock().time_s(), false, simulation.x());
     lag = (simulation.x()(body.vertices(), Eigen::all) - script).rowwise().any().count();
     most_lag = std::max(most_lag, std::int64_t{lag});
   }
@@ -184,7 +208,7 @@ TEST_F(BodySequenceTest, HangsOnAParentAndFollowsKeys) {
   write_frames();
   const Scene moved = scene("name = \"ball\"\nposition_m = [1, 0, 0]\nrotation_deg = [0, 0, 90]\n");
   const World world = build_world(moved);
-  const Positions placed = world.colliders.front().placed_at(7 / 12.0, false), own = ball(7 * kFrame_s);
+  const Positions placed = world.colliders.front().placed_at(7 / 12.0, false, world.x_t0), own = ball(7 * kFrame_s);
   EXPECT_LT((placed.col(0).array() - (1 - own.col(1).array())).abs().maxCoeff(), 1e-15);
   EXPECT_LT((placed.col(1) - own.col(0)).cwiseAbs().maxCoeff(), 1e-15);
 }

@@ -108,7 +108,8 @@ TEST(Collider, FollowsItsScriptExactlyAndLiesOnTheLattice) {
   const Shape sphere = make_sphere(0.3, 1);
   std::vector<VertexId> vertices;
   for (VertexId i = 0; i < sphere.x.rows(); ++i) vertices.push_back(i + 2);
-  const Collider collider("ball", vertices, sphere.x, Linkage({}, RigidPath(kKeys, Interpolation::kLinear)), 1.5);
+  const Collider collider("ball", vertices,
+                          Collider::Rigid{sphere.x, Linkage({}, RigidPath(kKeys, Interpolation::kLinear))}, 1.5);
   Positions x = Positions::Constant(sphere.x.rows() + 3, 3, 7);
   collider.place_at(0.7, false, x);
   EXPECT_EQ(Positions(x.middleRows(2, sphere.x.rows())), place(kKeys[1].pose, sphere.x));

@@ -131,6 +131,12 @@ const BadScene kBadScenes[] = {
      "ring = [{height_m = 1, depth_m = 1, width_m = 1},\n{height_m = 1, depth_m = 1, width_m = 1}]\n",
      7, "from the top down"},
     {"a pinned vertex out of range", kScene + "[[cloth.pin]]\nvertices = [0, 20]\n", 10, "from 0 to 19"},
+    {"a pin on a body that is not there", kScene + "[[cloth.pin]]\nedge = \"top\"\nbody = \"hip\"\n", 11,
+     "no body \"hip\"; name one of the scene"},
+    {"a pin on a body with a script",
+     kScene +
+         "[[cloth.pin]]\nedge = \"top\"\nbody = \"body\"\nkey = [{time_s = 0}]\n[[body]]\nsphere = {radius_m = 1}\n",
+     12, "a pin with a body moves as that does; leave out key"},
     {"a vertex pinned twice", kScene + "[[cloth.pin]]\nedge = \"top\"\n[[cloth.pin]]\nedge = \"left\"\n", 11,
      "pinned already"},
     {"a pin that starts elsewhere", kScene + "[[cloth.pin]]\nedge = \"top\"\nposition_m = [0, 0, 1]\n", 9,

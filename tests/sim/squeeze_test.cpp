@@ -110,7 +110,7 @@ TEST(Squeeze, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
   EXPECT_LT(fastest_ball_m_s, 1.6) << "its script goes at 0.9 m/s";
   EXPECT_LT(fastest_m_s, 5);
   EXPECT_LT(steps, 300);
-  const Positions end = ball.placed_at(simulation.clock().time_s(), false);
+  const Positions end = ball.placed_at(simulation.clock().time_s(), false, simulation.x());
   EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), end) << "to the bit";
 }
 
@@ -142,12 +142,13 @@ TEST(Squeeze, WhatHasWaitedFarFromItsScriptDoesNotJump) {
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     const Positions now = simulation.x()(ball.vertices(), Eigen::all);
     fastest_m_s = std::max(fastest_m_s, (now - before).row(0).norm() / step.dt_s);
-    const Positions script = ball.placed_at(simulation.clock().time_s(), false);
+    const Positions script = ball.placed_at(simulation.clock().time_s(), false, simulation.x());
     farthest_behind_m = std::max(farthest_behind_m, (script - now).row(0).norm());
   }
   EXPECT_GT(farthest_behind_m, 0.1);
   EXPECT_LT(fastest_m_s, 1.1 * (farthest_behind_m / kCatchUpTime_s + 0.6)) << "its script goes at 0.5 m/s";
-  EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), ball.placed_at(simulation.clock().time_s(), false));
+  EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)),
+            ball.placed_at(simulation.clock().time_s(), false, simulation.x()));
 }
 
 TEST(Squeeze, ABodyOfTheLargestNumberIsNoPin) {
