@@ -80,10 +80,20 @@ void print_phases(const sim::RunTotals& totals) {
   print("all", totals.all());
 }
 
-void print_totals(const sim::RunTotals& totals) {
+void print_strain(const sim::RunTotals& totals, const sim::World& world) {
+  fmt::print("largest strain {:.3g}", totals.largest_strain);
+  if (totals.largest_strain > 0) {
+    const auto from = static_cast<VertexId>(totals.largest_strain_from);
+    fmt::print(" at {:.4g} s, between vertices {} and {} ({})", totals.largest_strain_at_s, from,
+               totals.largest_strain_to, part_of_vertex(world, from));
+  }
+  fmt::print("\n");
+}
+
+void print_totals(const sim::RunTotals& totals, const sim::World& world) {
   fmt::print("{} frames, {} steps ({} tried with a longer step first)\n", totals.frames, totals.steps, totals.halvings);
-  fmt::print("repulsions {}, frictions {}, largest strain {:.3g}\n", totals.repulsions, totals.frictions,
-             totals.largest_strain);
+  fmt::print("repulsions {}, frictions {}\n", totals.repulsions, totals.frictions);
+  print_strain(totals, world);
   fmt::print("steps with collisions {}, impulse rounds {}, zone rounds {} (largest zone {} vertices)\n",
              totals.steps_with_collisions, totals.impulse_rounds, totals.zone_rounds, totals.largest_zone_vertices);
   fmt::print("fail-safe vertices {}, pairs below tolerance {}, waiting bodies {}, vertices cut back {}\n",
@@ -142,7 +152,7 @@ ExitCode simulate(const SimArguments& arguments) {
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
   WaitingSummary waiting;
   const ExitCode code = run(simulation, recorder, waiting);
-  print_totals(recorder.totals());
+  print_totals(recorder.totals(), simulation.world());
   waiting.print(simulation.world());
   const std::string shortfalls = recorder.totals().shortfalls();
   if (!arguments.strict || code != ExitCode::kClean || shortfalls.empty()) return code;

@@ -56,7 +56,7 @@ RelaxedSprings relax_springs(const Positions& x, const SpringSystem& springs, co
     result.x = now;
     result.steps = n;
   }
-  result.largest_strain = largest_strain(springs, result.x.topRows(cloth));
+  result.largest_strain = most_strained(springs, result.x.topRows(cloth)).strain;
   return result;
 }
 

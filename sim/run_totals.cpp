@@ -31,7 +31,12 @@ void RunTotals::add(const StepResult& step) {
   cg_iterations += step.dynamics.cg_iterations;
   unconverged_solves += step.dynamics.unconverged;
   largest_residual_m = std::max(largest_residual_m, step.dynamics.residual_m);
-  largest_strain = std::max(largest_strain, step.largest_strain);
+  if (step.most_strained.strain > largest_strain) {
+    largest_strain = step.most_strained.strain;
+    largest_strain_at_s = step.end_s;
+    largest_strain_from = step.most_strained.ends[0];
+    largest_strain_to = step.most_strained.ends[1];
+  }
   phases += step.phases;
 }
 

@@ -26,6 +26,8 @@ struct RunTotals {
   std::int64_t dynamics_solves = 0, newton_rounds = 0, cg_iterations = 0, unconverged_solves = 0;
   double largest_residual_m = 0;  ///< of an implicit solve
   double largest_strain = 0;      ///< of structural and shear springs, at the end of a step
+  double largest_strain_at_s = 0;
+  std::int64_t largest_strain_from = -1, largest_strain_to = -1;  ///< vertices
   StepPhases phases;
   PhaseTime recording;
 
@@ -67,6 +69,9 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("unconverged_solves", totals.unconverged_solves);
   visit("largest_residual_m", totals.largest_residual_m);
   visit("largest_strain", totals.largest_strain);
+  visit("largest_strain_at_s", totals.largest_strain_at_s);
+  visit("largest_strain_from", totals.largest_strain_from);
+  visit("largest_strain_to", totals.largest_strain_to);
   const auto visit_phase = [&](const char* name, auto& phase) {
     visit((std::string(name) + "_s").c_str(), phase.wall_s);
     visit((std::string(name) + "_cpu_s").c_str(), phase.cpu_s);

@@ -93,7 +93,7 @@ std::vector<VertexId> sheet_edge(const SheetSpec& sheet, std::size_t edge) {
 
 /// The one of `bodies` that `key` names; `else_do` ends what is said where there is none.
 std::size_t read_body_index(TomlTable& table, std::string_view key, std::span<const std::string> bodies,
-                           std::string_view else_do) {
+                            std::string_view else_do) {
   const std::string name = table.text(key);
   const auto found = std::ranges::find(bodies, name);
   if (found == bodies.end()) table.fail(key, fmt::format("no body \"{}\"{}", name, else_do));

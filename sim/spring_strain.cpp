@@ -24,28 +24,26 @@ double elongation(const Spring& spring, const PositionsRef& x) {
 
 double strain(const Spring& spring, const PositionsRef& x) { return std::abs(elongation(spring, x)); }
 
-/// For parallel_sum(): the "sum" of two is the larger.
-struct Largest {
-  double value = 0;
+/// For parallel_sum(): the "sum" of two is the larger, or the first.
+struct Largest : Strained {
   Largest& operator+=(const Largest& other) {
-    value = std::max(value, other.value);
+    if (other.strain > strain) *this = other;
     return *this;
   }
 };
 
-/// Of what is asked of structural and shear springs; 0 at least.
-double largest(const SpringSystem& springs, const PositionsRef& x, double (*of)(const Spring&, const PositionsRef&)) {
+/// By what is asked of structural and shear springs.
+Strained largest(const SpringSystem& springs, const PositionsRef& x, double (*of)(const Spring&, const PositionsRef&)) {
   const auto& all = springs.springs();
   std::vector<Largest> partial;
-  const Largest whole = parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
+  return parallel_sum(std::ssize(all), partial, [&](Eigen::Index begin, Eigen::Index end) {
     Largest most;
     for (Eigen::Index i = begin; i < end; ++i) {
       const Spring& spring = all[static_cast<std::size_t>(i)];
-      if (spring.kind != SpringKind::kBending) most += {of(spring, x)};
+      if (spring.kind != SpringKind::kBending) most += Largest{{of(spring, x), {spring.a, spring.b}}};
     }
     return most;
   });
-  return whole.value;
 }
 
 }  // namespace
@@ -69,10 +67,10 @@ std::int64_t springs_overstrained(const SpringSystem& springs, double strain_lim
   });
 }
 
-double largest_strain(const SpringSystem& springs, const PositionsRef& x) { return largest(springs, x, strain); }
+Strained most_strained(const SpringSystem& springs, const PositionsRef& x) { return largest(springs, x, strain); }
 
 double largest_elongation(const SpringSystem& springs, const PositionsRef& x) {
-  return largest(springs, x, elongation);
+  return largest(springs, x, elongation).strain;
 }
 
 }  // namespace selvage::sim

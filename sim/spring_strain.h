@@ -2,6 +2,7 @@
 // the dynamics carries a vertex on in it that contact then puts back, and the springs between are pressed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "sim/spring.h"
@@ -17,11 +18,16 @@ struct StrainedMotion {
 [[nodiscard]] std::int64_t springs_overstrained(const SpringSystem& springs, double strain_limit,
                                                 const StrainedMotion& motion);
 
-/// Of structural and shear springs: the largest change of a length over the length at rest; 0 without springs.
-/// O(springs), in parallel.
-[[nodiscard]] double largest_strain(const SpringSystem& springs, const PositionsRef& x);
+/// A change of length over the length at rest, and between which vertices: none where it is 0.
+struct Strained {
+  double strain = 0;
+  std::array<VertexId, 2> ends = {-1, -1};
+};
 
-/// The same without those that are shorter than at rest.
+/// Of structural and shear springs: the one that is strained most, the first of several. O(springs), in parallel.
+[[nodiscard]] Strained most_strained(const SpringSystem& springs, const PositionsRef& x);
+
+/// The same without those that are shorter than at rest, and its strain alone.
 [[nodiscard]] double largest_elongation(const SpringSystem& springs, const PositionsRef& x);
 
 }  // namespace selvage::sim

@@ -11,7 +11,6 @@
 #include "sim/contact_energy.h"
 #include "sim/held_contacts.h"
 #include "sim/implicit_dynamics.h"
-#include "sim/spring_strain.h"
 
 namespace selvage::sim {
 namespace {
@@ -101,11 +100,12 @@ StepResult Simulation::step() {
     tried = try_step(result);
   }
   result.dt_s = clock_.dt_s();
+  result.end_s = clock_.end_s();
   std::tie(tried.safe.report.waiting_bodies, tried.safe.report.waiting_vertices) = waiting();
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried.safe, std::move(tried.end));
-    result.largest_strain = largest_strain(world_.springs, x_);
+    result.most_strained = most_strained(world_.springs, x_);
     loads_ = had_room(tried.safe.report) ? std::move(tried.loads) : std::vector<ContactLoad>();
     const bool few = tried.safe.report.first_collisions <= few_collisions();
     const bool is_too_short = 2 * clock_.dt_s() <= shortest_s_;  // for what meets now: it was faster

@@ -12,6 +12,7 @@
 #include "sim/phase_times.h"
 #include "sim/repulsion_contact.h"
 #include "sim/scene.h"
+#include "sim/spring_strain.h"
 #include "sim/step_lengths.h"
 #include "sim/surface_parts.h"
 #include "sim/time_step.h"
@@ -31,8 +32,8 @@ struct StepResult {
   /// Of the step that was taken, or that could not be. Its contacts are those that the dynamics held, too.
   CollisionStepReport report;
   DynamicsReport dynamics;  ///< of the step that was taken
-  double dt_s = 0;
-  double largest_strain = 0;  ///< of structural and shear springs, at the end of the step (spring_strain.h)
+  double dt_s = 0, end_s = 0;
+  Strained most_strained;  ///< of structural and shear springs, at the end of the step
   /// Tries thrown away because repulsions were not enough, the equations of implicit dynamics were not solved, or
   /// candidates were not finite or cut back.
   std::int32_t halvings = 0;

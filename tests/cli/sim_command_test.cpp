@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <random>
+#include <regex>
 #include <thread>
 
 #include <fmt/format.h>
@@ -69,6 +70,10 @@ TEST_F(SimCommand, WhatItSimulatesTheCheckerFindsClean) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.err.find("gravity"), std::string::npos) << "says what it models";
   EXPECT_NE(run.out.find("6 frames"), std::string::npos) << run.out;
+  EXPECT_TRUE(
+      std::regex_search(run.out, std::regex("\nlargest strain 0[.0-9e-]+ at 0[.0-9]+ s, between vertices [0-9]+ and "
+                                            "[0-9]+ \\(\"?sheet\"?\\)\n")))
+      << run.out;
   EXPECT_TRUE(std::filesystem::exists(path("out") + "/run.json"));
   const auto check = run_program(folder_, {"verify", path("out")});
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;

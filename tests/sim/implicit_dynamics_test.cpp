@@ -85,14 +85,19 @@ TEST(ImplicitStage, SaysThatItDidNotConverge) {
   StepResult step;
   step.dynamics.unconverged = 2;
   step.dynamics.residual_m = 3e-5;
-  step.largest_strain = 0.4;
+  step.most_strained = {0.4, {3, 5}};
+  step.end_s = 2;
   RunTotals totals;
   totals.add(step);
   EXPECT_NE(totals.shortfalls().find("2 implicit solves did not converge"), std::string::npos);
   EXPECT_EQ(totals.largest_residual_m, 3e-5);
-  step.largest_strain = 0.3;
+  step.most_strained = {0.3, {1, 2}};
+  step.end_s = 3;
   totals.add(step);
   EXPECT_EQ(totals.largest_strain, 0.4);
+  EXPECT_EQ(totals.largest_strain_at_s, 2);
+  EXPECT_EQ(totals.largest_strain_from, 3);
+  EXPECT_EQ(totals.largest_strain_to, 5);
 }
 
 // What the stiffest springs round away must hide neither that cloth falls, nor that nothing was solved.

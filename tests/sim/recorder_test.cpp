@@ -290,7 +290,7 @@ TEST_F(RecorderTest, RunJsonIsJsonWhateverTheNumbersAre) {
   Simulation simulation(scene_);
   Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
   StepResult step = simulation.step();
-  step.largest_strain = std::numeric_limits<double>::infinity();
+  step.most_strained.strain = std::numeric_limits<double>::infinity();
   recorder.record(step);
   recorder.finish(RunEnd::kComplete);
   const std::string json = slurp(folder_.path() / "out" / "run.json");

@@ -39,9 +39,12 @@ TEST(SpringStrain, TheLargestIsOfStructuralAndShearSpringsStretchedOrPressed) {
   const std::vector<Spring> springs{{0, 1, SpringKind::kStructural, 2, 10, 0},
                                     {2, 3, SpringKind::kShear, 1, 10, 0},
                                     {4, 5, SpringKind::kBending, 1, 10, 0}};
-  EXPECT_NEAR(largest_strain(SpringSystem(springs, 6), x), 0.2, 1e-15);
-  EXPECT_NEAR(largest_strain(SpringSystem({springs[0]}, 6), x), 0.1, 1e-15);
-  EXPECT_EQ(largest_strain(SpringSystem({springs[2]}, 6), x), 0);
+  const Strained most = most_strained(SpringSystem(springs, 6), x);
+  EXPECT_NEAR(most.strain, 0.2, 1e-15);
+  EXPECT_EQ(most.ends, (std::array<VertexId, 2>{springs[1].a, springs[1].b}));
+  EXPECT_NEAR(most_strained(SpringSystem({springs[0]}, 6), x).strain, 0.1, 1e-15);
+  EXPECT_EQ(most_strained(SpringSystem({springs[2]}, 6), x).strain, 0);
+  EXPECT_EQ(most_strained(SpringSystem({springs[2]}, 6), x).ends[0], -1) << "it bends";
   EXPECT_NEAR(largest_elongation(SpringSystem(springs, 6), x), 0.1, 1e-15);
   EXPECT_EQ(largest_elongation(SpringSystem({springs[1], springs[2]}, 6), x), 0);
 }

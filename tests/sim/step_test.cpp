@@ -315,7 +315,8 @@ sheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}
       const double length_m = (simulation.x().row(spring.a) - simulation.x().row(spring.b)).norm();
       now = std::max(now, std::abs(length_m / spring.rest_length_m - 1));
     }
-    EXPECT_EQ(step.largest_strain, now);
+    EXPECT_EQ(step.most_strained.strain, now);
+    EXPECT_EQ(step.end_s, simulation.clock().time_s());
     largest = std::max(largest, now);
   }
   EXPECT_LT(largest, 0.3);
