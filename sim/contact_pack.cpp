@@ -204,7 +204,7 @@ void BearLoads(const PackMotion& read, Lanes asked, ContactPack& pack, const Con
 
 /// friction_change(), after what was rubbed before has been taken back: adds to the changes.
 HWY_INLINE void Rub(Truth which, const SlipLanes& slip, Value lever_share, const Vectors& read_displacement,
-                    std::size_t first, ContactPack& pack, Vectors& changes) {
+                    double creep_m, std::size_t first, ContactPack& pack, Vectors& changes) {
   const Value zero = hn::Zero(Real()), one = Number(1);
   const Value pressed = Read(pack.pressed, first);
   const Vector before = Read(pack.rubbed, first);
@@ -225,7 +225,9 @@ HWY_INLINE void Rub(Truth which, const SlipLanes& slip, Value lever_share, const
   const Value most_static = hn::Mul(Read(pack.friction_static, first), normal_impulse);
   const Value most_kinetic = hn::Mul(Read(pack.friction_kinetic, first), normal_impulse);
   const Truth sticks = hn::Le(size, most_static);
-  const Value share = hn::IfThenElse(sticks, one, hn::Div(most_kinetic, size));
+  const Value slip_left = hn::Mul(hn::Mul(hn::Sub(size, most_kinetic), slip.pair.effective), scale);
+  const Truth creeps = hn::Le(slip_left, Number(creep_m));
+  const Value share = hn::IfThenElse(sticks, one, hn::Div(hn::IfThenElse(creeps, most_static, most_kinetic), size));
   const Vector impulse = Scaled(hn::Mul(lever_share, share), to_stop);
   const Vectors change = slip.ChangesBy(impulse);
   Truth rubs = hn::And(which, hn::And(hn::Gt(pressed, zero), hn::Gt(Read(pack.friction_static, first), zero)));
@@ -260,7 +262,7 @@ void Press(const PackMotion& read, Lanes asked, double relaxation, bool is_last,
       const Truth rubs = hn::Or(has_rubbed, hn::And(is_pressed, hn::Gt(Read(pack.friction_static, first), zero)));
       if (!hn::AllFalse(Real(), rubs)) {
         const SlipLanes slip(pair, ReadFour(read.x, first), normal, rubs);
-        Rub(rubs, slip, lever_share, displacement, first, pack, changes);
+        Rub(rubs, slip, lever_share, displacement, motion.creep_m, first, pack, changes);
       }
       pack.ever_repelled |= LanesOf(is_pressed, first);
       pack.ever_rubbed |= LanesOf(hn::And(which, hn::Gt(LargestOf(Read(pack.rubbed, first)), zero)), first);

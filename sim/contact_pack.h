@@ -37,6 +37,7 @@ struct ContactMotion {
   const LaneVectors& scripted_x;
   const LaneVectors& scripted_way;
   double h, share, step_share;
+  double creep_m = 0;  ///< as in FrictionCoefficients
 };
 
 /// The vertices of a pack, at the start of the step and how they move in it.

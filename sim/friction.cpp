@@ -143,8 +143,11 @@ std::optional<PairVectors> friction_change(const Interaction& interaction, const
   if (!(impulse_to_stop.norm() > 0)) return std::nullopt;
   const double normal_impulse = load.pressed / scale / mobility;
   const Vec3 so_far = load.rubbed / scale;
-  const bool sticks = (so_far + impulse_to_stop).norm() <= friction.on_static * normal_impulse;
-  const double share = sticks ? 1.0 : sliding_share(so_far, impulse_to_stop, friction.on_kinetic * normal_impulse);
+  const double needed = (so_far + impulse_to_stop).norm();
+  const bool sticks = needed <= friction.on_static * normal_impulse;
+  const bool creeps = (needed - friction.on_kinetic * normal_impulse) * mobility * scale <= friction.creep_m;
+  const double most = (creeps ? friction.on_static : friction.on_kinetic) * normal_impulse;
+  const double share = sticks ? 1.0 : sliding_share(so_far, impulse_to_stop, most);
   if (!(share > 0)) return std::nullopt;
   const Vec3 impulse = lever_share(interaction) * share * impulse_to_stop;
   PairVectors change = changes_by(interaction, slip, impulse);

@@ -21,6 +21,7 @@ inline constexpr double kFrictionRounding = 0x1p-40;
 struct FrictionCoefficients {
   double on_static = 0;   ///< sticks while the impulse needed is at most this times the normal impulse
   double on_kinetic = 0;  ///< slides with this times the normal impulse, never past rest
+  double creep_m = 0;     ///< but with the static one where what would be left of the slip is no longer than this
 };
 
 /// How a pair slips, and what stops it: the same in all sweeps of a step.

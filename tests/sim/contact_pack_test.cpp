@@ -23,6 +23,7 @@ struct EightPairs {
   ContactPack pack;
   LaneVectors x_t1, v, scripted_x, scripted_way;
   double friction_static = number_between(0, 1), friction_kinetic = friction_static * number_between(0, 1);
+  double creep_m = integer_in(0, 1) * number_between(0, 2);
 
   EightPairs() {
     for (LaneVectors* rows : {&x_t1, &v, &scripted_x, &scripted_way}) rows->resize(4 * kLanes);
@@ -66,7 +67,7 @@ struct EightPairs {
     pairs.push_back(pair);
   }
 
-  ContactMotion motion() { return {x_t1, v, scripted_x, scripted_way, kStep, 0, 1}; }
+  ContactMotion motion() { return {x_t1, v, scripted_x, scripted_way, kStep, 0, 1, creep_m}; }
 
   /// A step of the dynamics, of those given.
   void step(Lanes lanes) {
@@ -153,7 +154,7 @@ TEST(ContactPack, PropPressesAndRubsAsOnePairDoes) {
         load.pressed = lever_share(pair.interaction) * missing;
         expected = sum(expected, distribute(pair.interaction, missing * contact.normal));
         const auto rubs = friction_change(pair.interaction, pair.x_t0, expected, contact.normal,
-                                          {eight.friction_static, eight.friction_kinetic}, load);
+                                          {eight.friction_static, eight.friction_kinetic, eight.creep_m}, load);
         if (rubs) expected = sum(expected, *rubs);
       }
       RC_CLASSIFY(missing > 0);

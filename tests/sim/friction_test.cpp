@@ -44,9 +44,10 @@ TEST(Friction, SlidingVertexSlowsByMuTimesTheNormalChange) {
 
 TEST(Friction, SticksBelowTheStaticLimitAndSlidesAboveIt) {
   const VertexOnFloor scene;
-  const auto slip_after = [&](double slip_before, double on_static, double on_kinetic) {
+  const auto slip_after = [&](double slip_before, double on_static, double on_kinetic, double creep_m = 0) {
     const PairVectors displacement{Vec3(slip_before, 0, -1), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    const auto change = first_friction(scene.interaction, scene.x_t0, displacement, 1, {on_static, on_kinetic});
+    const auto change =
+        first_friction(scene.interaction, scene.x_t0, displacement, 1, {on_static, on_kinetic, creep_m});
     return change ? slip(sum(displacement, *change)) : slip_before;
   };
   EXPECT_NEAR(slip_after(0.49, 0.5, 0.3), 0, 1e-15);           // below mu_s: sticks
@@ -54,7 +55,10 @@ TEST(Friction, SticksBelowTheStaticLimitAndSlidesAboveIt) {
   EXPECT_NEAR(slip_after(0.2, 0.3, 0.3), 0, 1e-15);
   EXPECT_NEAR(slip_after(0.4, 0.3, 0.3), 0.1, 1e-15);
   EXPECT_EQ(slip_after(0.4, 0, 0), 0.4);
-  EXPECT_EQ(slip_after(0.4, 0.3, 0), 0.4);  // slides, and sliding costs nothing
+  EXPECT_EQ(slip_after(0.4, 0.3, 0), 0.4);                   // slides, and sliding costs nothing
+  EXPECT_NEAR(slip_after(0.7, 0.5, 0.3, 0.41), 0.2, 1e-15);  // creeps: 0.4 would be left with mu_k
+  EXPECT_NEAR(slip_after(0.7, 0.5, 0.3, 0.39), 0.4, 1e-15);
+  EXPECT_NEAR(slip_after(0.49, 0.5, 0.3, 0.41), 0, 1e-15);
 }
 
 TEST(Friction, AllFrictionsOfAStepShareOneCone) {

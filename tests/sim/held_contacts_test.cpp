@@ -208,9 +208,14 @@ TEST(HeldContacts, StickWithinTheConeAndSlideBeyond) {
   EXPECT_LT(sticks.v.row(0).norm(), 1e-15);
   EXPECT_LT((sticks.x.row(0) - sticks.V_t0.row(0)).norm(), 1e-15);
 
-  OneContact slides = vertex_over_body({0.9, 0, -1});
+  OneContact slides = vertex_over_body({1.9, 0, -1});
   EXPECT_EQ(slides.step().frictions, 1);
-  EXPECT_LT((slides.v.row(0) - Eigen::RowVector3d(0.9 - 0.4, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((slides.v.row(0) - Eigen::RowVector3d(1.9 - 0.4, 0, 0)).norm(), 1e-15);
+
+  OneContact creeps = vertex_over_body({0.9, 0, -1});
+  EXPECT_EQ(creeps.step().frictions, 1);
+  EXPECT_LT((creeps.v.row(0) - Eigen::RowVector3d(0.9 - 0.5, 0, 0)).norm(), 1e-15)
+      << "slower than four steps of gravity";
 
   OneContact leaves = vertex_over_body({0.9, 0, 1});
   EXPECT_EQ(leaves.step().repulsions, 0);
