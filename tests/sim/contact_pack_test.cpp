@@ -23,7 +23,7 @@ struct EightPairs {
   ContactPack pack;
   LaneVectors x_t1, v, scripted_x, scripted_way;
   double friction_static = number_between(0, 1), friction_kinetic = friction_static * number_between(0, 1);
-  double creep_m = integer_in(0, 1) * number_between(0, 2);
+  double creep_m = integer_in(0, 2) * number_between(0, 2);
 
   EightPairs() {
     for (LaneVectors* rows : {&x_t1, &v, &scripted_x, &scripted_way}) rows->resize(4 * kLanes);
