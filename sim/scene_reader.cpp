@@ -142,7 +142,7 @@ PinSpec read_pin(TomlTable table, const Surface& surface, std::span<const std::s
 }
 
 std::string read_name(TomlTable& table, const std::string& fallback, std::set<std::string>& names) {
-  const std::string name = table.text("name", fallback);
+  std::string name = table.text("name", fallback);
   if (!names.insert(name).second)
     table.fail("name", fmt::format("a second \"{}\"; give every part its own name", name));
   table.rename(fmt::format("\"{}\"", name));
@@ -306,6 +306,7 @@ Scene read_root(TomlTable root) {
   std::set<std::string> names;
   std::vector<TomlTable> bodies = root.tables("body");
   std::vector<std::string> body_names;
+  body_names.reserve(bodies.size());
   for (TomlTable& body : bodies) body_names.push_back(body.text("name", kBodyName));
   for (TomlTable& table : root.tables("cloth")) {
     for (ClothSpec& cloth : read_cloth(table, body_names, names, contacts)) scene.cloths.push_back(std::move(cloth));
