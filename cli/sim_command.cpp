@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/choice.h"
+#include "cli/enclosed_cloth.h"
 #include "cli/interrupt.h"
 #include "cli/output_check.h"
 #include "cli/start_check.h"
@@ -147,6 +148,7 @@ ExitCode simulate(const SimArguments& arguments) {
   const bool goes_on = arguments.resume && std::filesystem::exists(arguments.output / sim::kCheckpointFile);
   const sim::StartRepair repair = goes_on ? sim::StartRepair{} : require_clean_start(simulation, arguments.repair);
   fmt::print(stderr, "{}", sim::describe(simulation.scene(), simulation.world()));
+  if (!goes_on) print_notes(notes_on_enclosed(simulation.world(), simulation.x()));
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());

@@ -147,6 +147,60 @@ TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(SimCommand, ClothThatStartsInsideAClosedBodyIsSaidToOnce) {
+  const std::string words = "starts inside the closed body";
+  const auto start = [&](const std::string& bodies, const std::string& cloth_position,
+                         std::vector<std::string> options = {}) {
+    options.insert(options.end(), {"--frames", "1"});
+    return sim(
+        "[time]\nframes = 2\n[[cloth]]\nname = \"sheet\"\nsheet = {nx = 3, ny = 3, width_m = 0.2, height_m = "
+        "0.2}\nposition_m = " +
+            cloth_position + "\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n" + bodies,
+        options);
+  };
+  const std::string ball = "[[body]]\nname = \"ball\"\nsphere = {radius_m = 0.5, subdivisions = 2}\n";
+  const auto inside = start(ball, "[0, 0, 0]");
+  EXPECT_EQ(inside.exit_code, 0) << inside.err;
+  EXPECT_NE(inside.err.find("selvage: note: \"sheet\" " + words + " \"ball\" without meeting it"), std::string::npos)
+      << inside.err;
+  const auto resumed = start(ball, "[0, 0, 0]", {"--resume"});
+  EXPECT_EQ(resumed.exit_code, 0);
+  EXPECT_EQ(resumed.err.find(words), std::string::npos) << "said at the start: " << resumed.err;
+  // In a corner of the ball's box, and beside it.
+  for (const char* place : {"[0.38, 0.38, 0.38]", "[0, 0, 2]"}) {
+    std::filesystem::remove_all(path("out"));
+    const auto outside = start(ball, place);
+    EXPECT_EQ(outside.exit_code, 0) << outside.err;
+    EXPECT_EQ(outside.err.find(words), std::string::npos) << outside.err;
+  }
+  // An octahedron, then without one of its faces.
+  const std::string corners = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
+  const std::string faces = "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\n";
+  for (const bool is_closed : {true, false}) {
+    std::filesystem::remove_all(path("out"));
+    spit(path("body.obj"), corners + faces + (is_closed ? "f 1 4 6\n" : ""));
+    const auto run = start("[[body]]\nname = \"tent\"\nmesh = {file = \"body.obj\"}\n", "[0, 0, 0.1]");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err.find(words) != std::string::npos, is_closed) << run.err;
+  }
+}
+
+TEST_F(SimCommand, OfClothInPartsItIsSaidHowManyStartInside) {
+  // Two leaves and two bodies of one mesh each; one leaf is in one of the balls.
+  spit(path("leaves.obj"), "v 0 0 0\nv .1 0 0\nv 0 .1 0\nf 1 2 3\nv 5 0 0\nv 5.1 0 0\nv 5 .1 0\nf 4 5 6\n");
+  spit(path("stones.obj"),
+       "v -1 -1 -1\nv 3 -1 -1\nv -1 3 -1\nv -1 -1 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+       "v -1 -1 9\nv 3 -1 9\nv -1 3 9\nv -1 -1 13\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
+  const auto run =
+      sim("[time]\nframes = 1\n[[cloth]]\nname = \"leaves\"\nmesh = {file = \"leaves.obj\"}\n"
+          "density_kg_m2 = 0.2\nstretch_n_m = 40\n[[body]]\nname = \"stones\"\nmesh = {file = "
+          "\"stones.obj\"}\n");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("note: 1 of 2 connected parts of \"leaves\" starts inside the closed body \"stones\""),
+            std::string::npos)
+      << run.err;
+}
+
 TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
   const std::string far =
       "[time]\nframes = 1\n[collision]\nthickness_m = 5e-3\n%[[cloth]]\nsheet = {nx = 30, ny = 30, width_m = 1, "
