@@ -163,6 +163,12 @@ TEST_F(SimCommand, ClothThatStartsInsideAClosedBodyIsSaidToOnce) {
   EXPECT_EQ(inside.exit_code, 0) << inside.err;
   EXPECT_NE(inside.err.find("selvage: note: \"sheet\" " + words + " \"ball\" without meeting it"), std::string::npos)
       << inside.err;
+  std::filesystem::remove_all(path("out"));
+  const auto nested = start(ball + "[[body]]\nname = \"stone\"\nsphere = {radius_m = 0.05}\n", "[0, 0, 0.2]");
+  EXPECT_EQ(nested.exit_code, 0) << nested.err;
+  EXPECT_EQ(nested.err.find("\"stone\""), std::string::npos) << "a body may be anywhere: " << nested.err;
+  std::filesystem::remove_all(path("out"));
+  ASSERT_EQ(start(ball, "[0, 0, 0]").exit_code, 0);
   const auto resumed = start(ball, "[0, 0, 0]", {"--resume"});
   EXPECT_EQ(resumed.exit_code, 0);
   EXPECT_EQ(resumed.err.find(words), std::string::npos) << "said at the start: " << resumed.err;
@@ -186,11 +192,11 @@ TEST_F(SimCommand, ClothThatStartsInsideAClosedBodyIsSaidToOnce) {
 }
 
 TEST_F(SimCommand, OfClothInPartsItIsSaidHowManyStartInside) {
-  // Two leaves and two bodies of one mesh each; one leaf is in one of the balls.
+  // Two leaves and two stones, of one mesh each: one leaf is in the first stone, and in the box alone of the second.
   spit(path("leaves.obj"), "v 0 0 0\nv .1 0 0\nv 0 .1 0\nf 1 2 3\nv 5 0 0\nv 5.1 0 0\nv 5 .1 0\nf 4 5 6\n");
   spit(path("stones.obj"),
        "v -1 -1 -1\nv 3 -1 -1\nv -1 3 -1\nv -1 -1 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
-       "v -1 -1 9\nv 3 -1 9\nv -1 3 9\nv -1 -1 13\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
+       "v 4 4 4\nv 4 4 -3\nv 4 -3 4\nv -3 4 4\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
   const auto run =
       sim("[time]\nframes = 1\n[[cloth]]\nname = \"leaves\"\nmesh = {file = \"leaves.obj\"}\n"
           "density_kg_m2 = 0.2\nstretch_n_m = 40\n[[body]]\nname = \"stones\"\nmesh = {file = "
