@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/frame_range.h"
+#include "cli/group_names.h"
 #include "cli/interrupt.h"
 #include "cli/read_back.h"
 #include "cli/sequence_argument.h"
@@ -19,6 +21,7 @@
 #include "cli/verdict.h"
 #include "io/points.h"
 #include "io/sequence_output.h"
+#include "io/text.h"
 #include "verify/check.h"
 #include "verify/report.h"
 
@@ -89,6 +92,27 @@ std::vector<std::string> lost(const io::SequenceReader& input, FrameRange range,
   return what;
 }
 
+/// The bodies by name, and how selvage verify is told of them; as cloth their overlaps would be violations.
+void print_bodies(const std::vector<io::Group>& groups) {
+  std::set<std::string> bodies, cloths;
+  for (const io::Group& group : groups) {
+    (group.role == io::Group::Role::kBody ? bodies : cloths).insert(group.name);
+  }
+  if (bodies.empty()) return;
+  std::string names, options, shared;
+  for (const std::string& body : bodies) {
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", body);
+    if (cloths.contains(body)) {
+      shared += fmt::format("; \"{}\" is the name of cloth too: rename one before", body);
+    } else {
+      options += " --body " + shell_word(body);
+    }
+  }
+  if (options.empty()) options = " --body";
+  fmt::print("bodies:    {}\n",
+             io::printable(fmt::format("{}; selvage verify takes them for cloth without{}{}", names, options, shared)));
+}
+
 void print_conversion(const io::SequenceReader& input, FrameRange range, const io::OutputTraits& format,
                       const Conversion& conversion) {
   fmt::print("written:   {}{}, {} frames as {}\n", conversion.sources.front().string(),
@@ -104,6 +128,7 @@ void print_conversion(const io::SequenceReader& input, FrameRange range, const i
   }
   const std::vector<std::string> missing = lost(input, range, format);
   if (!missing.empty()) fmt::print("not kept:  {}\n", fmt::join(missing, ", "));
+  if (!format.keeps_roles) print_bodies(input.groups());
 }
 
 /// As many as fit on a terminal; selvage verify lists more.

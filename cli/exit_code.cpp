@@ -14,40 +14,45 @@ namespace selvage::cli {
 namespace {
 
 /// What holds a file's own text, such as the name of a group, neither breaks the line nor commands the terminal.
-ExitCode failed(ExitCode code, const char* what) {
-  std::fprintf(stderr, "selvage: %s\n", io::printable(what).c_str());
-  return code;
-}
-
-/// What the standard library says of a path, in the words of all other files.
-ExitCode run(const Job& job) {
-  try {
-    return job();
-  } catch (const std::filesystem::filesystem_error& error) {
-    io::file_error(error.path1().string(), "use", error.code().value());
-  }
+ExitCode failed(const Failure& failure) {
+  std::fprintf(stderr, "selvage: %s\n", io::printable(failure.message).c_str());
+  return failure.code;
 }
 
 }  // namespace
 
+Failure failure_of(const std::exception_ptr& exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const UsageError& error) {
+    return {ExitCode::kUsage, error.what()};
+  } catch (const io::Error& error) {
+    return {error.kind() == io::ErrorKind::kBadInput ? ExitCode::kBadInput : ExitCode::kFile, error.what()};
+  } catch (const std::filesystem::filesystem_error& error) {
+    try {  // what the standard library says of a path, in the words of all other files
+      io::file_error(error.path1().string(), "use", error.code().value());
+    } catch (const io::Error& in_words) {
+      return {ExitCode::kFile, in_words.what()};
+    }
+  } catch (const FpEnvironmentError& error) {
+    return {ExitCode::kFpEnvironment, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {ExitCode::kLimit, "out of memory: nothing is known about the rest"};
+  } catch (const std::exception& error) {
+    return {ExitCode::kInternal, error.what()};
+  }
+}
+
 ExitCode run_guarded(const Job& job) {
   try {
-    const ExitCode code = run(job);
+    const ExitCode code = job();
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return failed(ExitCode::kFile, "cannot write the result to standard output");
+      return failed({ExitCode::kFile, "cannot write the result to standard output"});
     }
     return code;
-  } catch (const UsageError& error) {
-    return failed(ExitCode::kUsage, error.what());
-  } catch (const io::Error& error) {
-    return failed(error.kind() == io::ErrorKind::kBadInput ? ExitCode::kBadInput : ExitCode::kFile, error.what());
-  } catch (const FpEnvironmentError& error) {
-    return failed(ExitCode::kFpEnvironment, error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(ExitCode::kLimit, "out of memory: nothing is known about the rest");
-  } catch (const std::exception& error) {
-    return failed(ExitCode::kInternal, error.what());
+  } catch (const std::exception&) {
+    return failed(failure_of(std::current_exception()));
   }
 }
 

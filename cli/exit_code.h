@@ -1,8 +1,10 @@
 // The program's exit codes, and the one place where exceptions become exit codes.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace selvage::cli {
 
@@ -32,6 +34,13 @@ class FpEnvironmentError : public std::runtime_error {
 
 /// What the chosen subcommand does once the whole command line is parsed.
 using Job = std::function<ExitCode()>;
+
+/// An exception as the user learns of it.
+struct Failure {
+  ExitCode code = ExitCode::kInternal;
+  std::string message;
+};
+[[nodiscard]] Failure failure_of(const std::exception_ptr& exception);
 
 /// Runs `job`; an exception becomes one line on stderr and its exit code. Lost output on stdout is kFile: a result
 /// that nobody received must not look like success.

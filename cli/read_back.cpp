@@ -4,32 +4,28 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/sequence_decorator.h"
 #include "io/checksum.h"
 
 namespace selvage::cli {
 namespace {
 
-class ReadBack final : public io::SequenceReader {
+class ReadBack final : public SequenceDecorator {
  public:
   ReadBack(std::unique_ptr<io::SequenceReader> written, Claims claims, std::vector<std::uint32_t> checksums)
-      : written_(std::move(written)), claims_(std::move(claims)), checksums_(std::move(checksums)) {
-    if (written_->frame_count() == checksums_.size()) return;
-    throw io::Error(io::ErrorKind::kFile, std::to_string(written_->frame_count()) + " frames are read back, " +
+      : SequenceDecorator(std::move(written)), claims_(std::move(claims)), checksums_(std::move(checksums)) {
+    if (inner().frame_count() == checksums_.size()) return;
+    throw io::Error(io::ErrorKind::kFile, std::to_string(inner().frame_count()) + " frames are read back, " +
                                               std::to_string(checksums_.size()) + " were written; check the disk");
   }
 
-  std::size_t frame_count() const override { return written_->frame_count(); }
   io::SequenceKind kind() const override { return claims_.kind; }
-  io::Precision precision() const override { return written_->precision(); }
   const std::vector<io::Group>& groups() const override {
-    return claims_.keeps_groups ? written_->groups() : claims_.groups;
+    return claims_.keeps_groups ? inner().groups() : claims_.groups;
   }
-  std::string frame_name(std::size_t frame) const override { return written_->frame_name(frame); }
-  double time(std::size_t frame) const override { return written_->time(frame); }
-  bool same_faces_as_previous(std::size_t frame) const override { return written_->same_faces_as_previous(frame); }
 
   io::MeshData frame(std::size_t frame) const override {
-    io::MeshData mesh = written_->frame(frame);
+    io::MeshData mesh = inner().frame(frame);
     if (checksum(mesh.points) != checksums_.at(frame)) {
       throw io::Error(io::ErrorKind::kFile,
                       frame_name(frame) + ": what is read back is not what was written; check the disk");
@@ -39,7 +35,6 @@ class ReadBack final : public io::SequenceReader {
   }
 
  private:
-  std::unique_ptr<io::SequenceReader> written_;
   Claims claims_;
   std::vector<std::uint32_t> checksums_;
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/choice.h"
+#include "cli/hidden_groups.h"
 #include "cli/interrupt.h"
 #include "cli/number_check.h"
 #include "cli/render/contact_sheet.h"
@@ -21,6 +22,7 @@ namespace {
 
 struct RenderArguments {
   SequenceArgument sequence;
+  std::vector<std::string> hidden;
   std::filesystem::path picture;
   std::vector<std::size_t> frames;
   std::size_t tiles = 12;
@@ -32,7 +34,7 @@ struct RenderArguments {
 ExitCode render_sequence(const RenderArguments& arguments) {
   catch_interrupts();
   require_separate_outputs(arguments.sequence, {arguments.picture});
-  const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
+  const auto sequence = without_groups(open_sequence(arguments.sequence), arguments.hidden);
   SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};
   if (options.frames.empty()) options.frames = spread_frames(*sequence, arguments.tiles);
   for (const std::size_t frame : options.frames) {
@@ -70,6 +72,7 @@ void add_render_command(CLI::App& program, Job& job) {
                 io::has_extension(name, ".png") ? "" : name + ": only PNG is drawn; let the name end in .png");
           },
           "", ""));
+  add_hide(command, arguments->hidden);
   CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")
                             ->delimiter(',')
                             ->check(whole_number());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/choice.h"
+#include "cli/enclosed_cloth.h"
 #include "cli/interrupt.h"
 #include "cli/output_check.h"
 #include "cli/start_check.h"
@@ -106,16 +108,12 @@ void print_totals(const sim::RunTotals& totals, const sim::World& world) {
   print_phases(totals);
 }
 
-ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSummary& waiting) {
+sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSummary& waiting) {
   const std::int64_t frame_count = simulation.scene().time.frame_count;
   ProgressBar bar("simulating");
   while (simulation.clock().state().frame < frame_count) {
     bar.update(static_cast<std::size_t>(simulation.clock().state().frame), static_cast<std::size_t>(frame_count));
-    if (interrupted()) {
-      recorder.finish(sim::RunEnd::kInterrupted);
-      fmt::print(stderr, "selvage: interrupted; go on with --resume\n");
-      return ExitCode::kInterrupted;
-    }
+    if (interrupted()) return sim::RunEnd::kInterrupted;
     const sim::StepResult step = simulation.step();
     if (step.report.status == sim::StepStatus::kInvalidInput) {
       const bool is_explicit = simulation.scene().solver == sim::Solver::kExplicit;
@@ -125,15 +123,28 @@ ExitCode run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSummar
                                   is_explicit ? "lower dynamics_step_s or raise damping_ratio" : "lower min_step_s"));
     }
     if (step.report.status == sim::StepStatus::kStopped) {
-      recorder.finish(sim::RunEnd::kStopped);
       print_witness(simulation, step.report);
-      return ExitCode::kViolation;
+      return sim::RunEnd::kStopped;
     }
     waiting.add(simulation, step);
     recorder.record(step);
   }
-  recorder.finish(sim::RunEnd::kComplete);
-  return ExitCode::kClean;
+  return sim::RunEnd::kComplete;
+}
+
+/// `shortfalls` count where --strict asks for none.
+ExitCode exit_code(sim::RunEnd end, bool has_shortfalls) {
+  if (end == sim::RunEnd::kInterrupted) return ExitCode::kInterrupted;
+  return end == sim::RunEnd::kStopped || has_shortfalls ? ExitCode::kViolation : ExitCode::kClean;
+}
+
+/// Of a run that an exception ends: run.json says so as well as stderr does.
+void note_failure(sim::Recorder& recorder, const std::exception_ptr& exception) {
+  const Failure failure = failure_of(exception);
+  try {
+    recorder.finish({sim::RunEnd::kFailed, static_cast<int>(failure.code), failure.message});
+  } catch (const io::Error&) {  // a disk without room for that either: stderr has it
+  }
 }
 
 ExitCode simulate(const SimArguments& arguments) {
@@ -147,17 +158,29 @@ ExitCode simulate(const SimArguments& arguments) {
   const bool goes_on = arguments.resume && std::filesystem::exists(arguments.output / sim::kCheckpointFile);
   const sim::StartRepair repair = goes_on ? sim::StartRepair{} : require_clean_start(simulation, arguments.repair);
   fmt::print(stderr, "{}", sim::describe(simulation.scene(), simulation.world()));
+  if (!goes_on) print_notes(notes_on_enclosed(simulation.world(), simulation.x()));
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
   WaitingSummary waiting;
-  const ExitCode code = run(simulation, recorder, waiting);
+  sim::RunEnd end{};
+  ExitCode code{};
+  try {
+    recorder.begin();
+    end = run(simulation, recorder, waiting);
+    code = exit_code(end, arguments.strict && !recorder.totals().shortfalls().empty());
+    recorder.finish({end, static_cast<int>(code)});
+  } catch (const std::exception&) {
+    note_failure(recorder, std::current_exception());
+    throw;
+  }
+  if (end == sim::RunEnd::kInterrupted) fmt::print(stderr, "selvage: interrupted; go on with --resume\n");
   print_totals(recorder.totals(), simulation.world());
   waiting.print(simulation.world());
-  const std::string shortfalls = recorder.totals().shortfalls();
-  if (!arguments.strict || code != ExitCode::kClean || shortfalls.empty()) return code;
-  fmt::print(stderr, "selvage: --strict: {}\n", shortfalls);
-  return ExitCode::kViolation;
+  if (end == sim::RunEnd::kComplete && code == ExitCode::kViolation) {
+    fmt::print(stderr, "selvage: --strict: {}\n", recorder.totals().shortfalls());
+  }
+  return code;
 }
 
 }  // namespace

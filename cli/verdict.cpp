@@ -8,10 +8,6 @@
 
 namespace selvage::cli {
 
-bool is_complete(const verify::SequenceReport& report) {
-  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
-}
-
 ExitCode exit_code(const verify::SequenceReport& report) {
   if (interrupted() && !is_complete(report)) return ExitCode::kInterrupted;
   if (report.pairs.disagreed > 0) return ExitCode::kInternal;

@@ -8,8 +8,6 @@
 
 namespace selvage::cli {
 
-/// Whether every frame that was asked for was gone through: a part that was stopped can be resumed.
-[[nodiscard]] bool is_complete(const verify::SequenceReport& report);
 /// kInterrupted where a signal has left work undone, whatever was found before: only resumed is the answer whole.
 /// Otherwise the verdict's; unknown is kLimit, and kInternal where two deciders disagree.
 [[nodiscard]] ExitCode exit_code(const verify::SequenceReport& report);

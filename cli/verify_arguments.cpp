@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/exit_code.h"
+#include "cli/named_bodies.h"
 #include "cli/number_check.h"
 #include "cli/shard.h"
 
@@ -26,6 +27,12 @@ io::Group parse_group(const std::string& text) {
   if (!is_good) throw UsageError("--group wants NAME=BEGIN:END, a half-open range of faces; not '" + text + "'");
   group.name = text.substr(0, equals);
   return group;
+}
+
+std::vector<io::Group> parse_groups(const std::vector<std::string>& texts) {
+  std::vector<io::Group> groups;
+  for (const std::string& text : texts) groups.push_back(parse_group(text));
+  return groups;
 }
 
 /// "A,B"; behind a backslash a comma or a backslash is part of a name.
@@ -62,6 +69,10 @@ void add_what_may_touch(CLI::App& command, VerifyArguments& arguments) {
   add_repeatable(command, "--group", arguments.groups,
                  "A group of faces by their numbers, half-open, besides those of the sequence; may be repeated")
       ->type_name("NAME=BEGIN:END");
+  add_repeatable(command, "--body", arguments.body,
+                 "A is a body, where the format cannot say so: not checked against bodies and itself, unless --bodies; "
+                 "may be repeated")
+      ->type_name("A");
   add_repeatable(command, "--exempt", arguments.exempt,
                  "Faces of A and B may touch (sewn together); A,A: within A; \\, is a comma in a name. Counted in the "
                  "report; may be repeated")
@@ -131,6 +142,10 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
   add_threads(command, arguments.threads);
 }
 
+std::unique_ptr<io::SequenceReader> open_sequence(const VerifyArguments& arguments) {
+  return with_bodies(open_sequence(arguments.sequence), arguments.body, parse_groups(arguments.groups));
+}
+
 verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const io::SequenceReader& sequence) {
   if (arguments.motion && sequence.frame_count() == 1) {
     throw UsageError("--motion needs at least two frames, and there is one: no motion would be checked");
@@ -141,7 +156,7 @@ verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const
   options.check.min_distance = arguments.min_distance;
   options.check.check_bodies = arguments.bodies;
   options.motions = arguments.motion || (!arguments.frames_only && sequence.kind() == io::SequenceKind::kSteps);
-  for (const std::string& group : arguments.groups) options.rules.groups.push_back(parse_group(group));
+  options.rules.groups = parse_groups(arguments.groups);
   for (const std::string& pair : arguments.exempt) options.rules.exempt.push_back(parse_exemption(pair));
   options.rules.ignore = arguments.ignore;
   options.weld = arguments.weld;
@@ -160,6 +175,7 @@ std::vector<std::pair<std::string, std::string>> recorded_options(const VerifyAr
           {"gap", yes_or_no(arguments.gap)},
           {"second_opinion", arguments.second_opinion_all ? "all" : yes_or_no(arguments.second_opinion)},
           {"groups", joined(arguments.groups)},
+          {"body", joined(arguments.body)},
           {"exempt", joined(arguments.exempt)},
           {"ignore", joined(arguments.ignore)},
           {"weld", yes_or_no(arguments.weld)}};

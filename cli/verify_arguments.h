@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,7 +22,7 @@ struct VerifyArguments {
   bool frames_only = false, motion = false, bodies = false, weld = false, resume = false, gap = false;
   bool second_opinion = false, second_opinion_all = false;
   std::optional<double> min_distance;
-  std::vector<std::string> groups, exempt, ignore;
+  std::vector<std::string> groups, body, exempt, ignore;
   std::string json, html, shard;
   std::int64_t html_mb = 20;
   std::filesystem::path cases;
@@ -34,6 +35,10 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments);
 /// Where the user names no number: what a reader of the JSON can page through, and what fits on a terminal.
 inline constexpr std::int64_t kViolationsInJson = 100;
 inline constexpr std::int64_t kViolationsInText = 10;
+
+/// The sequence of the arguments, with the groups that --body names as bodies. Throws as open_sequence() does, and
+/// UsageError where there is no such group.
+[[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const VerifyArguments& arguments);
 
 /// Throws UsageError where they make no sense for the sequence.
 [[nodiscard]] verify::SequenceOptions sequence_options(const VerifyArguments& arguments,

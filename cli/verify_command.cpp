@@ -91,7 +91,7 @@ ExitCode run(const VerifyArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
   require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
-  const auto sequence = open_sequence(arguments.sequence);
+  const auto sequence = open_sequence(arguments);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
   const verify::ReportContext context = report_context(arguments, *sequence, options);
   require_outputs(arguments);

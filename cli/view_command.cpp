@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/choice.h"
+#include "cli/hidden_groups.h"
 #include "cli/page/player_page.h"
 #include "cli/page/report_words.h"
 #include "cli/sequence_argument.h"
@@ -18,6 +20,7 @@ namespace {
 
 struct ViewArguments {
   SequenceArgument sequence;
+  std::vector<std::string> hidden;
   std::filesystem::path page;
   std::int64_t max_mb = 50;
   page::UpAxis up = page::UpAxis::kZ;
@@ -25,7 +28,7 @@ struct ViewArguments {
 
 ExitCode view_sequence(const ViewArguments& arguments) {
   require_separate_outputs(arguments.sequence, {arguments.page});
-  const std::unique_ptr<io::SequenceReader> sequence = open_sequence(arguments.sequence);
+  const auto sequence = without_groups(open_sequence(arguments.sequence), arguments.hidden);
   const std::string title = source_names({arguments.sequence.sources.begin(), arguments.sequence.sources.end()});
   ProgressBar bar("packing");
   const PlayerPage made =
@@ -46,9 +49,10 @@ void add_view_command(CLI::App& program, Job& job) {
   const auto arguments = std::make_shared<ViewArguments>();
   add_sequence_argument(command, arguments->sequence);
   command.add_option("-o,--output", arguments->page, "The HTML file")->required();
+  add_hide(command, arguments->hidden);
   command
       .add_option("--max-mb", arguments->max_mb,
-                  "At most this much of meshes: else every second, third, ... frame only")
+                  "At most this much of meshes: else every second, third, ... frame only, and the last")
       ->check(CLI::Range(1, 2000))
       ->capture_default_str();
   add_choice(command, "--up", arguments->up, {{"y", page::UpAxis::kY}, {"z", page::UpAxis::kZ}},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/atomic_file.h"
+#include "sim/fnv1a.h"
 
 namespace selvage::sim {
 namespace {
@@ -12,11 +13,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
 constexpr std::string_view kMagic = "selvage-checkpoint 10\n";
-
-std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  return hash;
-}
 
 std::string_view bytes_of(const Positions& x) {
   return {reinterpret_cast<const char*>(x.data()), static_cast<std::size_t>(x.size()) * sizeof(double)};
@@ -40,6 +36,15 @@ void put(std::string& bytes, const std::vector<ContactLoad>& loads) {
   for (const ContactLoad& load : loads) put(bytes, load);
 }
 
+void put(std::string& bytes, const SceneIdentity& scene) {
+  put(bytes, static_cast<std::int64_t>(scene.text.size()));
+  bytes += scene.text;
+  put(bytes, scene.quality);
+  put(bytes, static_cast<std::int64_t>(scene.parts.size()));
+  for (const std::uint64_t part : scene.parts) put(bytes, part);
+  put(bytes, scene.whole);
+}
+
 // Reads what put() wrote; never past the end.
 class Source {
  public:
@@ -49,31 +54,39 @@ class Source {
     throw io::Error(io::ErrorKind::kBadInput,
                     file_.string() + ": " + what + "; start the run again in another folder, or remove this one first");
   }
-  std::string_view take(std::size_t count) {
-    if (count > bytes_.size()) fail("the checkpoint is cut short");
-    const std::string_view taken = bytes_.substr(0, count);
-    bytes_.remove_prefix(count);
+  std::string_view take(std::size_t size) {
+    if (size > bytes_.size()) fail("the checkpoint is cut short");
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
     return taken;
   }
   template <class Number>
   void get(Number& number) {
     std::memcpy(&number, take(sizeof number).data(), sizeof number);
   }
+  /// Of what takes `item_bytes` each: no more than there are bytes left for.
+  std::size_t count(std::size_t item_bytes) {
+    std::int64_t number = 0;
+    get(number);
+    if (number < 0 || static_cast<std::size_t>(number) > bytes_.size() / item_bytes) fail("the checkpoint is damaged");
+    return static_cast<std::size_t>(number);
+  }
+  void get(SceneIdentity& scene) {
+    scene.text = take(count(1));
+    get(scene.quality);
+    scene.parts.resize(count(sizeof(std::uint64_t)));
+    for (std::uint64_t& part : scene.parts) get(part);
+    get(scene.whole);
+  }
   void get(Positions& x) {
-    std::int64_t rows = 0;
-    get(rows);
-    constexpr std::int64_t kRowBytes = 3 * sizeof(double);
-    if (rows < 0 || rows > static_cast<std::int64_t>(bytes_.size()) / kRowBytes) fail("the checkpoint is damaged");
-    x.resize(rows, 3);
-    const std::string_view data = take(static_cast<std::size_t>(rows * kRowBytes));
+    constexpr std::size_t kRowBytes = 3 * sizeof(double);
+    const std::size_t rows = count(kRowBytes);
+    x.resize(static_cast<Eigen::Index>(rows), 3);
+    const std::string_view data = take(rows * kRowBytes);
     if (!data.empty()) std::memcpy(x.data(), data.data(), data.size());
   }
   void get(std::vector<ContactLoad>& loads) {
-    std::int64_t count = 0;
-    get(count);
-    constexpr std::int64_t kLoadBytes = sizeof(ContactLoad);
-    if (count < 0 || count > static_cast<std::int64_t>(bytes_.size()) / kLoadBytes) fail("the checkpoint is damaged");
-    loads.resize(static_cast<std::size_t>(count));
+    loads.resize(count(sizeof(ContactLoad)));
     for (ContactLoad& load : loads) get(load);
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
@@ -85,22 +98,9 @@ class Source {
 
 }  // namespace
 
-std::uint64_t scene_fingerprint(const Scene& scene, const World& world) {
-  std::uint64_t hash = fnv1a(io::read_file(scene.file));
-  hash = fnv1a(scene.quality == Quality::kDraft ? "draft" : "full", hash);
-  hash = fnv1a(
-      {reinterpret_cast<const char*>(world.triangles.data()), world.triangles.size() * sizeof(world.triangles[0])},
-      hash);
-  hash = fnv1a(bytes_of(world.v_t0), fnv1a(bytes_of(world.x_t0), hash));
-  for (const Collider& collider : world.colliders) {
-    if (collider.sequence() != nullptr) hash = fnv1a(std::to_string(collider.sequence()->checksum()), hash);
-  }
-  return hash;
-}
-
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   std::string bytes(kMagic);
-  put(bytes, checkpoint.scene_fingerprint);
+  put(bytes, checkpoint.scene);
   put(bytes, checkpoint.recorded);
   const StepClock::State& clock = checkpoint.state.clock;
   put(bytes, clock.frame);
@@ -123,7 +123,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file) {
   Source source(bytes, file);
   if (source.take(kMagic.size()) != kMagic) source.fail("this is no checkpoint of this version");
   Checkpoint checkpoint;
-  source.get(checkpoint.scene_fingerprint);
+  source.get(checkpoint.scene);
   source.get(checkpoint.recorded);
   StepClock::State& clock = checkpoint.state.clock;
   source.get(clock.frame);

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+
+#include "sim/disjoint_sets.h"
 
 namespace selvage::sim {
 namespace {
@@ -14,27 +15,6 @@ constexpr int kShapeHalvings = 12;  // of the shape that is kept: 2^-12 of a han
 constexpr int kMostGrowth = 3;      // rings by which a region may grow, where the ring around it is too near
 
 using Region = std::vector<VertexId>;  // sorted
-
-/// Components of a graph on the vertices.
-class Components {
- public:
-  explicit Components(VertexId count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  [[nodiscard]] VertexId root(VertexId v) {
-    while (parent(v) != v) v = parent(v) = parent(parent(v));
-    return v;
-  }
-  void join(VertexId a, VertexId b) {
-    a = root(a);
-    b = root(b);
-    parent(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  VertexId& parent(VertexId v) { return parent_[static_cast<std::size_t>(v)]; }
-  std::vector<VertexId> parent_;
-};
 
 class ClothUntangler {
  public:
@@ -112,7 +92,7 @@ std::vector<std::uint8_t> ClothUntangler::cut_edges() const {
 /// Those at a cut that no script holds, the smallest first, without the largest of each part.
 std::vector<Region> ClothUntangler::regions() const {
   const std::vector<std::uint8_t> cut = cut_edges();
-  Components uncut(mesh_.vertex_count);
+  DisjointSets<VertexId> uncut(mesh_.vertex_count);
   for (std::size_t e = 0; e < cut.size(); ++e) {
     if (cut[e] == 0) uncut.join(mesh_.edges[e][0], mesh_.edges[e][1]);
   }
@@ -195,7 +175,7 @@ bool ClothUntangler::draw_back(Region region) {
 
 /// What hangs together by crossing and by common vertices; the smallest first.
 std::vector<Region> ClothUntangler::crossings() const {
-  Components together(mesh_.vertex_count);
+  DisjointSets<VertexId> together(mesh_.vertex_count);
   std::vector<std::uint8_t> is_in(static_cast<std::size_t>(mesh_.vertex_count), 0);
   for (const FacePair& pair : pairs_) {
     for (const FaceId f : pair) {

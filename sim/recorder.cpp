@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/fail.h"
 #include "io/sequence_json.h"
+#include "io/text.h"
 #include "sim/points.h"
 
 namespace selvage::sim {
@@ -32,6 +33,8 @@ const char* name_of(RunEnd end) {
       return "interrupted";
     case RunEnd::kStopped:
       return "stopped";
+    case RunEnd::kFailed:
+      return "failed";
   }
   return "";
 }
@@ -76,6 +79,14 @@ std::string json_number(Number number) {
   return fmt::format("{}", number);
 }
 
+/// Null where there is none.
+std::string json_text(const std::string& words) {
+  if (words.empty()) return "null";
+  std::string text = "\"";
+  for (const char c : io::printable(words)) text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  return text + "\"";
+}
+
 }  // namespace
 
 Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
@@ -85,7 +96,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
       simulation_(simulation),
       kind_(kind),
       writer_(folder_, header_of(simulation, kind, producer_), resume),
-      fingerprint_(scene_fingerprint(simulation.scene(), simulation.world())) {
+      scene_(identify(simulation.scene(), simulation.world())) {
   const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / kCheckpointFile) : std::nullopt;
   if (!checkpoint) {
     if (writer_.frame_count() > 1) {
@@ -94,44 +105,49 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
                                                     "again in another folder, or remove this one first");
     }
     writer_.truncate(0);  // killed between the first frame and the first checkpoint
-    remove_leftovers(folder_);
     totals_.repair = repair;
-    append();
-    save_checkpoint();
     return;
   }
-  if (checkpoint->scene_fingerprint != fingerprint_) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: the checkpoint belongs to another scene: the scene file, one of its meshes or "
-                                "--quality is not what it was; resume with those that wrote it (--frames makes a run "
-                                "longer), or start again in another folder",
-                                (folder_ / kCheckpointFile).string()));
+  if (checkpoint->scene != scene_) {
+    throw io::Error(
+        io::ErrorKind::kBadInput,
+        fmt::format("{}: the checkpoint belongs to another scene: {}; resume with the scene that wrote it (--frames "
+                    "makes a run longer), or start again in another folder",
+                    (folder_ / kCheckpointFile).string(),
+                    first_difference(checkpoint->scene, scene_, simulation.world())));
   }
   writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
-  remove_leftovers(folder_);
   simulation_.restore(checkpoint->state);
   totals_ = checkpoint->totals;
   resumed_ = true;
+}
+
+void Recorder::begin() {
+  remove_leftovers(folder_);
+  if (resumed_) return;
+  append();
+  save_checkpoint();
 }
 
 void Recorder::record(const StepResult& step) {
   const PhaseTimer timer(totals_.recording);
   totals_.add(step);
   const bool at_frame = simulation_.clock().at_frame();
-  if (at_frame) ++totals_.frames;
   if (at_frame || kind_ == io::SequenceKind::kSteps) append();
+  if (at_frame) ++totals_.frames;
   if (at_frame) save_checkpoint();
 }
 
-void Recorder::finish(RunEnd end) {
-  save_checkpoint();
+void Recorder::finish(const RunOutcome& outcome) {
+  if (outcome.end != RunEnd::kFailed) save_checkpoint();
   std::string json = fmt::format("{{\n  \"schema\": \"selvage.run/1\",\n  \"producer\": \"{}\",\n  \"end\": \"{}\",\n",
-                                 producer_, name_of(end));
+                                 producer_, name_of(outcome.end));
+  json += fmt::format("  \"exit_code\": {},\n  \"error\": {},\n", outcome.exit_code, json_text(outcome.error));
   json += fmt::format("  \"time_s\": {},\n", simulation_.clock().time_s());
   for_each_total(totals_, [&](const char* name, const auto& field) {
     json += fmt::format("  \"{}\": {},\n", name, json_number(field));
   });
-  json += fmt::format("  \"scene_fingerprint\": \"{:016x}\"\n}}\n", fingerprint_);
+  json += fmt::format("  \"scene_fingerprint\": \"{:016x}\"\n}}\n", fingerprint_of(scene_));
   io::write_atomically(folder_ / kRunFile, json);
 }
 
@@ -139,7 +155,7 @@ void Recorder::append() { writer_.append(simulation_.clock().time_s(), points_of
 
 void Recorder::save_checkpoint() {
   write_checkpoint(folder_ / kCheckpointFile,
-                   {fingerprint_, static_cast<std::int64_t>(writer_.frame_count()), simulation_.state(), totals_});
+                   {scene_, static_cast<std::int64_t>(writer_.frame_count()), simulation_.state(), totals_});
 }
 
 }  // namespace selvage::sim

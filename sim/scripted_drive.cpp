@@ -1,9 +1,9 @@
 #include "sim/scripted_drive.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
+#include "sim/disjoint_sets.h"
 #include "sim/share_within.h"
 
 namespace selvage::sim {
@@ -31,18 +31,10 @@ bool moves_against_each_other(const LaneVectors& v, const std::vector<BoundedPai
 /// The vertices of pairs, and which of them hang together by vertices that can move.
 class Sets {
  public:
-  explicit Sets(const std::vector<BoundedPair>& pairs) {
-    for (const BoundedPair& pair : pairs) {
-      vertices_.push_back(pair.a);
-      vertices_.push_back(pair.b);
-    }
-    std::ranges::sort(vertices_);
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    parent_.resize(vertices_.size());
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  explicit Sets(const std::vector<BoundedPair>& pairs) : vertices_(vertices_of(pairs)), sets_(vertices_.size()) {
     for (const BoundedPair& pair : pairs) {
       if (is_moved(pair.inverse_mass_a) || is_moved(pair.inverse_mass_b)) continue;
-      parent_[root(place_of(pair.a))] = root(place_of(pair.b));
+      sets_.join(place_of(pair.a), place_of(pair.b));
     }
   }
   [[nodiscard]] std::size_t size() const { return vertices_.size(); }
@@ -50,17 +42,23 @@ class Sets {
     return static_cast<std::size_t>(std::ranges::lower_bound(vertices_, vertex) - vertices_.begin());
   }
   [[nodiscard]] std::size_t of(const BoundedPair& pair) {
-    return root(place_of(is_moved(pair.inverse_mass_a) ? pair.b : pair.a));
+    return sets_.root(place_of(is_moved(pair.inverse_mass_a) ? pair.b : pair.a));
   }
 
  private:
-  std::size_t root(std::size_t place) {
-    while (parent_[place] != place) place = parent_[place] = parent_[parent_[place]];
-    return place;
+  static std::vector<VertexId> vertices_of(const std::vector<BoundedPair>& pairs) {
+    std::vector<VertexId> vertices;
+    for (const BoundedPair& pair : pairs) {
+      vertices.push_back(pair.a);
+      vertices.push_back(pair.b);
+    }
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
   }
 
   std::vector<VertexId> vertices_;  ///< sorted
-  std::vector<std::size_t> parent_;
+  DisjointSets<std::size_t> sets_;  ///< of places in vertices_
 };
 
 struct Drive {

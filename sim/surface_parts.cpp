@@ -1,22 +1,13 @@
 #include "sim/surface_parts.h"
 
-#include <algorithm>
-#include <numeric>
+#include "sim/disjoint_sets.h"
 
 namespace selvage::sim {
 
 SurfaceParts::SurfaceParts(const Mesh& mesh) : part_(static_cast<std::size_t>(mesh.vertex_count)) {
-  std::iota(part_.begin(), part_.end(), 0);
-  const auto parent = [this](VertexId v) -> VertexId& { return part_[static_cast<std::size_t>(v)]; };
-  const auto root = [&](VertexId v) {
-    while (parent(v) != v) v = parent(v) = parent(parent(v));  // halves the path, so that trees stay flat
-    return v;
-  };
-  for (const auto& edge : mesh.edges) {
-    const VertexId a = root(edge[0]), b = root(edge[1]);
-    parent(std::max(a, b)) = std::min(a, b);
-  }
-  for (VertexId& part : part_) part = root(part);
+  DisjointSets<VertexId> sets(mesh.vertex_count);
+  for (const auto& edge : mesh.edges) sets.join(edge[0], edge[1]);
+  for (VertexId v = 0; v < mesh.vertex_count; ++v) part_[static_cast<std::size_t>(v)] = sets.root(v);
 }
 
 std::vector<std::uint8_t> SurfaceParts::cloth_flags(const CollisionBodies& bodies) const {

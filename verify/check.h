@@ -197,6 +197,9 @@ struct SequenceReport {
 /// From the counts alone (V3): violated, or clean where all that was expected was checked, or unknown.
 [[nodiscard]] Verdict verdict_of(const SequenceReport& report);
 
+/// Whether every frame that was asked for was gone through: a part that was stopped can be resumed.
+[[nodiscard]] bool is_complete(const SequenceReport& report);
+
 /// Throws io::Error on unreadable input: never a verdict on part of it; GroupRuleError on rules that do not fit.
 [[nodiscard]] SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options);
 

@@ -13,10 +13,6 @@ std::string frames(std::int64_t first, std::int64_t end) {
   return "frames " + std::to_string(first) + " to " + std::to_string(end - 1);
 }
 
-bool is_complete(const SequenceReport& report) {
-  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
-}
-
 void require_same_check(const Part& a, const Part& b) {
   const auto require_same = [&](const std::string& what, const std::string& of_a, const std::string& of_b,
                                 const char* remedy) {

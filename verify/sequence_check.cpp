@@ -251,6 +251,10 @@ Verdict verdict_of(const SequenceReport& report) {
   return report.frames_expected + report.motions_expected > 0 && all_checked ? Verdict::kClean : Verdict::kUnknown;
 }
 
+bool is_complete(const SequenceReport& report) {
+  return static_cast<std::int64_t>(report.frame_crc32.size()) == report.end_frame - report.first_frame;
+}
+
 SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options) {
   const FpGuard guard;  // the readers convert numbers: a float32 or text that is subnormal, or rounds
   return SequenceCheck(sequence, options).run();

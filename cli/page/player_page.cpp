@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -27,23 +28,30 @@ struct Packed {
   bool is_complete = false;
 };
 
-Packed pack(const io::SequenceReader& sequence, const page::Box& stage, std::size_t stride, std::size_t byte_limit,
-            const std::function<void(std::size_t, std::size_t)>& progress) {
+/// Every n-th of `count`, and the last.
+std::vector<std::size_t> every(std::size_t stride, std::size_t count) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i + 1 < count; i += stride) frames.push_back(i);
+  frames.push_back(count - 1);
+  return frames;
+}
+
+Packed pack(const io::SequenceReader& sequence, const page::Box& stage, const std::vector<std::size_t>& frames,
+            std::size_t byte_limit, const std::function<void(std::size_t, std::size_t)>& progress) {
   Packed packed{page::Scene(stage, kBits, page::Prediction::kPrevious)};
-  const std::size_t count = sequence.frame_count();
-  for (std::size_t i = 0; i < count; i += stride) {
+  for (const std::size_t i : frames) {
     ++packed.frames_tried;
     if (!add_frame(packed.scene, sequence, i, byte_limit)) return packed;
-    progress(std::min(count, i + stride), count);
+    progress(i + 1, sequence.frame_count());
   }
   packed.is_complete = true;
   return packed;
 }
 
 /// From how far the last attempt came; always larger than `stride`.
-std::size_t next_stride(std::size_t frame_count, std::size_t stride, std::size_t frames_tried) {
-  const std::size_t wanted = (frame_count + stride - 1) / stride;
-  const double excess = static_cast<double>(wanted) / static_cast<double>(std::max<std::size_t>(1, frames_tried - 1));
+std::size_t next_stride(std::size_t stride, std::size_t frames_wanted, std::size_t frames_tried) {
+  const double excess =
+      static_cast<double>(frames_wanted) / static_cast<double>(std::max<std::size_t>(1, frames_tried - 1));
   return std::max(stride + 1, static_cast<std::size_t>(std::floor(static_cast<double>(stride) * excess)));
 }
 
@@ -58,21 +66,25 @@ PlayerPage player_page(const std::string& title, const io::SequenceReader& seque
   const page::Box stage = stage_of(sequence, {samples.begin(), samples.end()});
   if (stage.is_empty()) throw io::Error(io::ErrorKind::kBadInput, sequence.frame_name(0) + ": no faces to show");
   std::size_t stride = 1;
-  Packed packed = pack(sequence, stage, stride, byte_limit, progress);
-  while (!packed.is_complete && packed.scene.frame_count() > 0) {
-    stride = next_stride(count, stride, packed.frames_tried);
-    packed = pack(sequence, stage, stride, byte_limit, progress);
+  std::vector<std::size_t> frames = every(stride, count);
+  Packed packed = pack(sequence, stage, frames, byte_limit, progress);
+  while (!packed.is_complete && frames.size() > 2) {
+    stride = next_stride(stride, frames.size(), packed.frames_tried);
+    frames = every(stride, count);
+    packed = pack(sequence, stage, frames, byte_limit, progress);
   }
-  if (packed.scene.frame_count() == 0) {
-    throw io::Error(io::ErrorKind::kBadInput, fmt::format("{}: one frame alone does not fit into --max-mb {}",
-                                                          sequence.frame_name(0), byte_limit / 1000000));
+  if (!packed.is_complete) {
+    throw io::Error(
+        io::ErrorKind::kBadInput,
+        fmt::format("{}: {} not fit into --max-mb {}; allow more", sequence.frame_name(0),
+                    count == 1 ? "the frame does" : "the first and the last frame do", byte_limit / 1000000));
   }
   const page::Scene& scene = packed.scene;
   PlayerPage made;
   made.summary = fmt::format("{} of {} ({}), rounded to multiples of {:.3g} for display, {:.1f} MB of meshes",
                              grouped(static_cast<std::int64_t>(scene.frame_count())),
                              counted(static_cast<std::int64_t>(count), "frame"),
-                             stride == 1 ? "all" : fmt::format("one in {}", stride), scene.grid_step(),
+                             stride == 1 ? "all" : fmt::format("one in {} and the last", stride), scene.grid_step(),
                              static_cast<double>(scene.bytes()) / 1e6);
   if (stride > 1) made.summary += "; --max-mb takes more";
   if (scene.moved_points() > 0) {

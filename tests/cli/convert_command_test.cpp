@@ -113,10 +113,46 @@ TEST(ConvertCommand, BodiesStayBodiesInTheRecheck) {
       run_program(folder, {"convert", folder.path() / "bodies", "-o", folder.path() / "bodies.obj", "--recheck"});
   EXPECT_EQ(unknown.exit_code, 5) << unknown.out;  // nothing but bodies, which are not checked: as verify says it
   EXPECT_EQ(run_program(folder, {"verify", folder.path() / "bodies"}).exit_code, 5);
-  expect_text(unknown.out, "not kept:  which faces are bodies\n");
+  expect_text(unknown.out,
+              "not kept:  which faces are bodies\nbodies:    \"box\", \"floor\"; selvage verify takes them "
+              "for cloth without --body box --body floor\n");
   const auto touching =
       run_program(folder, {"convert", folder.path() / "cloth", "-o", folder.path() / "cloth.obj", "--recheck"});
   EXPECT_EQ(touching.exit_code, 1) << touching.out;
+}
+
+TEST(ConvertCommand, WhatItSaysOfBodiesMakesVerifyKnowThem) {
+  const TemporaryFolder folder;
+  // Two bodies that overlap, one with a name for which a shell wants quotes, beside cloth.
+  io::Points points = two_faces(0, 0);
+  for (const auto& point : two_faces(0, 9)) points.push_back(point);
+  const io::Triangles faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  const std::vector<io::Group> groups = {{"floor", io::Group::Role::kBody, 0, 1},
+                                         {"a \"box", io::Group::Role::kBody, 1, 2},
+                                         {"sheet", io::Group::Role::kCloth, 2, 3}};
+  io::SequenceWriter(folder.path() / "run", {faces, groups, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"})
+      .append(0, points);
+  EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).exit_code, 0);
+  const auto cache = folder.path() / "a.pc2";
+  const auto converted = run_program(folder, {"convert", folder.path() / "run", "-o", cache});
+  expect_text(converted.out,
+              "bodies:    \"a \"box\", \"floor\"; selvage verify takes them for cloth without --body 'a \"box' --body "
+              "floor\n");
+  EXPECT_EQ(run_program(folder, {"verify", cache}).exit_code, 1) << "as cloth they overlap";
+  const auto told = run_program(folder, {"verify", cache, "--body", "a \"box", "--body", "floor"});
+  EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+  for (const char* output : {"a.npz", "copy/", "a.pvd"}) {
+    const auto kept = run_program(folder, {"convert", folder.path() / "run", "-o", folder.path() / output});
+    EXPECT_EQ(kept.out.find("bodies:"), std::string::npos) << kept.out;
+  }
+  // A name that the cloth has too would make bodies of both.
+  std::vector<io::Group> shared = groups;
+  shared[2].name = "floor";
+  io::SequenceWriter(folder.path() / "shared",
+                     {faces, shared, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"})
+      .append(0, points);
+  expect_text(run_program(folder, {"convert", folder.path() / "shared", "-o", folder.path() / "b.pc2"}).out,
+              "without --body 'a \"box'; \"floor\" is the name of cloth too: rename one before\n");
 }
 
 TEST(ConvertCommand, RangeOfFrames) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/sequence.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/two_faces.h"
 
@@ -145,25 +146,30 @@ TEST(MergePage, IsThatOfOneRunWithoutTheMeshes) {
   EXPECT_TRUE(frames_of(html).empty());
 }
 
-TEST(ViewPage, HasAllFramesOrEveryNthThatFits) {
-  constexpr std::int32_t kVertices = 3000, kFrames = 40;
-  const TemporaryFolder folder;
-  const auto cache = folder.path() / "cloth.pc2", page = folder.path() / "page.html";
+/// Writes cloth.pc2 and its base mesh: positions at random, which nothing makes smaller.
+void write_noise(const std::filesystem::path& folder, std::int32_t vertices, std::int32_t frames) {
   std::string mesh, bytes("POINTCACHE2\0\1\0\0\0", 16);
   const auto append = [&](auto value) {
     const auto raw = std::bit_cast<std::array<char, 4>>(value);
     bytes.append(raw.begin(), raw.end());
   };
-  append(kVertices);
+  append(vertices);
   append(0.0F);
   append(1.0F);
-  append(kFrames);
+  append(frames);
   std::mt19937 generator(1);
-  for (std::int32_t i = 0; i < 3 * kVertices * kFrames; ++i) append(static_cast<float>(generator() >> 8));
-  for (std::int32_t i = 0; i < kVertices; ++i) mesh += "v 0 0 0\n";
-  for (std::int32_t i = 0; i + 2 < kVertices; i += 3) mesh += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
-  spit(folder.path() / "cloth.obj", mesh);
-  spit(cache, bytes);
+  for (std::int32_t i = 0; i < 3 * vertices * frames; ++i) append(static_cast<float>(generator() >> 8));
+  for (std::int32_t i = 0; i < vertices; ++i) mesh += "v 0 0 0\n";
+  for (std::int32_t i = 0; i + 2 < vertices; i += 3) mesh += fmt::format("f {} {} {}\n", i + 1, i + 2, i + 3);
+  spit(folder / "cloth.obj", mesh);
+  spit(folder / "cloth.pc2", bytes);
+}
+
+TEST(ViewPage, HasAllFramesOrEveryNthThatFits) {
+  constexpr std::int32_t kFrames = 40;
+  const TemporaryFolder folder;
+  const auto cache = folder.path() / "cloth.pc2", page = folder.path() / "page.html";
+  write_noise(folder.path(), 3000, kFrames);
 
   const auto all = run_program(folder, {"view", cache, "-o", page});
   EXPECT_EQ(all.exit_code, 0) << all.err;
@@ -175,10 +181,62 @@ TEST(ViewPage, HasAllFramesOrEveryNthThatFits) {
   const std::vector<std::int64_t> frames = frames_of(slurp(page));
   ASSERT_GT(frames.size(), 5U) << "noise of 16 bits is 8 bytes a point in base64: about 30 frames fit";
   ASSERT_LT(frames.size(), 40U);
-  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], frames[1] * static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i + 1 < frames.size(); ++i) EXPECT_EQ(frames[i], frames[1] * static_cast<std::int64_t>(i));
+  EXPECT_EQ(frames.back(), kFrames - 1) << "how it ended is always there";
   EXPECT_LT(slurp(page).size(), 1'000'000U + 200'000U) << "meshes, and the page around them";
-  EXPECT_NE(some.out.find(fmt::format("{} of 40 frames (one in {})", frames.size(), frames[1])), std::string::npos)
+  EXPECT_NE(some.out.find(fmt::format("{} of 40 frames (one in {} and the last)", frames.size(), frames[1])),
+            std::string::npos)
       << some.out;
+}
+
+TEST(ViewPage, TheFirstAndTheLastFrameFitOrNothingDoes) {
+  // 0.35 MB a frame: two fit into 1 MB, the third did not.
+  const TemporaryFolder folder;
+  const auto cache = folder.path() / "cloth.pc2", page = folder.path() / "page.html";
+  write_noise(folder.path(), 42000, 8);
+  const auto two = run_program(folder, {"view", cache, "-o", page, "--max-mb", "1"});
+  EXPECT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_EQ(frames_of(slurp(page)), (std::vector<std::int64_t>{0, 7}));
+  std::filesystem::remove(page);
+  write_noise(folder.path(), 90000, 3);
+  const auto none = run_program(folder, {"view", cache, "-o", page, "--max-mb", "1"});
+  EXPECT_EQ(none.exit_code, 3) << none.out;
+  EXPECT_NE(none.err.find("the first and the last frame do not fit into --max-mb 1; allow more"), std::string::npos)
+      << none.err;
+  EXPECT_FALSE(std::filesystem::exists(page));
+}
+
+TEST(ViewPage, AHiddenGroupIsNotInThePage) {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run", page = folder.path() / "p.html";
+  // The floor reaches so far that the view would have to move its corners nearer.
+  const io::Points points = {{0, 0, 0}, {1e9, 0, 0}, {0, 1e9, 0}, {0, 0, 1}, {1, 0, 1},
+                             {0, 1, 1}, {0, 0, 5},   {1, 0, 5},   {0, 1, 5}, {1, 1, 5}};
+  const io::Triangles faces = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}, {3, 4, 5}, {6, 7, 8}, {7, 8, 9}};
+  io::SequenceWriter(run, {faces,
+                           {{"floor", io::Group::Role::kBody, 0, 3},
+                            {"ball", io::Group::Role::kBody, 3, 4},
+                            {"sheet", io::Group::Role::kCloth, 4, 6}},
+                           io::SequenceKind::kFrames,
+                           io::Precision::kFloat64,
+                           "test"})
+      .append(0, points);
+  const auto all = run_program(folder, {"view", run, "-o", page});
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_NE(all.out.find("2 positions too far from the cloth"), std::string::npos) << all.out;
+  const auto larger = slurp(page).size();
+  const auto hidden = run_program(folder, {"view", run, "-o", page, "--hide", "floor"});
+  EXPECT_EQ(hidden.exit_code, 0) << hidden.err;
+  EXPECT_EQ(hidden.out.find("too far"), std::string::npos) << hidden.out;
+  EXPECT_EQ(data_of(slurp(page), "scene")["surfaces"][0]["cloth"], 2) << "the ball is a body still";
+  EXPECT_LT(slurp(page).size(), larger);
+  EXPECT_EQ(run_program(folder, {"view", run, "-o", page, "--hide", "floor", "--hide", "ball"}).exit_code, 0);
+  EXPECT_EQ(data_of(slurp(page), "scene")["surfaces"][0]["cloth"], 2);
+  const auto unknown = run_program(folder, {"view", run, "-o", page, "--hide", "floors"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("--hide: no group \"floors\"; the groups are \"floor\", \"ball\", \"sheet\""),
+            std::string::npos)
+      << unknown.err;
 }
 
 TEST(ViewPage, UsageAndInputErrorsAreNamed) {

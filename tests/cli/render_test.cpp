@@ -154,6 +154,36 @@ TEST(RenderCommand, WritesASheetOfTheFramesAskedFor) {
   EXPECT_EQ(testing::run_program(folder, {"render", mesh, "-o", sheet + ".jpg"}).exit_code, 2);
 }
 
+TEST(RenderCommand, AHiddenGroupLeavesThePictureOfTheOthers) {
+  const testing::TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::string sheet = "g sheet\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string lid = "g lid\nv 0 0 1\nv 3 0 1\nv 0 3 1\nf 4 5 6\n", edge = "g edge\nv 1 1 0\nf 2 7 3\n";
+  testing::spit(path("all.obj"), sheet + lid + edge);
+  testing::spit(path("open.obj"), sheet + "g edge\nv 1 1 0\nf 2 4 3\n");
+  const auto draw = [&](const char* mesh, const char* picture, const std::vector<std::string>& hidden) {
+    std::vector<std::string> arguments = {"render", path(mesh), "-o", path(picture), "--width", "200"};
+    for (const std::string& name : hidden) arguments.insert(arguments.end(), {"--hide", name});
+    return testing::run_program(folder, arguments);
+  };
+  ASSERT_EQ(draw("open.obj", "open.png", {}).exit_code, 0);
+  ASSERT_EQ(draw("all.obj", "all.png", {}).exit_code, 0);
+  const auto hidden = draw("all.obj", "hidden.png", {"lid"});
+  EXPECT_EQ(hidden.exit_code, 0) << hidden.err;
+  EXPECT_NE(testing::slurp(path("all.png")), testing::slurp(path("open.png")));
+  EXPECT_EQ(testing::slurp(path("hidden.png")), testing::slurp(path("open.png")));
+
+  const auto unknown = draw("all.obj", "none.png", {"lid", "lids"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("--hide: no group \"lids\"; the groups are \"sheet\", \"lid\", \"edge\""),
+            std::string::npos)
+      << unknown.err;
+  const auto nothing = draw("all.obj", "none.png", {"lid", "sheet", "edge"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_NE(nothing.err.find("there is nothing left to show"), std::string::npos) << nothing.err;
+  EXPECT_FALSE(std::filesystem::exists(path("none.png")));
+}
+
 TEST(Render, ALargePictureIsDrawnInBandsWithoutASeam) {
   io::MeshData mesh;
   add_square(mesh, 1, 0, true);

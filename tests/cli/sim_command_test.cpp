@@ -152,6 +152,66 @@ TEST_F(SimCommand, AnIntersectingStartIsRefusedWithAWitness) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(SimCommand, ClothThatStartsInsideAClosedBodyIsSaidToOnce) {
+  const std::string words = "starts inside the closed body";
+  const auto start = [&](const std::string& bodies, const std::string& cloth_position,
+                         std::vector<std::string> options = {}) {
+    options.insert(options.end(), {"--frames", "1"});
+    return sim(
+        "[time]\nframes = 2\n[[cloth]]\nname = \"sheet\"\nsheet = {nx = 3, ny = 3, width_m = 0.2, height_m = "
+        "0.2}\nposition_m = " +
+            cloth_position + "\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n" + bodies,
+        options);
+  };
+  const std::string ball = "[[body]]\nname = \"ball\"\nsphere = {radius_m = 0.5, subdivisions = 2}\n";
+  const auto inside = start(ball, "[0, 0, 0]");
+  EXPECT_EQ(inside.exit_code, 0) << inside.err;
+  EXPECT_NE(inside.err.find("selvage: note: \"sheet\" " + words + " \"ball\" without meeting it"), std::string::npos)
+      << inside.err;
+  std::filesystem::remove_all(path("out"));
+  const auto nested = start(ball + "[[body]]\nname = \"stone\"\nsphere = {radius_m = 0.05}\n", "[0, 0, 0.2]");
+  EXPECT_EQ(nested.exit_code, 0) << nested.err;
+  EXPECT_EQ(nested.err.find("\"stone\""), std::string::npos) << "a body may be anywhere: " << nested.err;
+  std::filesystem::remove_all(path("out"));
+  ASSERT_EQ(start(ball, "[0, 0, 0]").exit_code, 0);
+  const auto resumed = start(ball, "[0, 0, 0]", {"--resume"});
+  EXPECT_EQ(resumed.exit_code, 0);
+  EXPECT_EQ(resumed.err.find(words), std::string::npos) << "said at the start: " << resumed.err;
+  // In a corner of the ball's box, and beside it.
+  for (const char* place : {"[0.38, 0.38, 0.38]", "[0, 0, 2]"}) {
+    std::filesystem::remove_all(path("out"));
+    const auto outside = start(ball, place);
+    EXPECT_EQ(outside.exit_code, 0) << outside.err;
+    EXPECT_EQ(outside.err.find(words), std::string::npos) << outside.err;
+  }
+  // An octahedron, then without one of its faces.
+  const std::string corners = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
+  const std::string faces = "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\n";
+  for (const bool is_closed : {true, false}) {
+    std::filesystem::remove_all(path("out"));
+    spit(path("body.obj"), corners + faces + (is_closed ? "f 1 4 6\n" : ""));
+    const auto run = start("[[body]]\nname = \"tent\"\nmesh = {file = \"body.obj\"}\n", "[0, 0, 0.1]");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err.find(words) != std::string::npos, is_closed) << run.err;
+  }
+}
+
+TEST_F(SimCommand, OfClothInPartsItIsSaidHowManyStartInside) {
+  // Two leaves and two stones, of one mesh each: one leaf is in the first stone, and in the box alone of the second.
+  spit(path("leaves.obj"), "v 0 0 0\nv .1 0 0\nv 0 .1 0\nf 1 2 3\nv 5 0 0\nv 5.1 0 0\nv 5 .1 0\nf 4 5 6\n");
+  spit(path("stones.obj"),
+       "v -1 -1 -1\nv 3 -1 -1\nv -1 3 -1\nv -1 -1 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+       "v 4 4 4\nv 4 4 -3\nv 4 -3 4\nv -3 4 4\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n");
+  const auto run =
+      sim("[time]\nframes = 1\n[[cloth]]\nname = \"leaves\"\nmesh = {file = \"leaves.obj\"}\n"
+          "density_kg_m2 = 0.2\nstretch_n_m = 40\n[[body]]\nname = \"stones\"\nmesh = {file = "
+          "\"stones.obj\"}\n");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("note: 1 of 2 connected parts of \"leaves\" starts inside the closed body \"stones\""),
+            std::string::npos)
+      << run.err;
+}
+
 TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
   const std::string far =
       "[time]\nframes = 1\n[collision]\nthickness_m = 5e-3\n%[[cloth]]\nsheet = {nx = 30, ny = 30, width_m = 1, "
@@ -297,7 +357,9 @@ TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   EXPECT_EQ(stopped.exit_code, 1);
   EXPECT_NE(stopped.err.find("stopped at"), std::string::npos) << stopped.err;
   EXPECT_NE(stopped.err.find("(sheet)"), std::string::npos) << stopped.err;
-  EXPECT_NE(slurp(path("out") + "/run.json").find("\"end\": \"stopped\""), std::string::npos);
+  const auto end = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_EQ(end["end"], "stopped");
+  EXPECT_EQ(end["exit_code"], 1);
   EXPECT_EQ(run_program(folder_, {"verify", "--frames-only", path("out")}).exit_code, 0);
 
   std::filesystem::remove_all(path("out"));
@@ -308,7 +370,9 @@ TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   const auto strict = sim("squeeze = \"yield\"\n" + scene(6, 0.2, 0.34), {"--strict"});
   EXPECT_EQ(strict.exit_code, 1);
   EXPECT_NE(strict.err.find("a body waited"), std::string::npos) << strict.err;
-  EXPECT_NE(slurp(path("out") + "/run.json").find("\"end\": \"complete\""), std::string::npos) << "all was written";
+  const auto told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_EQ(told["end"], "complete") << "all was written";
+  EXPECT_EQ(told["exit_code"], 1);
 }
 
 TEST_F(SimCommand, AnInterruptedRunExits75AndResumesWithTheSameBits) {
@@ -410,6 +474,85 @@ TEST_F(SimCommand, ADamagedRunIsNotResumed) {
   expect_refused("is on the list and not there");
   spit(frame, bytes);
   EXPECT_EQ(resume("5").exit_code, 0);
+}
+
+TEST_F(SimCommand, ACheckpointOfAnotherSceneIsRefusedWithWhatDiffers) {
+  const std::string
+      text = scene(3, 0.2, 0.2),
+      meshed =
+          "[time]\nframes = 2\n[[cloth]]\nname = \"leaf\"\nmesh = {file = \"leaf.obj\"}\ndensity_kg_m2 = 0.2\n"
+          "stretch_n_m = 40\n";
+  ASSERT_EQ(sim(text, {"--frames", "1"}).exit_code, 0);
+  const std::string ran = slurp(path("out") + "/run.json");
+  const auto expect_refused = [&](const testing::ProgramResult& run, const std::string& words) {
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_NE(run.err.find("checkpoint.bin: the checkpoint belongs to another scene: " + words + "; resume with"),
+              std::string::npos)
+        << run.err;
+  };
+  std::string heavier = text;
+  heavier.replace(heavier.find("= 0.3\n"), 5, "= 0.4");
+  expect_refused(sim(heavier, {"--resume"}), "cloth[0].density_kg_m2 (line 10) was 0.3 and is 0.4");
+  expect_refused(sim(text, {"--resume", "--quality", "full"}), "--quality was draft and is full");
+  EXPECT_EQ(slurp(path("out") + "/run.json"), ran) << "a refusal is no end of a run";
+  EXPECT_EQ(sim(text, {"--resume"}).exit_code, 0);
+
+  std::filesystem::remove_all(path("out"));
+  spit(path("leaf.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_EQ(sim(meshed, {"--frames", "1"}).exit_code, 0);
+  spit(path("leaf.obj"), "v 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n");
+  expect_refused(sim(meshed, {"--resume"}), "the file of \"leaf\" is not what it was");
+}
+
+TEST_F(SimCommand, ARunThatAnErrorEndsSaysSoInRunJson) {
+  // A body whose last frame is needed after 10 s, and gone by then.
+  for (int i = 0; i < 3; ++i) {
+    spit(path("body_" + std::to_string(i) + ".obj"),
+         fmt::format("v 0 0 {0}\nv 1 0 {0}\nv 0 1 {0}\nf 1 2 3\n", 0.01 * i));
+  }
+  spit(path("scene.toml"),
+       "[time]\nframes = 400\n[[cloth]]\nsheet = {nx = 2, ny = 2, width_m = 1, height_m = 1}\nposition_m = [0, 0, 5]\n"
+       "density_kg_m2 = 0.2\nstretch_n_m = 40\n[[body]]\nname = \"wave\"\n"
+       "sequence = {file = \"body_*.obj\", frames_per_s = 0.1}\n");
+  const std::vector<std::string> resume = {"sim", path("scene.toml"), "-o", path("out"), "--resume"};
+  const pid_t child = testing::start_program(folder_.path(), resume);
+  for (int i = 0; i < 6000 && !std::filesystem::exists(path("out") + "/frame_000001.npy"); ++i) usleep(1000);
+  const std::string last = path("body_2.obj"), bytes = slurp(last);
+  std::filesystem::remove(last);
+  const auto failed = testing::wait_for_program(folder_.path(), child);
+  EXPECT_EQ(failed.exit_code, 4) << failed.err;
+  EXPECT_NE(failed.err.find("body_2.obj"), std::string::npos) << failed.err;
+  auto told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_EQ(told["end"], "failed");
+  EXPECT_EQ(told["exit_code"], 4);
+  EXPECT_EQ("selvage: " + told["error"].get<std::string>() + "\n", failed.err.substr(failed.err.find("selvage: ")));
+  const auto frames = std::ssize(recorded(path("out"))) - 4;  // without header, faces, list and the initial state
+  EXPECT_EQ(told["frames"], frames);
+  EXPECT_GE(frames, 300);
+  EXPECT_LT(frames, 400);
+
+  spit(last, bytes);
+  const auto resumed = run_program(folder_, resume);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_EQ(told["end"], "complete");
+  EXPECT_EQ(told["exit_code"], 0);
+  EXPECT_TRUE(told["error"].is_null());
+  EXPECT_EQ(told["frames"], 400);
+}
+
+TEST_F(SimCommand, ARunWithoutRoomForItsFirstFrameSaysSoInRunJson) {
+  spit(path("scene.toml"), scene(2, 0.2, 0.2));
+  // 6 KiB: for 482 faces and for run.json, not for the 262 vertices of a frame.
+  const std::string limited =
+      "cd " + folder_.path().string() + " && ulimit -f 12 && exec " SELVAGE_PROGRAM " sim scene.toml -o out";
+  const auto run = run_program(folder_, {"-c", limited}, "/bin/sh");
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  const auto told = nlohmann::json::parse(slurp(path("out") + "/run.json"));
+  EXPECT_EQ(told["end"], "failed");
+  EXPECT_EQ(told["exit_code"], 4);
+  EXPECT_EQ(told["frames"], 0);
+  EXPECT_NE(told["error"].get<std::string>().find("ulimit -f"), std::string::npos) << told;
 }
 
 TEST_F(SimCommand, NamesThatATerminalWouldObeyAreRefused) {

@@ -180,6 +180,33 @@ TEST(VerifyCommand, WhatMayTouchIsCountedAndMustExist) {
   }
 }
 
+TEST(VerifyCommand, ABodyThatTheFormatCannotNameIsNamedByTheUser) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", json = folder.path() / "a.json";
+  const std::string sheet = "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 7 8 9\n";
+  spit(mesh, two_faces(0) + sheet);
+  EXPECT_EQ(run_program(folder, {"verify", mesh}).exit_code, 1);
+  // Both of one group that the user makes: not checked against each other. One alone: against the other, as cloth.
+  const auto both = run_program(folder, {"verify", mesh, "--group", "low=0:2", "--body", "low", "--json", json});
+  EXPECT_EQ(both.exit_code, 0) << both.out << both.err;
+  const auto report = nlohmann::json::parse(testing::slurp(json));
+  EXPECT_EQ(report["surface"]["body_faces"], 2);
+  EXPECT_EQ(report["options"]["body"], "low");
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--group", "low=0:2", "--body", "low", "--bodies"}).exit_code, 1);
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--group", "low=1:2", "--body", "low"}).exit_code, 1);
+  const auto unknown = run_program(folder, {"verify", mesh, "--group", "low=0:2", "--body", "lows"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("--body: no group \"lows\"; the groups are \"low\""), std::string::npos) << unknown.err;
+  const auto outside = run_program(folder, {"verify", mesh, "--group", "low=2:2000000000", "--body", "low"});
+  EXPECT_EQ(outside.exit_code, 2) << outside.err;
+  EXPECT_NE(outside.err.find("are no range of the mesh's 3 faces"), std::string::npos) << outside.err;
+  // A face cannot be of both.
+  spit(mesh, two_faces(0) + "g sheet\n" + sheet);
+  const auto divided = run_program(folder, {"verify", mesh, "--group", "low=1:3", "--body", "low"});
+  EXPECT_EQ(divided.exit_code, 3) << divided.err;
+  EXPECT_NE(divided.err.find("which is a body; give both groups one role"), std::string::npos) << divided.err;
+}
+
 TEST(VerifyCommand, BadInputIsNeverAVerdict) {
   const struct {
     const char* why;

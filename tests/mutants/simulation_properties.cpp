@@ -150,6 +150,7 @@ std::string judge_recording(std::uint64_t seed) {
   for (const bool resume : {false, true}) {
     sim::Simulation part(scene);
     sim::Recorder recorder(folder.path() / "run", part, io::SequenceKind::kSteps, resume, "selvage");
+    recorder.begin();
     const auto stop = resume ? scene.time.frame_count : scene.time.frame_count / 2 + 1;
     while (part.clock().state().frame < stop) recorder.record(part.step());
   }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "sim/checkpoint.h"
+#include "sim/scene_identity.h"
 #include "sim/scene_reader.h"
 #include "sim/shapes.h"
 #include "sim/step.h"
@@ -198,10 +198,10 @@ sequence = {file = "jaws_*.obj", frames_per_s = 30}
 TEST_F(BodySequenceTest, ThatChangesIsAnotherScene) {
   write_frames();
   const Scene same = scene();
-  const std::uint64_t before = scene_fingerprint(same, build_world(same));
-  EXPECT_EQ(scene_fingerprint(same, build_world(same)), before);
+  const SceneIdentity before = identify(same, build_world(same));
+  EXPECT_EQ(identify(same, build_world(same)), before);
   spit("ball_9.obj", obj(ball(9.01 * kFrame_s)));
-  EXPECT_NE(scene_fingerprint(same, build_world(same)), before) << "one frame, long after the start";
+  EXPECT_NE(identify(same, build_world(same)), before) << "one frame, long after the start";
 }
 
 TEST_F(BodySequenceTest, HangsOnAParentAndFollowsKeys) {

@@ -70,11 +70,75 @@ TEST_F(RecorderTest, KeepsTheWholeClockInCheckpoints) {
   EXPECT_EQ(read->state.clock, written.state.clock);
 }
 
+TEST_F(RecorderTest, KeepsInCheckpointsOfWhatSceneTheyAre) {
+  const std::filesystem::path file = folder_.path() / "checkpoint.bin";
+  for (const Quality quality : {Quality::kDraft, Quality::kFull}) {
+    Checkpoint written;
+    written.scene = {"[time]\nframes = 3\n", quality, {1, 2, 3}, 4};
+    write_checkpoint(file, written);
+    EXPECT_EQ(read_checkpoint(file)->scene, written.scene);
+  }
+}
+
+TEST_F(RecorderTest, ASceneIsIdentifiedByAllThatDeterminesIt) {
+  const World world = build_world(scene_);
+  const SceneIdentity same = identify(scene_, world);
+  EXPECT_EQ(same, identify(scene_, build_world(scene_)));
+  EXPECT_EQ(same.parts.size(), 3U);
+  const auto expect_other = [&](const World& other, const std::string& words) {
+    const SceneIdentity now = identify(scene_, other);
+    EXPECT_NE(now, same) << words;
+    EXPECT_NE(fingerprint_of(now), fingerprint_of(same)) << words;
+    EXPECT_EQ(first_difference(same, now, other), words);
+  };
+  World moved = world;
+  moved.x_t0(world.triangles[static_cast<std::size_t>(world.groups[1].face_begin)][0], 2) += 1e-9;
+  expect_other(moved, "the file of \"ball\" is not what it was");
+  World turned = world;
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  expect_other(turned, "the file of \"sheet\" is not what it was");
+  World faster = world;
+  faster.v_t0(0, 0) += 1e-9;
+  expect_other(faster, "one of the mesh files is not what it was");
+  SceneIdentity full = same;
+  full.quality = Quality::kFull;
+  EXPECT_NE(fingerprint_of(full), fingerprint_of(same));
+  EXPECT_EQ(first_difference(same, full, world), "--quality was draft and is full");
+}
+
+TEST_F(RecorderTest, AFailedRunSaysWhyAndGoesOnFromTheLastWholeFrame) {
+  const auto output = folder_.path() / "out";
+  Simulation simulation(scene_);
+  {
+    Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
+    recorder.begin();
+    run(simulation, recorder, 2);
+    // Advanced, and not recorded: as where the disk is full.
+    while (simulation.clock().state().frame < 3) (void)simulation.step();
+    recorder.finish({RunEnd::kFailed, 4, "C:\\run: cannot \"write\"\nit"});
+  }
+  const std::string json = slurp(output / "run.json");
+  EXPECT_NE(json.find("\"end\": \"failed\",\n  \"exit_code\": 4,\n"
+                      "  \"error\": \"C:\\\\run: cannot \\\"write\\\"?it\",\n"),
+            std::string::npos)
+      << json;
+  EXPECT_NE(json.find("\"frames\": 2,"), std::string::npos) << json;
+  Simulation again(scene_);
+  Recorder recorder(output, again, io::SequenceKind::kFrames, true, kProducer);
+  recorder.begin();
+  EXPECT_FALSE(std::filesystem::exists(output / "run.json"));
+  EXPECT_EQ(again.clock().state().frame, 2);
+  run(again, recorder, 3);
+  EXPECT_EQ(again.x(), simulation.x());
+  EXPECT_EQ(io::open_sequence({output})->frame_count(), 4U);
+}
+
 TEST_F(RecorderTest, ARunThatIsKilledAtItsStartStillKnowsItsRepair) {
   for (const bool resume : {false, true}) {
     Simulation simulation(scene_);
     const StartRepair repair = resume ? StartRepair{} : StartRepair{3, 2, 0.5};
-    const Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, resume, kProducer, repair);
+    Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, resume, kProducer, repair);
+    recorder.begin();
     EXPECT_EQ(recorder.resumed(), resume);
     EXPECT_EQ(recorder.totals().repair.pairs, 3);
     EXPECT_EQ(recorder.totals().repair.largest_move_m, 0.5);
@@ -87,12 +151,13 @@ TEST_F(RecorderTest, WritesTheBitsThatWereSimulated) {
   std::vector<double> times = {0};
   {
     Recorder recorder(folder_.path() / "steps", simulation, io::SequenceKind::kSteps, false, kProducer);
+    recorder.begin();
     while (simulation.clock().state().frame < kFrames) {
       recorder.record(simulation.step());
       states.push_back(simulation.x());
       times.push_back(simulation.clock().time_s());
     }
-    recorder.finish(RunEnd::kComplete);
+    recorder.finish({RunEnd::kComplete});
   }
   const auto sequence = io::open_sequence({folder_.path() / "steps"});
   ASSERT_EQ(sequence->frame_count(), states.size());
@@ -111,6 +176,7 @@ TEST_F(RecorderTest, FramesAreTheStepsThatEndAFrame) {
   std::vector<Positions> states = {simulation.x()};
   {
     Recorder recorder(folder_.path() / "frames", simulation, io::SequenceKind::kFrames, false, kProducer);
+    recorder.begin();
     while (simulation.clock().state().frame < kFrames) {
       recorder.record(simulation.step());
       if (!simulation.clock().at_frame()) continue;
@@ -131,11 +197,13 @@ TEST_F(RecorderTest, AKilledRunResumesWithTheSameBits) {
     std::filesystem::remove_all(torn);
     Simulation uninterrupted(scene_);
     Recorder complete(whole, uninterrupted, kind, false, kProducer);
+    complete.begin();
     run(uninterrupted, complete, kFrames);
     // Killed twice: once before the first frame is whole, once later in the middle of a frame.
     for (const int steps : {1, 9, 1 << 20}) {
       Simulation simulation(scene_);
       Recorder recorder(torn, simulation, kind, true, kProducer);
+      recorder.begin();
       run(simulation, recorder, kFrames, steps);
       if (steps < 1 << 20) continue;
       const auto a = io::open_sequence({whole}), b = io::open_sequence({torn});
@@ -160,13 +228,15 @@ TEST_F(RecorderTest, AnInterruptedRunResumesInTheMiddleOfAFrame) {
   {
     Simulation simulation(scene_);
     Recorder recorder(torn, simulation, io::SequenceKind::kFrames, false, kProducer);
+    recorder.begin();
     run(simulation, recorder, kFrames, 11);
     ASSERT_FALSE(simulation.clock().at_frame());
-    recorder.finish(RunEnd::kInterrupted);
+    recorder.finish({RunEnd::kInterrupted});
     EXPECT_NE(slurp(torn / "run.json").find("\"end\": \"interrupted\""), std::string::npos);
   }
   Simulation simulation(scene_);
   Recorder recorder(torn, simulation, io::SequenceKind::kFrames, true, kProducer);
+  recorder.begin();
   EXPECT_TRUE(recorder.resumed());
   EXPECT_FALSE(simulation.clock().at_frame());
   run(simulation, recorder, kFrames);
@@ -178,6 +248,7 @@ TEST_F(RecorderTest, RefusesWhatIsNotItsOwn) {
   {
     Simulation simulation(scene_);
     Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
+    recorder.begin();
     run(simulation, recorder, 2);
   }
   Simulation simulation(scene_);
@@ -210,8 +281,9 @@ TEST_F(RecorderTest, ARefusedResumptionChangesNothing) {
   {
     Simulation simulation(scene_);
     Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
+    recorder.begin();
     run(simulation, recorder, 2);
-    recorder.finish(RunEnd::kInterrupted);
+    recorder.finish({RunEnd::kInterrupted});
   }
   const auto list = output / "frames.jsonl";
   std::ofstream(list, std::ios::binary | std::ios::app) << "{\"torn";
@@ -247,9 +319,10 @@ TEST_F(RecorderTest, RunJsonIsGoneWhileARunGoesOn) {
   for (const bool resume : {false, true}) {
     Simulation simulation(scene_);
     Recorder recorder(output, simulation, io::SequenceKind::kFrames, resume, kProducer);
+    recorder.begin();
     EXPECT_FALSE(std::filesystem::exists(output / "run.json")) << "a kill would leave the end of the run before";
     run(simulation, recorder, resume ? 2 : 1);
-    recorder.finish(RunEnd::kComplete);
+    recorder.finish({RunEnd::kComplete});
     EXPECT_TRUE(std::filesystem::exists(output / "run.json"));
   }
 }
@@ -259,14 +332,15 @@ TEST_F(RecorderTest, NoFileIsEverHalfWritten) {
   const auto output = folder_.path() / "out", kept = folder_.path() / "kept";
   Simulation simulation(scene_);
   Recorder recorder(output, simulation, io::SequenceKind::kFrames, false, kProducer);
-  recorder.finish(RunEnd::kInterrupted);
+  recorder.begin();
+  recorder.finish({RunEnd::kInterrupted});
   std::filesystem::create_directory(kept);
   const auto files = {"checkpoint.bin", "run.json"};
   for (const char* file : files) std::filesystem::create_hard_link(output / file, kept / file);
   std::vector<std::string> before;
   for (const char* file : files) before.push_back(slurp(output / file));
   run(simulation, recorder, 2);
-  recorder.finish(RunEnd::kComplete);
+  recorder.finish({RunEnd::kComplete});
   for (std::size_t i = 0; const char* file : files) {
     EXPECT_NE(slurp(output / file), before[i]) << file;
     EXPECT_EQ(slurp(kept / file), before[i++]) << file;
@@ -276,12 +350,14 @@ TEST_F(RecorderTest, NoFileIsEverHalfWritten) {
 TEST_F(RecorderTest, RunJsonHasTheTotals) {
   Simulation simulation(scene_);
   Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
+  recorder.begin();
   run(simulation, recorder, 2);
-  recorder.finish(RunEnd::kComplete);
+  recorder.finish({RunEnd::kComplete});
   const std::string json = slurp(folder_.path() / "out" / "run.json");
   for (const std::string& part :
        {std::string("\"schema\": \"selvage.run/1\""), std::string("\"frames\": 2,"),
-        std::string("\"end\": \"complete\""), "\"steps\": " + std::to_string(recorder.totals().steps) + ","}) {
+        std::string("\"end\": \"complete\""), "\"steps\": " + std::to_string(recorder.totals().steps) + ",",
+        std::string("\"exit_code\": 0,"), std::string("\"error\": null,")}) {
     EXPECT_NE(json.find(part), std::string::npos) << part;
   }
 }
@@ -289,10 +365,11 @@ TEST_F(RecorderTest, RunJsonHasTheTotals) {
 TEST_F(RecorderTest, RunJsonIsJsonWhateverTheNumbersAre) {
   Simulation simulation(scene_);
   Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
+  recorder.begin();
   StepResult step = simulation.step();
   step.most_strained.strain = std::numeric_limits<double>::infinity();
   recorder.record(step);
-  recorder.finish(RunEnd::kComplete);
+  recorder.finish({RunEnd::kComplete});
   const std::string json = slurp(folder_.path() / "out" / "run.json");
   EXPECT_NE(json.find("\"largest_strain\": null,"), std::string::npos) << json;
 }
@@ -300,10 +377,11 @@ TEST_F(RecorderTest, RunJsonIsJsonWhateverTheNumbersAre) {
 TEST_F(RecorderTest, PhasesOfARunAreTimed) {
   Simulation simulation(scene_);
   Recorder recorder(folder_.path() / "out", simulation, io::SequenceKind::kFrames, false, kProducer);
+  recorder.begin();
   const auto start = std::chrono::steady_clock::now();
   run(simulation, recorder, 2);
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  recorder.finish(RunEnd::kComplete);
+  recorder.finish({RunEnd::kComplete});
   const StepPhases& phases = recorder.totals().phases;
   const CollisionPhases& within = phases.within;
   EXPECT_GT(phases.dynamics.wall_s, 0);

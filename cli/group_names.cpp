@@ -1,0 +1,44 @@
+#include "cli/group_names.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/exit_code.h"
+
+namespace selvage::cli {
+namespace {
+
+std::string list_of(const std::vector<io::Group>& groups) {
+  if (groups.empty()) return "the sequence has no groups";
+  constexpr std::size_t kMostNamed = 20;  // as many as a person reads through
+  std::vector<std::string> listed;
+  std::string text = "the groups are";
+  for (const io::Group& group : groups) {
+    if (std::ranges::find(listed, group.name) != listed.end()) continue;
+    if (listed.size() == kMostNamed) return text + ", ...";
+    text += fmt::format("{} \"{}\"", listed.empty() ? "" : ",", group.name);
+    listed.push_back(group.name);
+  }
+  return text;
+}
+
+}  // namespace
+
+void require_known(const std::string& option, const std::vector<std::string>& names,
+                   const std::vector<io::Group>& groups) {
+  for (const std::string& name : names) {
+    if (std::ranges::find(groups, name, &io::Group::name) != groups.end()) continue;
+    throw UsageError(fmt::format("{}: no group \"{}\"; {}", option, name, list_of(groups)));
+  }
+}
+
+std::string shell_word(const std::string& name) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,+@%";
+  if (!name.empty() && name.find_first_not_of(kPlain) == name.npos) return name;
+  std::string word = "'";
+  for (const char c : name) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+}  // namespace selvage::cli
