@@ -69,8 +69,9 @@ inline void InvertOneByOne(Truth which, Matrix& matrix) {
     Eigen::Matrix3d m;
     m << at(0), at(1), at(2), at(1), at(3), at(4), at(2), at(4), at(5);
     const Eigen::Matrix3d inverse = pseudo_inverse(m);
-    for (std::size_t k = 0; k < 6; ++k)
-      columns[k][lane] = inverse(k < 3 ? 0 : k < 5 ? 1 : 2, k < 3 ? k : k < 5 ? k - 2 : 2);
+    const double entries[6] = {inverse(0, 0), inverse(0, 1), inverse(0, 2),
+                               inverse(1, 1), inverse(1, 2), inverse(2, 2)};
+    for (std::size_t k = 0; k < 6; ++k) columns[k][lane] = entries[k];
   }
   for (std::size_t k = 0; k < 6; ++k) *values[k] = hn::Load(d, columns[k]);
 }
