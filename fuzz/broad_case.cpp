@@ -35,7 +35,7 @@ std::string difference(const std::vector<Pair>& expected, const std::vector<Pair
 }
 
 std::string difference(const Mesh& mesh, const Candidates& expected, const Candidates& found) {
-  const std::string vf = difference(expected.vf, found.vf, [](const VfCandidate& pair) {
+  std::string vf = difference(expected.vf, found.vf, [](const VfCandidate& pair) {
     return "vertex " + std::to_string(pair.vertex) + " and face " + std::to_string(pair.face);
   });
   if (!vf.empty()) return vf;
@@ -87,6 +87,7 @@ BroadTrial try_broad(const MeshCase& kept) {
   }
   const Mesh mesh = make_mesh(static_cast<std::int32_t>(kept.vertex_count()), kept.faces);
   std::vector<BoxHierarchy> hierarchies;
+  hierarchies.reserve(std::size(kHierarchies));
   for (const HierarchyName& one : kHierarchies) hierarchies.emplace_back(mesh, one.kind);
   for (std::size_t motion = 0; motion < 2; ++motion) {
     const BroadQuestion question = question_of(kept, motion);

@@ -204,6 +204,7 @@ constexpr std::array<SceneClass, 6> kClasses{
 const std::vector<std::string_view>& scene_classes() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all;
+    all.reserve(kClasses.size());
     for (const SceneClass& one : kClasses) all.push_back(one.name);
     return all;
   }();

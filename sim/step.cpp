@@ -138,7 +138,7 @@ std::pair<std::vector<std::int32_t>, std::vector<VertexId>> Simulation::waiting(
     bodies.insert(scripted_.body[static_cast<std::size_t>(v)]);
     vertices.push_back(v);
   }
-  return {{bodies.begin(), bodies.end()}, std::move(vertices)};
+  return {std::vector<std::int32_t>(bodies.begin(), bodies.end()), std::move(vertices)};
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are

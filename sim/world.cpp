@@ -227,8 +227,8 @@ class WorldBuilder {
 
   [[nodiscard]] Collider::Motion carried_by(std::size_t body, const std::vector<VertexId>& vertices) const {
     const io::Group& group = groups_[scene_.cloths.size() + body];
-    return Attachment(x_(vertices, Eigen::all),
-                      std::span(triangles_).subspan(group.face_begin, group.face_end - group.face_begin), x_);
+    const auto faces = std::span(triangles_).first(static_cast<std::size_t>(group.face_end));
+    return Attachment(x_(vertices, Eigen::all), faces.subspan(static_cast<std::size_t>(group.face_begin)), x_);
   }
 
   // About the mean of the vertices.

@@ -138,7 +138,7 @@ void orientation(Trial& trial) {
 /// `pages` sheets that share one edge line, like a book, spread over half a turn.
 sim::Shape make_book(int pages, int cells) {
   sim::Shape book;
-  book.x.resize((cells + 1) * (1 + pages * cells), 3);
+  book.x.resize(Eigen::Index{cells + 1} * (1 + pages * cells), 3);
   const auto vertex = [&](int page, int column, int row) {
     return column == 0 ? row : (cells + 1) * (1 + page * cells + column - 1) + row;
   };
@@ -176,13 +176,14 @@ void bow_ties(Trial& trial) {
   StageSetup setup;
   const int count = trial.pick(4, 16, 48);
   sim::Shape fan;
-  fan.x.resize(2 * count + 1, 3);
-  fan.x.row(2 * count).setZero();
+  fan.x.resize(Eigen::Index{2} * count + 1, 3);
+  fan.x.bottomRows(1).setZero();
   for (int i = 0; i < count; ++i) {
     const Eigen::Matrix3d turn = sim::rotation_matrix(Vec3(0, 0, 360.0 * i / count)) *
                                  sim::rotation_matrix(Vec3(0, 40.0 - 80.0 * (i % 3) / 2, 0));
-    fan.x.row(2 * i) = (turn * Vec3(1, 0, 0)).transpose();
-    fan.x.row(2 * i + 1) = (turn * Vec3(1, 2.0 / count, 0.1)).transpose();
+    const Eigen::Index row = Eigen::Index{2} * i;
+    fan.x.row(row) = (turn * Vec3(1, 0, 0)).transpose();
+    fan.x.row(row + 1) = (turn * Vec3(1, 2.0 / count, 0.1)).transpose();
     fan.triangles.push_back({2 * i, 2 * i + 1, 2 * count});
   }
   setup.add_cloth(fan, Vec3::Zero());
@@ -220,7 +221,8 @@ void many_pieces(Trial& trial) {
   piece.x << 0, 0, 0, 0.5, 0.1, 0.2, 0.1, 0.5, 0.3;
   piece.triangles = {{0, 1, 2}};
   for (int cell = 0; cell < side * side * side; ++cell) {
-    const Vec3 place(cell % side, cell / side % side, cell / (side * side));
+    const int row = cell / side % side, layer = cell / (side * side);
+    const Vec3 place(cell % side, row, layer);
     setup.add_cloth(piece, place, {}, 20 * (Vec3::Constant(0.5 * side) - place));
   }
   Stage stage(trial, setup);
