@@ -114,7 +114,9 @@ TEST(BoxHierarchy, PropEqualsBruteForce) {
 
 /// The loops over boxes exist once for every kind of vector unit; all of them find the same pairs (K7).
 TEST(BoxHierarchy, EveryVectorUnitFindsTheSamePairs) {
-  const auto [mesh, V] = sheet(13, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i % 5, j % 4, i % 2); });
+  const auto patch = sheet(13, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i % 5, j % 4, i % 2); });
+  const Mesh& mesh = patch.first;
+  const Positions& V = patch.second;
   std::vector<std::uint8_t> active(static_cast<std::size_t>(mesh.vertex_count), 0);
   active[7] = active[90] = 1;
   testing::on_every_vector_unit([&](const char* unit) {

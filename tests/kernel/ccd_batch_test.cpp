@@ -324,7 +324,7 @@ TEST(CcdBatch, KeepsPositionsOfAnyStorage) {
   Eigen::MatrixXd V_t0(6, 3);
   V_t0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 1, 0.3, 0.2, 1, 0.2, 0.3, 1;
   const VfCandidate pair{3, 0};
-  for (const std::size_t query_count : {0, 1'000}) {
+  for (const std::size_t query_count : {std::size_t{0}, std::size_t{1'000}}) {
     const Eigen::RowVector3d down(0, 0, -2);
     Eigen::MatrixXd V_t1 = V_t0;
     V_t1.bottomRows(3).rowwise() += down;

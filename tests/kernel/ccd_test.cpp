@@ -302,7 +302,7 @@ TEST(Ccd, TouchesWithinAPlaneTakeFewIntervals) {
     const Points x_t0 = {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(x(), 1 + x(), 0), Vec3(x(), 2 + x(), 0)};
     Points x_t1 = x_t0;
     const Vec3 move(x(), -2, 0);
-    for (const std::size_t corner : {2, 3}) x_t1[corner] += move;
+    for (const std::size_t corner : {2U, 3U}) x_t1[corner] += move;
     const CcdResult result = ee_ccd(x_t0, x_t1, kNoTolerance);
     if (result.verdict == CcdVerdict::kSeparated) continue;
     EXPECT_EQ(result.verdict, CcdVerdict::kCollides);

@@ -129,7 +129,7 @@ TEST(ContactGroups, PropThoseOfAPackShareNoVertex) {
       if (member == ContactGroups::kNobody) continue;
       std::array<VertexId, 4> vertices = heap.members[member].vertices;
       std::ranges::sort(vertices);
-      const auto end = std::ranges::unique(vertices).begin();
+      const auto end = std::unique(vertices.begin(), vertices.end());
       for (const VertexId v : std::span(vertices.begin(), end)) {
         if (v < 0) continue;
         RC_ASSERT(std::exchange(last_pack[static_cast<std::size_t>(v)], pack) != pack);

@@ -148,7 +148,7 @@ TEST(Physics, SheetSticksBelowTheAngleOfFrictionAndSlidesAboveItAsTheLawSays) {
   for (const auto& [on_cloth, solver] :
        {std::pair(false, "explicit"), {true, "explicit"}, {false, "implicit"}, {true, "implicit"}}) {
     const std::string name = std::string(on_cloth ? "cloth on cloth, " : "cloth on a plane, ") + solver;
-    const auto speed = [&](double friction) {
+    const auto speed = [on_cloth = on_cloth, solver = solver](double friction) {
       const std::string lower = on_cloth ? held_sheet() : plane();
       Simulation simulation(parse_scene("solver = \"" + std::string(solver) + "\"\n" + tilted_gravity(kSlope) +
                                             "[time]\nframes_per_s = 50\nduration_s = 0.3\nmax_step_s = 0.0025\n"
