@@ -46,6 +46,14 @@ bool certify(const PairMotion<DoubleDouble>& motion, const Polygon& begin, const
          winds_apart(motion, begin, end) || separating_direction(motion, begin, end, middle.point);
 }
 
+/// How many pieces still wait after those, the next ones, over which the direction separates from `begin` on. Features
+/// that have passed each other move apart: without this the way out costs an interval for each split of the way in.
+std::size_t depth_beyond(const PairMotion<DoubleDouble>& motion, const Polygon& begin,
+                         const Triple<DoubleDouble>& direction, const std::array<Part, 128>& ends, std::size_t depth) {
+  while (depth > 0 && separates(motion, begin, polygon_within(motion, ends[depth - 1]), direction)) --depth;
+  return depth;
+}
+
 }  // namespace
 
 std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion, const TickInterval& interval,
@@ -78,8 +86,11 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
       }
     }
     const Part middle = begin + width / 2;
-    if (separates(motion, at_begin, at_end, reach.direction) ||
-        certify(motion, at_begin, at_end, closest_point(motion.kind, polygon_within(motion, middle)))) {
+    if (separates(motion, at_begin, at_end, reach.direction)) {
+      depth = depth_beyond(motion, at_begin, reach.direction, ends, depth - 1);
+      begin = ends[depth];
+      at_begin = polygon_within(motion, begin);
+    } else if (certify(motion, at_begin, at_end, closest_point(motion.kind, polygon_within(motion, middle)))) {
       begin = end;
       at_begin = at_end;
       --depth;
