@@ -117,7 +117,7 @@ TEST(Driver, EveryKindOfFailureIsKeptOnce) {
     EXPECT_EQ(kept, key.first + " arithmetic:" + key.first + ":1:" + std::to_string(finding.number) + " unlucky 13!\n");
     const auto& streams = properties[0]->streams();
     const auto stream =
-        std::find_if(streams.begin(), streams.end(), [&](const Stream& s) { return s.name == key.first; });
+        std::find_if(streams.begin(), streams.end(), [&name = key.first](const Stream& s) { return s.name == name; });
     EXPECT_EQ(run_case(*properties[0], *stream, 1, finding.number), "unlucky");
   }
   EXPECT_EQ(ledger.properties[0].findings.size(), 2U);
