@@ -221,7 +221,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
   fuzz.add_option("--shard", arguments->shard, "A part of the campaign, i/N or auto (Slurm); selvage merge joins them")
       ->capture_default_str();
   fuzz.add_option("--case-time", arguments->case_time_s,
-                  "Seconds of processor time after which a case is a hang, or 20 times as many asleep")
+                  "Seconds that a case may compute and sleep in all before it is a hang")
       ->check(number_above(0))
       ->capture_default_str();
   fuzz.add_option("--only", arguments->only, "Run one case again, STREAM:NUMBER as the table prints it");

@@ -5,11 +5,8 @@
 namespace selvage::fuzz {
 namespace {
 
-/// A case may sleep for a while (a lock, a file) and go on: it is not a hang before it has slept 20 times as long as it
-/// may compute.
-constexpr double kSleepShare = 20;
-/// Five times what the driver waits between two looks. A longer gap says that the driver itself was not running.
-constexpr double kLongestLook_s = 0.5;
+/// Twice what the driver waits between two looks. A longer gap says that the driver itself was not running.
+constexpr double kLongestLook_s = 0.2;
 
 }  // namespace
 
@@ -22,7 +19,7 @@ bool CaseClock::is_over(const WorkerSight& sight, double case_seconds) {
     asleep_s_ += std::min(std::chrono::duration<double>(sight.now - last_look_).count(), kLongestLook_s);
   }
   last_look_ = sight.now;
-  return sight.processor_seconds - processor_seconds_at_beat_ > case_seconds || asleep_s_ > kSleepShare * case_seconds;
+  return sight.processor_seconds - processor_seconds_at_beat_ + asleep_s_ > case_seconds;
 }
 
 }  // namespace selvage::fuzz

@@ -16,9 +16,9 @@ struct WorkerSight {
 
 class CaseClock {
  public:
-  /// Whether the case in hand has had more than `case_seconds` of processor time, or has been seen asleep for 20 times
-  /// as long. Not counted is the time in which it waited for a processor, or in which nobody looked: then the driver
-  /// may have been stopped as well.
+  /// Whether the case in hand has had more than `case_seconds`: of processor time, and of time in which it was seen
+  /// asleep. Not counted is the time in which it waited for a processor or a disk, or in which nobody looked: then the
+  /// driver may have been stopped as well.
   [[nodiscard]] bool is_over(const WorkerSight& sight, double case_seconds);
 
  private:

@@ -59,8 +59,10 @@ class Conformance final : public Property {
     query.options = CcdOptions{.tolerance = 0};  // the plugin has its own
     const bool in_batch = source.one_in(16);
     if (shrunk) {
-      query =
-          shrink(query, [&](const MotionQuery& simpler) { return judge(simpler, in_batch).failure == failure; }).query;
+      query = shrink(query, [&](const MotionQuery& simpler) {
+                beat_();
+                return judge(simpler, in_batch).failure == failure;
+              }).query;
     }
     const std::string text = format_case({query, origin, exact_motion(query, verify::Detail::kDecision).touches});
     return shrunk ? text + "# answered: " + words_of(judge(query, in_batch).answer) + "\n" : text;

@@ -22,6 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTick_ms = 100;
 constexpr double kSaveEvery_s = 1;
+/// Beyond a case's time that workers get to come to an end: a hang is seen by then, which takes a few ticks more.
+constexpr double kGrace_s = 1;
 /// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is a
 /// property that hung so often, because a hang costs many seconds.
 constexpr int kMaxCrashes = 5, kMaxHangs = 3;
@@ -46,7 +48,9 @@ Place place_of(const Job& job, const Progress& progress, const std::vector<Strea
 bool is_sound(const Event& event, const Job& job, const Progress& progress, const std::vector<Stream>& streams) {
   const bool is_unit = job.kind == Job::Kind::kUnit;
   const auto count = static_cast<std::int32_t>(streams.size());
-  if (event.kind == Event::Kind::kDone) return event.seconds >= 0 && (!is_unit || progress.stream == count);
+  if (event.kind == Event::Kind::kDone) {
+    return event.seconds >= 0 && (!is_unit || progress.stream == count || progress.is_stopping);
+  }
   if (event.kind != Event::Kind::kFailure || !is_unit || event.stream < 0 || event.stream >= count) return false;
   const std::int64_t per_unit = streams[static_cast<std::size_t>(event.stream)].per_unit;
   return event.number / per_unit == job.number && event.failure[0] != '\0';
@@ -75,7 +79,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
     : properties_(properties),
       options_(std::move(options)),
       ledger_(make_ledger(properties)),
-      setting_{properties, options_.seed, options_.folder} {
+      setting_{properties, options_.seed, std::filesystem::absolute(options_.folder)} {
   ledger_.version = options_.version;
   ledger_.target = options_.target;
   ledger_.seed = options_.seed;
@@ -94,6 +98,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
     Ledger blank = known;
     for (PropertyLedger& property : blank.properties) {
       property.units = {};
+      property.open.clear();
       property.findings.clear();
       for (Counts& row : property.rows) row = {};
     }
@@ -129,20 +134,17 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
   while (true) {
     status_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     stopped = stopped || stop();
-    const bool stopping = stopped || (options_.seconds && status_.seconds >= *options_.seconds);
+    const Pace now = pace(stopped);
     std::vector<pollfd> waits;
     std::vector<Team*> busy;
     for (const auto& team : teams_) {
-      if (!team->worker->job() && !assign(*team, stopping)) continue;
+      if (!team->worker->job() && !assign(*team, now)) continue;
       waits.push_back({team->worker->events(), POLLIN, 0});
       busy.push_back(team.get());
     }
     if (busy.empty()) break;
     if (poll(waits.data(), waits.size(), kTick_ms) < 0 && errno != EINTR) throw std::runtime_error("poll failed");
-    for (std::size_t i = 0; i < busy.size(); ++i) {
-      if (waits[i].revents != 0) hear(*busy[i], (waits[i].revents & POLLHUP) != 0);
-      busy[i]->worker->watch(options_.case_seconds);
-    }
+    for (std::size_t i = 0; i < busy.size(); ++i) look_after(*busy[i], now, waits[i].revents);
     watch(status_);
     if (is_dirty_ && std::chrono::duration<double>(Clock::now() - last_save).count() >= kSaveEvery_s) {
       save();
@@ -154,15 +156,35 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
   return !stopped;
 }
 
-bool Driver::assign(Team& team, bool stopping) {
-  const std::optional<Job> job = next_job(stopping);
+Driver::Pace Driver::pace(bool stopped) {
+  if (!stopped && !(options_.seconds && status_.seconds >= *options_.seconds)) return Pace::kFull;
+  if (!stopping_since_s_) {
+    stopping_since_s_ = status_.seconds;
+    for (const auto& team : teams_) team->worker->ask_to_stop();
+  }
+  return status_.seconds - *stopping_since_s_ < options_.case_seconds + kGrace_s ? Pace::kStopping : Pace::kLate;
+}
+
+bool Driver::assign(Team& team, Pace pace) {
+  const std::optional<Job> job = next_job(pace);
   if (!job) return false;
   team.failures.clear();
-  team.worker->give(*job, shares_[static_cast<std::size_t>(job->property)].is_skipped);
+  const auto p = static_cast<std::size_t>(job->property);
+  const auto& open = ledger_.properties[p].open;
+  const auto place = job->kind == Job::Kind::kUnit ? open.find(job->number) : open.end();
+  team.worker->give(*job, shares_[p].is_skipped, place == open.end() ? UnitPlace{} : place->second);
   return true;
 }
 
-std::optional<Job> Driver::next_job(bool stopping) {
+/// `heard`: what poll() says of its events. One that has just spoken is not looked at: it may wait for the next job.
+void Driver::look_after(Team& team, Pace pace, short heard) {
+  if (heard != 0) return hear(team, (heard & POLLHUP) != 0);
+  team.worker->watch(options_.case_seconds);
+  const Job& job = *team.worker->job();  // where nothing but a case as it is remains to be written, that is waited for
+  if (pace == Pace::kLate && (job.kind == Job::Kind::kUnit || job.shrunk != 0)) team.worker->abandon();
+}
+
+std::optional<Job> Driver::next_job(Pace pace) {
   for (std::size_t p = 0; p < shares_.size(); ++p) {
     for (const auto& [key, finding] : ledger_.properties[p].findings) {
       if (!finding.file.empty() || shares_[p].being_kept.contains(key)) continue;
@@ -175,12 +197,12 @@ std::optional<Job> Driver::next_job(bool stopping) {
       key.second.copy(job.failure, kFailureWord - 1);
       const bool survives = !key.second.starts_with("crashed") && key.second != "hung" && key.second != "exited" &&
                             key.second != kBrokeChannel;
-      job.shrunk = survives && key.second != "threw" ? 1 : 0;
+      job.shrunk = survives && key.second != "threw" && pace != Pace::kLate ? 1 : 0;
       shares_[p].being_kept.insert(key);
       return job;
     }
   }
-  if (stopping) return std::nullopt;
+  if (pace != Pace::kFull) return std::nullopt;
   std::optional<std::size_t> chosen;
   for (std::size_t p = 0; p < shares_.size(); ++p) {
     Share& share = shares_[p];
@@ -220,28 +242,43 @@ void Driver::hear(Team& team, bool has_hung_up) {
 
 void Driver::take_done(Team& team, const Event& done) {
   const Job job = *team.worker->job();
-  team.worker->finish();
   status_.processor_seconds += done.seconds;
-  is_dirty_ = true;
   const auto p = static_cast<std::size_t>(job.property);
   PropertyLedger& property = ledger_.properties[p];
-  Share& share = shares_[p];
   if (job.kind == Job::Kind::kKeep) {
+    team.worker->finish();
+    is_dirty_ = true;
     const std::pair<std::string, std::string> key{property.streams[static_cast<std::size_t>(job.stream)], job.failure};
-    share.being_kept.erase(key);
+    shares_[p].being_kept.erase(key);
     Finding& finding = property.findings.at(key);
     // A lower case may have failed meanwhile: then that one is kept instead.
     const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
     if (finding.number == job.number) finding.file = kept_name(*properties_[p], stream, job.failure);
     return;
   }
-  share.seconds += done.seconds - share.unit_seconds;
-  share.unit_seconds = done.seconds;
-  share.in_hand.erase(job.number);
-  property.units.insert(job.number);
+  shares_[p].seconds += done.seconds - shares_[p].unit_seconds;
+  shares_[p].unit_seconds = done.seconds;
+  take_unit(team);
+}
+
+/// As far as it came: the rest is left for --resume.
+void Driver::take_unit(Team& team) {
+  const Job job = *team.worker->job();
+  team.worker->finish();
+  is_dirty_ = true;
+  const auto p = static_cast<std::size_t>(job.property);
+  PropertyLedger& property = ledger_.properties[p];
+  const Progress& progress = team.worker->progress();
+  shares_[p].in_hand.erase(job.number);
+  property.open.erase(job.number);
+  if (progress.stream == static_cast<std::int32_t>(property.streams.size())) {
+    property.units.insert(job.number);
+  } else {
+    property.open[job.number] = {progress.stream, progress.number};
+  }
   for (std::size_t i = 0; i < property.rows.size(); ++i) {
-    property.rows[i] += team.worker->progress().rows[i];
-    status_.cases += team.worker->progress().rows[i].cases;
+    property.rows[i] += progress.rows[i];
+    status_.cases += progress.rows[i].cases;
   }
   for (const Event& failure : team.failures) {
     const auto stream = static_cast<std::size_t>(failure.stream);
@@ -256,20 +293,14 @@ void Driver::take_death(Team& team) {
   const Death death = team.worker->bury();
   SELVAGE_ASSERT(team.worker->job().has_value());
   const Job job = *team.worker->job();
+  if (job.kind == Job::Kind::kKeep) return take_death_of_keeping(team, job, death);
+  if (death.is_abandoned) {
+    take_unit(team);
+    return team.worker->revive();
+  }
   if (death.at_start) throw std::runtime_error("a worker " + death.failure + " before it could run a case");
   const auto p = static_cast<std::size_t>(job.property);
   Share& share = shares_[p];
-  if (job.kind == Job::Kind::kKeep) {
-    if (death.failure == "exited") throw std::runtime_error("a worker could not keep a case");
-    // Shrinking ran into a case that kills: what was written first stays.
-    team.worker->revive();
-    PropertyLedger& property = ledger_.properties[p];
-    const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
-    property.findings.at({stream.name, job.failure}).file = kept_name(*properties_[p], stream, job.failure);
-    share.being_kept.erase({stream.name, job.failure});
-    is_dirty_ = true;
-    return;
-  }
   Progress& progress = team.worker->progress();
   const auto [stream, number] = place_of(job, progress, properties_[p]->streams());
   Event failure;
@@ -286,6 +317,22 @@ void Driver::take_death(Team& team) {
     share.is_skipped[stream] = true;
   }
   for (std::size_t i = 0; i < share.is_skipped.size(); ++i) progress.is_skipped[i] = share.is_skipped[i];
+  team.worker->revive();
+}
+
+/// Shrinking ran into a case that kills, or has no time left: what was written first stays.
+void Driver::take_death_of_keeping(Team& team, const Job& job, const Death& death) {
+  const auto p = static_cast<std::size_t>(job.property);
+  const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
+  shares_[p].being_kept.erase({stream.name, job.failure});
+  if (team.worker->progress().has_kept) {
+    ledger_.properties[p].findings.at({stream.name, job.failure}).file =
+        kept_name(*properties_[p], stream, job.failure);
+    is_dirty_ = true;
+  } else if (!death.is_abandoned) {
+    throw std::runtime_error("a worker " + death.failure + " before it could keep a case; " +
+                             (setting_.folder / kWorkerLog).string() + " may say why");
+  }
   team.worker->revive();
 }
 

@@ -18,7 +18,7 @@ struct DriverOptions {
   std::filesystem::path folder;  ///< campaign.json, stats.jsonl and kept cases
   std::int64_t shard = 1, shards = 1;
   bool resume = false;
-  double case_seconds = 10;  ///< of processor time that a case may take (case_clock.h)
+  double case_seconds = 10;  ///< that a case may compute or sleep (case_clock.h)
   std::string version, target = "selvage";
 };
 
@@ -37,8 +37,9 @@ class Driver {
   Driver(Properties& properties, DriverOptions options);
   ~Driver();
 
-  /// Until all is done, the time is over, or `stop` says so: what is in hand is finished and written. `watch` is called
-  /// several times a second. False: stopped. What campaign.json says is done stays done, whatever happens.
+  /// Until all is done, the time is over, or `stop` says so: then the cases in hand are finished and written, which
+  /// takes no longer than a case may, and a unit that is cut short goes on from there when it is resumed. `watch` is
+  /// called several times a second. False: stopped. What campaign.json says is done stays done, whatever happens.
   bool run(const std::function<bool()>& stop, const std::function<void(const DriverStatus&)>& watch);
 
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
@@ -48,11 +49,16 @@ class Driver {
   struct Team;   // a worker and what it has reported about its job
   struct Share;  // of a property: what is given out, and what it cost
 
-  bool assign(Team& team, bool stopping);
-  [[nodiscard]] std::optional<Job> next_job(bool stopping);
+  enum class Pace { kFull, kStopping, kLate };
+  [[nodiscard]] Pace pace(bool stopped);
+  bool assign(Team& team, Pace pace);
+  [[nodiscard]] std::optional<Job> next_job(Pace pace);
+  void look_after(Team& team, Pace pace, short heard);
   void hear(Team& team, bool has_hung_up);
   void take_done(Team& team, const Event& done);
+  void take_unit(Team& team);
   void take_death(Team& team);
+  void take_death_of_keeping(Team& team, const Job& job, const Death& death);
   void take_broken_channel(Team& team);
   void save();
   void append_stats() const;
@@ -64,6 +70,7 @@ class Driver {
   WorkerSetting setting_;
   std::vector<Share> shares_;
   std::vector<std::unique_ptr<Team>> teams_;
+  std::optional<double> stopping_since_s_;
   bool is_dirty_ = false;
 };
 

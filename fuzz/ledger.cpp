@@ -29,6 +29,7 @@ void add(PropertyLedger& to, const PropertyLedger& from) {
     if (!to.units.insert(begin, end))
       refuse("two shards hold the same work unit of " + to.name + "; name each folder once");
   }
+  to.open.insert(from.open.begin(), from.open.end());
   for (std::size_t i = 0; i < to.rows.size(); ++i) to.rows[i] += from.rows[i];
   for (const auto& [key, finding] : from.findings) {
     const auto [place, is_new] = to.findings.try_emplace(key, finding);

@@ -23,12 +23,19 @@ struct Finding {
   friend bool operator==(const Finding&, const Finding&) = default;
 };
 
+/// In a unit: the case that is next, by its place in its stream's part of the unit.
+struct UnitPlace {
+  std::int64_t stream = 0, number = 0;
+  friend bool operator==(const UnitPlace&, const UnitPlace&) = default;
+};
+
 struct PropertyLedger {
   std::string name;
   RangeSet units;                                                   ///< done, failures included
   std::vector<std::string> streams, counters;                       ///< names
   std::vector<Counts> rows;                                         ///< a stream
   std::map<std::pair<std::string, std::string>, Finding> findings;  ///< by stream and failure
+  std::map<std::int64_t, UnitPlace> open = {};                      ///< units cut short: what is before is counted
   [[nodiscard]] Counts total() const;
   friend bool operator==(const PropertyLedger&, const PropertyLedger&) = default;
 };

@@ -15,6 +15,7 @@ Json json_of(const PropertyLedger& property) {
   Json json;
   json["name"] = property.name;
   json["units"] = property.units.ranges();
+  for (const auto& [unit, place] : property.open) json["open"].push_back({unit, place.stream, place.number});
   json["counters"] = property.counters;
   Json streams = Json::array();
   for (std::size_t i = 0; i < property.rows.size(); ++i) {
@@ -55,6 +56,9 @@ PropertyLedger property_of(const Json& json) {
   for (const Json& range : json.at("units")) {
     const std::int64_t begin = count(range.at(0)), end = count(range.at(1));
     if (begin >= end || !property.units.insert(begin, end)) throw std::invalid_argument("units overlap");
+  }
+  for (const Json& place : json.value("open", Json::array())) {
+    property.open[count(place.at(0))] = {count(place.at(1)), count(place.at(2))};
   }
   property.counters = json.at("counters").get<std::vector<std::string>>();
   for (const Json& stream : json.at("streams")) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ class Property {
   virtual void prepare() {}
   /// In the process that will run cases, before the first.
   virtual void start() {}
+  /// To be called with each case that kept() runs, by a property whose cases may hang.
+  void on_beat(std::function<void()> beat) { beat_ = std::move(beat); }
   [[nodiscard]] virtual Outcome run(const Stream& stream, ChoiceSource source) = 0;
   /// Why these counts say that a stream has gone dead or an answer is useless (F1), or nothing.
   [[nodiscard]] virtual std::string complaint(const Stream& /*stream*/, const Counts& /*counts*/) const { return {}; }
@@ -55,6 +58,7 @@ class Property {
   std::vector<Stream> streams_;
   std::vector<std::string> counters_;
   int weight_ = 1;
+  std::function<void()> beat_ = [] {};
 
  private:
   std::string name_, promise_;

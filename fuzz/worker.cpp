@@ -55,6 +55,7 @@ class Worker {
       const auto place = static_cast<std::size_t>(progress_.stream);
       const Stream& stream = streams[place];
       for (; progress_.number < stream.per_unit && !progress_.is_skipped[place]; ++progress_.number) {
+        if (progress_.is_stopping) return;
         progress_.beat.fetch_add(1, std::memory_order_relaxed);
         const std::int64_t number = unit * stream.per_unit + progress_.number;
         const Outcome outcome = run_guarded(property, stream, case_seed(setting_.seed, stream, number));
@@ -82,6 +83,7 @@ class Worker {
     const ChoiceSource source = ChoiceSource::from_seed(case_seed(setting_.seed, stream, job.number));
     std::filesystem::create_directories(setting_.folder);
     io::write_atomically(file, property.kept(stream, source, origin, failure, false));
+    progress_.has_kept = true;
     if (job.shrunk != 0) io::write_atomically(file, property.kept(stream, source, origin, failure, true));
   }
 
@@ -117,7 +119,10 @@ void work(const WorkerSetting& setting, Progress& progress, int jobs, int events
     const io::PosixFile log(setting.folder / kWorkerLog, O_WRONLY | O_CREAT | O_APPEND);
     dup2(log.descriptor(), 1);
     dup2(log.descriptor(), 2);
-    for (const auto& property : setting.properties) property->start();
+    for (const auto& property : setting.properties) {
+      property->on_beat([&progress] { progress.beat.fetch_add(1, std::memory_order_relaxed); });
+      property->start();
+    }
     Worker worker(setting, progress, events);
     Job job;
     while (receive(jobs, job)) worker.run(job);

@@ -41,7 +41,9 @@ struct Progress {
   std::int64_t number = 0;  ///< of the case in the unit's part of the stream
   static constexpr std::size_t kMaxStreams = 192;
   Counts rows[kMaxStreams];
-  bool is_skipped[kMaxStreams] = {};  ///< streams not to be run any more
+  bool is_skipped[kMaxStreams] = {};      ///< streams not to be run any more
+  std::atomic<bool> is_stopping = false;  ///< a unit ends behind the case in hand
+  std::atomic<bool> has_kept = false;     ///< of kKeep: the case is written, be it not yet simple
 };
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "shared between processes");
 
@@ -56,7 +58,8 @@ struct WorkerSetting {
 [[nodiscard]] std::string case_origin(const Property& property, const Stream& stream, std::uint64_t seed,
                                       std::int64_t number);
 
-/// The life of a worker: jobs in, events out, until the job pipe is closed. Each job ends with kDone.
+/// The life of a worker: jobs in, events out, until the job pipe is closed. Each job ends with kDone, a unit that was
+/// stopped too: progress says how far it came.
 [[noreturn]] void work(const WorkerSetting& setting, Progress& progress, int jobs, int events);
 
 /// Runs one case here and now: its failure.

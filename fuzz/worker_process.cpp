@@ -2,9 +2,6 @@
 
 #include <csignal>
 #include <cstring>
-#include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <new>
 #include <string>
 #include <system_error>
@@ -14,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fuzz/process_sight.h"
 #include "fuzz/wire.h"
 
 namespace selvage::fuzz {
@@ -25,28 +23,6 @@ std::array<int, 2> make_pipe() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
   return ends;
-}
-
-/// Of all its threads. Nothing where it has died.
-std::optional<double> processor_seconds(pid_t process) {
-  clockid_t clock{};
-  timespec now{};
-  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &now) != 0) return std::nullopt;
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Whether none of its threads runs, waits for a processor or for a disk: all sleep, or were stopped.
-bool is_asleep(pid_t process) {
-  std::error_code error;  // of threads that end while we look
-  std::filesystem::directory_iterator thread("/proc/" + std::to_string(process) + "/task", error);
-  for (; !error && thread != end(thread); thread.increment(error)) {
-    std::ifstream file(thread->path() / "stat");
-    std::string stat;
-    std::getline(file, stat);
-    const std::size_t state = stat.rfind(')') + 2;  // behind the program's name, which may hold anything
-    if (state >= stat.size() || (stat[state] != 'S' && stat[state] != 'T')) return false;
-  }
-  return !error;
 }
 
 }  // namespace
@@ -84,16 +60,18 @@ void WorkerProcess::start() {
   events_ = events[0];
   beat_at_start_ = progress_->beat.load();
   clock_ = {};
-  was_hung_ = false;
+  was_hung_ = was_abandoned_ = false;
 }
 
-void WorkerProcess::give(const Job& job, const std::vector<bool>& is_skipped) {
-  progress_->stream = 0;
-  progress_->number = 0;
+void WorkerProcess::give(const Job& job, const std::vector<bool>& is_skipped, const UnitPlace& from) {
+  progress_->stream = static_cast<std::int32_t>(from.stream);
+  progress_->number = from.number;
+  progress_->has_kept = false;
   for (Counts& row : progress_->rows) row = {};
   for (std::size_t i = 0; i < is_skipped.size(); ++i) progress_->is_skipped[i] = is_skipped[i];
   job_ = job;
   clock_ = {};
+  beat_at_job_ = progress_->beat.load();
   send(jobs_, job);
 }
 
@@ -113,6 +91,7 @@ Death WorkerProcess::bury() {
   jobs_ = events_ = -1;
   Death death;
   death.at_start = progress_->beat.load() == beat_at_start_;
+  death.is_abandoned = was_abandoned_;
   if (was_hung_) {
     death.failure = "hung";
   } else if (WIFSIGNALED(status)) {
@@ -134,13 +113,20 @@ void WorkerProcess::revive() {
 }
 
 void WorkerProcess::watch(double case_seconds) {
-  if (!job_ || job_->kind != Job::Kind::kUnit) return;  // shrinking runs many cases, and is bounded by their number
+  if (!job_) return;
   const std::int64_t beat = progress_->beat.load();
-  if (beat == beat_at_start_) return;  // not at its first case yet
+  // Not at its first case yet; or it shrinks what does not beat, which runs many cases and is bounded by their number.
+  if (beat == (job_->kind == Job::Kind::kUnit ? beat_at_start_ : beat_at_job_)) return;
   const std::optional<double> used = processor_seconds(pid_);
   if (!used) return;  // it has just died
   if (!clock_.is_over({beat, *used, is_asleep(pid_), std::chrono::steady_clock::now()}, case_seconds)) return;
   was_hung_ = true;
+  kill(pid_, SIGKILL);
+}
+
+void WorkerProcess::abandon() {
+  if (was_abandoned_) return;
+  was_abandoned_ = true;
   kill(pid_, SIGKILL);
 }
 

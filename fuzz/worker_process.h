@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fuzz/case_clock.h"
+#include "fuzz/ledger.h"
 #include "fuzz/worker.h"
 
 namespace selvage::fuzz {
@@ -12,7 +13,8 @@ namespace selvage::fuzz {
 /// How a worker died, for the report: "hung", "exited", or "crashed-SIGSEGV" and the like.
 struct Death {
   std::string failure;
-  bool at_start = false;  ///< before it ran a case
+  bool at_start = false;      ///< before it ran a case
+  bool is_abandoned = false;  ///< by abandon(): nothing is known about the case in hand
 };
 
 class WorkerProcess {
@@ -23,8 +25,8 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  /// From the beginning; REQUIRES that it is idle.
-  void give(const Job& job, const std::vector<bool>& is_skipped);
+  /// A unit begins at `from`. REQUIRES that it is idle.
+  void give(const Job& job, const std::vector<bool>& is_skipped, const UnitPlace& from);
   [[nodiscard]] const std::optional<Job>& job() const { return job_; }
   [[nodiscard]] int events() const { return events_; }
   /// Reads one event. Nothing where the worker has died: then bury() and revive().
@@ -37,6 +39,10 @@ class WorkerProcess {
   void revive();
   /// Kills it if the case in hand has taken too long (case_clock.h).
   void watch(double case_seconds);
+  /// A unit in hand ends behind the case in hand.
+  void ask_to_stop() { progress_->is_stopping = true; }
+  /// Kills it, whatever it does.
+  void abandon();
 
   [[nodiscard]] Progress& progress() { return *progress_; }
 
@@ -48,8 +54,8 @@ class WorkerProcess {
   pid_t pid_ = -1;
   int jobs_ = -1, events_ = -1;
   std::optional<Job> job_;
-  bool was_hung_ = false;
-  std::int64_t beat_at_start_ = 0;
+  bool was_hung_ = false, was_abandoned_ = false;
+  std::int64_t beat_at_start_ = 0, beat_at_job_ = 0;
   CaseClock clock_;
 };
 

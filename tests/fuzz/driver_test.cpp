@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/parallel_for.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -141,6 +142,86 @@ TEST(Driver, CrashesAndHangsAreFindingsAndNotTheEnd) {
   EXPECT_EQ(ledger.findings.at({"two", "crashed-SIGSEGV"}).count, deadly);
   EXPECT_FALSE(ledger.findings.at({"two", "crashed-SIGSEGV"}).file.empty());
   EXPECT_EQ(ledger.findings.at({"one", "hung"}).count, 2);
+}
+
+/// A unit of cases that take a millisecond, until one does something else.
+class Slow final : public Property {
+ public:
+  using Case = void (*)();
+  explicit Slow(Case last) : Property("slow", "goes on"), last_(last) {
+    streams_ = {{"one", 'A', 200}, {"two", 'A', 200}};
+  }
+  Outcome run(const Stream& stream, ChoiceSource source) override {
+    if (last_ != nullptr && stream.name == "two") last_();
+    usleep(1000);
+    return {{1, 0, {}, static_cast<std::int64_t>(source.n(1000))}, source.n(10) == 0 ? "unlucky" : ""};
+  }
+  std::string kept(const Stream&, ChoiceSource, const std::string& origin, const std::string&, bool) override {
+    return origin;
+  }
+
+ private:
+  Case last_;
+};
+
+/// A campaign that is out of time while the third stream is in hand, and how long it took.
+double run_out_of_time(Properties& properties, DriverOptions options) {
+  options.seconds = 0.3;
+  options.case_seconds = 0.5;
+  const auto start = std::chrono::steady_clock::now();
+  run_all(properties, options);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(Driver, AUnitThatIsCutShortGoesOnFromThere) {
+  const TemporaryFolder folder;
+  Properties properties;
+  properties.push_back(std::make_unique<Slow>(nullptr));
+  const DriverOptions whole = options_for(folder.path() / "whole", 800);
+  run_all(properties, whole);
+  DriverOptions parts = options_for(folder.path() / "parts", 800);
+  parts.resume = true;
+  for (int i = 0; i < 2; ++i) {
+    run_out_of_time(properties, parts);
+    const PropertyLedger cut = parse_ledger(slurp(parts.folder / kLedgerFile), "cut").properties[0];
+    EXPECT_EQ(cut.open.size(), 1U);
+    EXPECT_GT(cut.total().cases, 0);
+    EXPECT_LT(cut.total().cases, 800);
+  }
+  run_all(properties, parts);
+  EXPECT_EQ(slurp(parts.folder / kLedgerFile), slurp(whole.folder / kLedgerFile));
+}
+
+// A hang that sleeps once held up the end of a campaign by 20 case times a case.
+TEST(Driver, OutOfTimeItWaitsForAHangNoLongerThanForACase) {
+  const TemporaryFolder folder;
+  Properties properties;
+  properties.push_back(std::make_unique<Slow>(endless_sleep));
+  const DriverOptions options = options_for(folder.path(), 0);
+  EXPECT_LT(run_out_of_time(properties, options), 5);
+  const PropertyLedger ledger = parse_ledger(slurp(folder.path() / kLedgerFile), "ledger").properties[0];
+  EXPECT_EQ(ledger.findings.at({"two", "hung"}).count, 1);
+  EXPECT_EQ(slurp(folder.path() / ledger.findings.at({"two", "hung"}).file), "slow:two:1:0");
+}
+
+/// Waits for its child as for a disk, which is no sleep.
+void wait_like_a_disk() {
+  if (vfork() == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    pause();
+    _exit(0);
+  }
+}
+
+TEST(Driver, WhatNeitherComputesNorSleepsIsGivenUpWithoutAVerdict) {
+  const TemporaryFolder folder;
+  Properties properties;
+  properties.push_back(std::make_unique<Slow>(wait_like_a_disk));
+  const DriverOptions options = options_for(folder.path(), 0);
+  EXPECT_LT(run_out_of_time(properties, options), 5);
+  const PropertyLedger ledger = parse_ledger(slurp(folder.path() / kLedgerFile), "ledger").properties[0];
+  EXPECT_FALSE(ledger.findings.contains({"two", "hung"}));
+  EXPECT_EQ(ledger.open.at(0), (UnitPlace{1, 0}));
 }
 
 std::ptrdiff_t thread_count() {
