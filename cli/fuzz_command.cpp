@@ -35,7 +35,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string artifacts = "fuzz-artifacts", shard = "1/1", only, plugin;
-  double case_time_s = 10;
+  double case_time_s = fuzz::kCaseSeconds;
   bool resume = false, list = false;
 };
 
@@ -92,9 +92,10 @@ ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
   const auto stream = std::ranges::find(property.streams(), name, &fuzz::Stream::name);
   if (stream == property.streams().end())
     throw UsageError("--only: " + property.name() + " has no stream '" + name + "'");
-  property.start();
-  const std::string failure = fuzz::run_case(property, *stream, arguments.seed, *number);
-  fmt::print("{}\n", failure.empty() ? "holds" : failure);
+  const fuzz::OneCase one = fuzz::run_case(property, *stream, arguments.seed, *number, arguments.case_time_s);
+  const std::string& failure = one.outcome.failure;
+  fmt::print("{}: {}\n  {}: {}, case {} of seed {}\n", property.name(), property.promise(), stream->name,
+             failure.empty() ? "holds" : failure, *number, arguments.seed);
   return failure.empty() ? ExitCode::kClean : ExitCode::kViolation;
 }
 

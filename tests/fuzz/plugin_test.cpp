@@ -52,7 +52,12 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"repeats_a_vector", "batch-differs"},
                                                       {"writes_to_files", "broke-the-channel"},
                                                       {"closes_files", "exited"},
-                                                      {"forks", "forked"}};
+                                                      {"forks", "forked"},
+                                                      {"sleeps", "hung"},
+                                                      {"exits", "exited"},
+                                                      {"throws", "threw"},
+                                                      {"unmasks_fp_errors", "crashed-SIGFPE"},
+                                                      {"gives_no_time", "invalid-time"}};
   for (const auto& [plugin, failure] : kBad) {
     const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
     EXPECT_EQ(failures_of(library), std::set<std::string>{failure}) << plugin;
@@ -109,7 +114,7 @@ TEST(Plugin, TheTextbookMissesAndTheMissIsMadeSimpleAndShown) {
   const auto again =
       run_program(folder, {"fuzz", "--plugin", SELVAGE_TEXTBOOK_PLUGIN, "--only", between(gravest, "--only ", "<")});
   EXPECT_EQ(again.exit_code, 1) << again.err;
-  EXPECT_EQ(again.out, "missed\n");
+  EXPECT_NE(again.out.find(": missed, case "), again.out.npos) << again.out;
 }
 
 TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
@@ -123,6 +128,24 @@ TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
   EXPECT_EQ(html.find("<article>"), html.npos);
 }
 
+TEST(Plugin, OneCaseIsRunInAProcessOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::pair<const char*, const char*> kBad[] = {{"crashes", "crashed-SIGSEGV"},
+                                                      {"exits", "exited"},
+                                                      {"throws", "threw"},
+                                                      {"sleeps", "hung"},
+                                                      {"gives_no_time", "invalid-time"}};
+  for (const auto& [plugin, failure] : kBad) {
+    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const auto run = run_program(
+        folder, {"fuzz", "--plugin", library, "--seed", "7", "--only", "lattice-ulp/vf:3", "--case-time", "0.3"});
+    EXPECT_EQ(run.exit_code, 1) << plugin << run.err;
+    EXPECT_NE(run.out.find(std::string("  lattice-ulp vf: ") + failure + ", case 3 of seed 7\n"), run.out.npos)
+        << run.out;
+    EXPECT_EQ(run.out.find("a plugin says hello"), run.out.npos) << "among the results";
+  }
+}
+
 TEST(Plugin, ANameIsCutBetweenCharactersAndHasNothingButCharacters) {
   EXPECT_STREQ(probe_plugin(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_has_a_bad_name.so").name,
                "a??[31m ? ........ ........ ........ ........ ........ .......");
@@ -134,6 +157,16 @@ TEST(Plugin, WhatIsNoPluginIsRefused) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("cannot be loaded"), std::string::npos) << run.err;
   EXPECT_EQ(run_program(folder, {"fuzz", "--plugin", (folder.path() / "absent.so").string()}).exit_code, 4);
+  const std::pair<const char*, const char*> kUnfit[] = {
+      {"exits_at_load", "does not survive being loaded: exited"},
+      {"is_of_another_version", "is built for version 2 of selvage-plugin.h, this is version 1"},
+      {"has_another_entry", "has no function selvage_plugin_entry"}};
+  for (const auto& [plugin, words] : kUnfit) {
+    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const auto refused = run_program(folder, {"fuzz", "--plugin", library, "--artifacts", folder.path() / "artifacts"});
+    EXPECT_EQ(refused.exit_code, 3) << plugin;
+    EXPECT_NE(refused.err.find(library + ": " + words), std::string::npos) << refused.err;
+  }
 }
 
 }  // namespace
