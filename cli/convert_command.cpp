@@ -17,6 +17,7 @@
 #include "cli/interrupt.h"
 #include "cli/read_back.h"
 #include "cli/sequence_argument.h"
+#include "cli/shell_word.h"
 #include "cli/terminal.h"
 #include "cli/verdict.h"
 #include "io/points.h"

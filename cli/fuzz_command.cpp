@@ -11,6 +11,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "cli/command.h"
 #include "cli/fuzz_table.h"
@@ -18,6 +19,7 @@
 #include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "cli/page/conformance_page.h"
+#include "cli/replay.h"
 #include "cli/shard.h"
 #include "cli/terminal.h"
 #include "fuzz/campaign_stats.h"
@@ -35,7 +37,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   int jobs = 0;
   std::string artifacts = "fuzz-artifacts", shard = "1/1", only, plugin;
-  double case_time_s = 10;
+  double case_time_s = fuzz::kCaseSeconds;
   bool resume = false, list = false;
 };
 
@@ -79,6 +81,20 @@ std::optional<std::int64_t> parse_case_number(std::string_view text) {
 }
 
 /// "STREAM:NUMBER" of the only property.
+/// What `selvage replay` says of a case that has just run: of a query whatever it came to, of others where they fail.
+std::string explanation(fuzz::Property& property, const fuzz::Stream& stream, std::int64_t number,
+                        const Arguments& arguments, const std::string& failure) {
+  // What is made on the way may start threads, which the process of a plugin could not take along.
+  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const fuzz::ChoiceSource source = fuzz::ChoiceSource::from_seed(fuzz::case_seed(arguments.seed, stream, number));
+  const std::string origin = fuzz::case_origin(property, stream, arguments.seed, number);
+  const bool is_query = stream.group != 0;
+  if (failure.empty() && !is_query) return {};
+  std::optional<PluginToAsk> asked;
+  if (!arguments.plugin.empty()) asked = {arguments.plugin, arguments.case_time_s};
+  return replay_text(property.kept(stream, source, origin, failure, false), arguments.only, asked).text;
+}
+
 ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
   const std::size_t colon = arguments.only.rfind(':');
   std::string name = arguments.only.substr(0, colon);
@@ -92,9 +108,19 @@ ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
   const auto stream = std::ranges::find(property.streams(), name, &fuzz::Stream::name);
   if (stream == property.streams().end())
     throw UsageError("--only: " + property.name() + " has no stream '" + name + "'");
-  property.start();
-  const std::string failure = fuzz::run_case(property, *stream, arguments.seed, *number);
-  fmt::print("{}\n", failure.empty() ? "holds" : failure);
+  const fuzz::OneCase one = fuzz::run_case(property, *stream, arguments.seed, *number, arguments.case_time_s);
+  const std::string& failure = one.outcome.failure;
+  fmt::print("{}: {}\n  {}: {}, case {} of seed {}\n", property.name(), property.promise(), stream->name,
+             failure.empty() ? "holds" : failure, *number, arguments.seed);
+  fmt::print(" ");
+  for (std::size_t i = 0; i < property.counters().size(); ++i) {
+    fmt::print(" {}: {}{}", property.counters()[i], one.outcome.counts.of[i],
+               i + 1 < property.counters().size() ? "," : "\n");
+  }
+  // Where Selvage's own code has killed a process, this one does not run it again.
+  if (!one.has_died || !arguments.plugin.empty()) {
+    fmt::print("{}", explanation(property, *stream, *number, arguments, failure));
+  }
   return failure.empty() ? ExitCode::kClean : ExitCode::kViolation;
 }
 

@@ -33,12 +33,4 @@ void require_known(const std::string& option, const std::vector<std::string>& na
   }
 }
 
-std::string shell_word(const std::string& name) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,+@%";
-  if (!name.empty() && name.find_first_not_of(kPlain) == name.npos) return name;
-  std::string word = "'";
-  for (const char c : name) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 }  // namespace selvage::cli

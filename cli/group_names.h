@@ -12,7 +12,4 @@ namespace selvage::cli {
 void require_known(const std::string& option, const std::vector<std::string>& names,
                    const std::vector<io::Group>& groups);
 
-/// As a shell takes it for one word: in quotes where it must be.
-[[nodiscard]] std::string shell_word(const std::string& name);
-
 }  // namespace selvage::cli

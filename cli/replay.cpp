@@ -12,9 +12,13 @@ std::array<verify::Point, 3> first_three(const std::array<verify::Point, 4>& x) 
 
 }  // namespace
 
-MotionReplay replay_motion(const fuzz::Case& kept) {
-  MotionReplay replay{kept, fuzz::selvage_kernel(kept.query), {}, {}, {}, {}, {}, {}};
+MotionReplay replay_motion(const fuzz::Case& kept, const std::optional<PluginToAsk>& asked) {
+  MotionReplay replay{kept, fuzz::selvage_kernel(kept.query), {}, {}, {}, {}, {}, {}, {}};
   const fuzz::MotionQuery& query = kept.query;
+  if (asked && is_for_plugins(std::string(fuzz::name_of(query.kind)))) {
+    const bool in_batch = !kept.plugin || kept.plugin->in_batch;  // which asks it alone first
+    replay.plugin = fuzz::try_plugin(asked->library, query, in_batch, asked->case_seconds);
+  }
   const auto x_t0 = fuzz::raw(query.x_t0), x_t1 = fuzz::raw(query.x_t1);
   replay.exact = fuzz::exact_motion(query, verify::Detail::kFirstTime);
   replay.judgement = fuzz::judge(query, replay.kernel);
@@ -45,7 +49,8 @@ MotionReplay replay_motion(const fuzz::Case& kept) {
 ReplayOutcome MotionReplay::outcome() const {
   if (exact.touches != second.touches) return ReplayOutcome::kDivided;
   if (exact.touches != kept.touches) return ReplayOutcome::kContradicted;
-  const bool agrees = judgement.disagreement == fuzz::Disagreement::kNone && failure.empty();
+  const bool agrees =
+      judgement.disagreement == fuzz::Disagreement::kNone && failure.empty() && (!plugin || plugin->failure.empty());
   return agrees ? ReplayOutcome::kAgree : ReplayOutcome::kBroken;
 }
 
@@ -64,6 +69,20 @@ KeptReplay replay_kept(const std::string& name, fuzz::ParsedCase parsed) {
   fuzz::Retrial retrial = parsed.kept->retry();
   if (!retrial.unfit.empty()) throw io::Error(io::ErrorKind::kBadInput, name + ": " + retrial.unfit);
   return {std::move(parsed), std::move(retrial)};
+}
+
+bool is_for_plugins(const std::string& kind) {
+  return kind == fuzz::name_of(PairKind::kVf) || kind == fuzz::name_of(PairKind::kEe);
+}
+
+Explanation replay_text(const std::string& text, const std::string& name, const std::optional<PluginToAsk>& asked) {
+  const std::string kind = fuzz::kind_of_case(text, name);
+  if (kind == "overlap") return explain(name, replay_overlap(fuzz::parse_overlap_case(text, name)));
+  const auto is_motion = [&](PairKind pair) { return fuzz::name_of(pair) == kind; };
+  if (std::ranges::any_of(fuzz::kPairKinds, is_motion)) {
+    return explain(name, replay_motion(fuzz::parse_case(text, name), asked));
+  }
+  return explain(name, replay_kept(name, fuzz::parse_kept_case(text, name)));
 }
 
 }  // namespace selvage::cli

@@ -1,6 +1,7 @@
 // What `selvage replay` finds out about a case, and how it says it.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@
 #include "fuzz/case_file.h"
 #include "fuzz/kept_case.h"
 #include "fuzz/overlap_case.h"
+#include "fuzz/plugin_trial.h"
 #include "fuzz/query_oracle.h"
+#include "fuzz/worker.h"
 #include "verify/explain.h"
 #include "verify/second_opinion.h"
 
@@ -22,6 +25,12 @@ enum class ReplayOutcome {
   kDivided,       ///< the two exact deciders disagree
 };
 
+/// Somebody's collision code (fuzz/plugin.h).
+struct PluginToAsk {
+  std::filesystem::path library;
+  double case_seconds = fuzz::kCaseSeconds;
+};
+
 struct MotionReplay {
   fuzz::Case kept;
   CcdResult kernel;
@@ -31,10 +40,12 @@ struct MotionReplay {
   fuzz::Judgement judgement;
   std::string failure;  ///< of the property that the case is about, or empty
   std::vector<verify::ExplainedPolynomial> polynomials;
+  std::optional<fuzz::PluginTrial> plugin;  ///< what a plugin did that was asked as well
 
   [[nodiscard]] ReplayOutcome outcome() const;
 };
-[[nodiscard]] MotionReplay replay_motion(const fuzz::Case& kept);
+/// Throws io::Error(kBadInput) where the plugin is none.
+[[nodiscard]] MotionReplay replay_motion(const fuzz::Case& kept, const std::optional<PluginToAsk>& asked);
 
 struct OverlapReplay {
   fuzz::OverlapCase kept;
@@ -64,5 +75,11 @@ struct Explanation {
 [[nodiscard]] Explanation explain(const std::string& name, const MotionReplay& replay);
 [[nodiscard]] Explanation explain(const std::string& name, const OverlapReplay& replay);
 [[nodiscard]] Explanation explain(const std::string& name, const KeptReplay& replay);
+
+/// Whether a plugin can be asked about a case of this kind: it answers vf and ee alone.
+[[nodiscard]] bool is_for_plugins(const std::string& kind);
+/// The case that `text` holds, whatever its kind. Throws io::Error(kBadInput) naming `name`.
+[[nodiscard]] Explanation replay_text(const std::string& text, const std::string& name,
+                                      const std::optional<PluginToAsk>& asked);
 
 }  // namespace selvage::cli

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/number_check.h"
 #include "cli/output_check.h"
 #include "cli/replay.h"
 #include "io/atomic_file.h"
@@ -18,20 +20,11 @@ namespace {
 
 struct Arguments {
   std::vector<std::filesystem::path> cases;
-  std::string json;
+  std::string json, plugin;
+  double case_time_s = fuzz::kCaseSeconds;
 };
 
 constexpr std::size_t kLargestCase = 1 << 20;
-
-Explanation replay(const std::filesystem::path& file) {
-  const std::string text = io::read_file(file, kLargestCase), name = file.string();
-  const std::string kind = fuzz::kind_of_case(text, name);
-  if (kind == "overlap") return explain(name, replay_overlap(fuzz::parse_overlap_case(text, name)));
-  const auto is_motion = [&](PairKind pair) { return fuzz::name_of(pair) == kind; };
-  if (std::ranges::any_of(fuzz::kPairKinds, is_motion))
-    return explain(name, replay_motion(fuzz::parse_case(text, name)));
-  return explain(name, replay_kept(name, fuzz::parse_kept_case(text, name)));
-}
 
 /// The gravest one counts.
 ExitCode exit_code(const std::vector<Explanation>& explanations) {
@@ -65,13 +58,27 @@ ExitCode run(const Arguments& arguments) {
     if (found.empty()) throw io::Error(io::ErrorKind::kBadInput, named.string() + ": holds no case (*.case)");
     files.insert(files.end(), found.begin(), found.end());
   }
-  require_separate_outputs(files, {arguments.json});
+  std::vector<std::filesystem::path> inputs = files;
+  std::optional<PluginToAsk> asked;
+  if (!arguments.plugin.empty()) {
+    asked = {arguments.plugin, arguments.case_time_s};
+    inputs.emplace_back(arguments.plugin);
+  }
+  require_separate_outputs(inputs, {arguments.json});
+  int for_plugins = 0;
   std::vector<Explanation> explanations;
   std::string json = "{\n\"schema\": \"selvage.replay/1\",\n\"cases\": [";
   for (const std::filesystem::path& file : files) {
-    explanations.push_back(replay(file));
+    const std::string text = io::read_file(file, kLargestCase), name = file.string();
+    explanations.push_back(replay_text(text, name, asked));
     fmt::print("{}", explanations.back().text);
+    const bool is_asked = is_for_plugins(fuzz::kind_of_case(text, name));
+    for_plugins += is_asked ? 1 : 0;
+    if (asked && !is_asked) fmt::print("  the plugin was not asked: it answers vf and ee alone\n");
     json += (explanations.size() > 1 ? ",\n" : "\n") + explanations.back().json;
+  }
+  if (asked && for_plugins == 0) {
+    throw io::Error(io::ErrorKind::kBadInput, arguments.plugin + ": was asked nothing; name a case of vf or ee");
   }
   if (!arguments.json.empty()) io::write_atomically(arguments.json, json + "\n]\n}\n");
   return exit_code(explanations);
@@ -89,6 +96,15 @@ void add_replay_command(CLI::App& program, Job& job) {
                   "selvage replay failure.case");
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("CASE", arguments->cases, "Case files, or folders of them")->required();
+  command
+      .add_option("--plugin", arguments->plugin,
+                  "Ask this collision code as well, as `selvage fuzz --plugin` does, and judge what it answers")
+      ->type_name("LIB.so");
+  command
+      .add_option("--case-time", arguments->case_time_s,
+                  "Seconds that the plugin may compute and sleep over a case before that is a hang")
+      ->check(number_above(0))
+      ->capture_default_str();
   command.add_option("--json", arguments->json, "Write the explanations as JSON")->type_name("FILE");
   command.callback([arguments, &job] { job = [arguments] { return run(*arguments); }; });
 }

@@ -1,8 +1,12 @@
 // Replays in words and as JSON.
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/replay.h"
+#include "cli/shell_word.h"
+#include "io/text.h"
 #include "verify/report.h"
 
 namespace selvage::cli {
@@ -97,7 +101,52 @@ Json json_of(const verify::ExactTime& t) {
   return {{"lower", t.lower}, {"upper", t.upper}, {"lower_number", t.lower_approx}, {"upper_number", t.upper_approx}};
 }
 
+/// The words for what was kept and was not asked now.
+std::string unasked_text(const fuzz::PluginRecord& record, const std::string& name) {
+  return fmt::format(
+      "  plugin:   {} failed with '{}' when this was kept, and was not asked now: Selvage's own kernel was\n"
+      "            ask it with: selvage replay --plugin {} {}\n",
+      io::printable(record.library), record.failure, shell_word(record.library), shell_word(name));
+}
+
+std::string plugin_text(const fuzz::PluginTrial& plugin, const MotionReplay& replay) {
+  std::string text = "no answer";
+  if (plugin.has_answer) text = fuzz::words_of({{}, plugin.answer, 0}, plugin.info.has_toi);
+  if (plugin.has_answer && plugin.info.has_toi && plugin.answer.verdict == SELVAGE_COLLIDES) {
+    text += fmt::format(" ({:.17g})", plugin.answer.toi);
+    if (replay.exact.touches) {
+      const double early = replay.exact.first.lower_approx - plugin.answer.toi;
+      text += fmt::format(", {:.6g} of the step {} the first touch", std::abs(early), early < 0 ? "behind" : "before");
+    }
+  }
+  text = fmt::format("  plugin:   {}: {}: {}\n", plugin.info.name, text,
+                     plugin.failure.empty() ? "conforms" : "FAILS: " + plugin.failure);
+  if (replay.kept.plugin && replay.kept.plugin->failure != (plugin.failure.empty() ? "none" : plugin.failure)) {
+    text += fmt::format("            it was kept for '{}'\n", replay.kept.plugin->failure);
+  }
+  return text;
+}
+
 Json number_and_bits(double x) { return {{"number", x}, {"hex", fmt::format("{:a}", x)}}; }
+
+Json plugin_json(const MotionReplay& replay) {
+  if (!replay.plugin && !replay.kept.plugin) return nullptr;
+  Json json = {{"library", nullptr}, {"kept_for", nullptr}, {"name", nullptr},
+               {"verdict", nullptr}, {"toi", nullptr},      {"failure", nullptr}};
+  if (replay.kept.plugin) {
+    json["library"] = replay.kept.plugin->library;
+    json["kept_for"] = replay.kept.plugin->failure;
+  }
+  if (!replay.plugin) return json;
+  const fuzz::PluginTrial& plugin = *replay.plugin;
+  json["name"] = plugin.info.name;
+  json["failure"] = plugin.failure.empty() ? "none" : plugin.failure;
+  if (!plugin.has_answer) return json;
+  const bool collides = plugin.answer.verdict == SELVAGE_COLLIDES;
+  json["verdict"] = collides ? "collides" : "separated";
+  if (collides && plugin.info.has_toi) json["toi"] = number_and_bits(plugin.answer.toi);
+  return json;
+}
 
 std::string text_of(const verify::ExplainedPolynomial& polynomial) {
   std::string text = fmt::format("  {}: ", polynomial.name);
@@ -156,12 +205,17 @@ Explanation explain(const std::string& name, const MotionReplay& replay) {
                                                      : std::string("apart for all t"));
   result.text += fmt::format("  kernel:   {}\n", kernel_text(replay.kernel));
   result.text += fmt::format("  textbook: {}\n", textbook_text(replay));
+  if (replay.plugin) result.text += plugin_text(*replay.plugin, replay);
   for (const auto& polynomial : replay.polynomials) result.text += text_of(polynomial);
   result.text +=
       fmt::format("  property: {}: {}\n", replay.kept.property, replay.failure.empty() ? "holds" : replay.failure);
   const fuzz::Disagreement disagreement = replay.judgement.disagreement;
+  if (replay.kept.plugin && !replay.plugin) result.text += unasked_text(*replay.kept.plugin, name);
   result.text += fmt::format("  {}", sentence(result.outcome));
   if (disagreement != fuzz::Disagreement::kNone) result.text += fmt::format(" ({})", fuzz::name_of(disagreement));
+  const bool is_plugins = replay.plugin && !replay.plugin->failure.empty();
+  if (is_plugins) result.text += fmt::format(" (by the plugin: {})", replay.plugin->failure);
+  if (replay.kept.plugin && !replay.plugin) result.text += " by Selvage's own kernel";
   result.text += "\n";
 
   Json json = {{"case", name},
@@ -177,6 +231,7 @@ Explanation explain(const std::string& name, const MotionReplay& replay) {
                  {"gap_bound", number_and_bits(replay.kernel.gap_bound)},
                  {"intervals", replay.kernel.intervals}}},
                {"textbook", nullptr},
+               {"plugin", plugin_json(replay)},
                {"polynomials", Json::array()},
                {"disagreement", fuzz::name_of(disagreement)},
                {"property", replay.kept.property},

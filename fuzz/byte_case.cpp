@@ -1,52 +1,11 @@
 #include "fuzz/byte_case.h"
 
-#include <array>
-#include <charconv>
-#include <cstdio>
 #include <exception>
 
 namespace selvage::fuzz {
 namespace {
 
 constexpr std::size_t kLongestPiece = 100;
-
-bool is_printable(char c) { return c > ' ' && c <= '~' && c != '\\' && c != '#'; }
-
-/// Blanks are themselves within a piece, where no editor takes them away.
-std::string escaped(char c, bool at_edge) {
-  if (is_printable(c) || (c == ' ' && !at_edge)) return {c};
-  if (c == '\n') return "\\n";
-  if (c == '\\') return "\\\\";
-  std::array<char, 8> code{};
-  std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
-  return code.data();
-}
-
-std::string unescaped(std::string_view piece, const CaseLines& lines) {
-  std::string bytes;
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    if (piece[i] != '\\') {
-      bytes += piece[i];
-      continue;
-    }
-    const char code = ++i < piece.size() ? piece[i] : '\0';
-    if (code == 'n') {
-      bytes += '\n';
-    } else if (code == '\\') {
-      bytes += '\\';
-    } else {
-      unsigned value = 0;
-      const std::string_view digits = code == 'x' ? piece.substr(i + 1, 2) : std::string_view();
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-      if (error != std::errc() || digits.size() != 2 || end != digits.data() + 2) {
-        lines.fail("'\\' is followed by n, \\ or x and two hexadecimal digits");
-      }
-      bytes += static_cast<char>(value);
-      i += 2;
-    }
-  }
-  return bytes;
-}
 
 }  // namespace
 
@@ -65,9 +24,7 @@ std::string KeptBytes::body() const {
     const std::size_t line_end = bytes.find('\n', begin);
     const std::size_t left = line_end == bytes.npos ? bytes.size() - begin : line_end + 1 - begin;
     const std::size_t length = std::min(left, kLongestPiece);
-    text += "| ";
-    for (std::size_t i = 0; i < length; ++i) text += escaped(bytes[begin + i], i == 0 || i + 1 == length);
-    text += "\n";
+    text += "| " + escaped(bytes.substr(begin, length)) + "\n";
     begin += length;
   }
   return text;
@@ -82,7 +39,7 @@ ByteCase parse_byte_case(const ByteKind& kind, CaseLines& lines) {
   lines.expect_end_of_line();
   while (!lines.only_blank_left()) {
     lines.expect_word("|");
-    kept.bytes += unescaped(lines.rest_of_line(), lines);
+    kept.bytes += lines.unescaped(lines.rest_of_line());
   }
   return kept;
 }

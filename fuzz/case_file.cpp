@@ -66,6 +66,19 @@ PairKind parse_kind(CaseLines& lines, std::string_view word) {
   return *kind;
 }
 
+PluginRecord parse_plugin(CaseLines& lines, PairKind kind) {
+  if (kind == PairKind::kSelf) lines.fail("plugin: none is asked about self");
+  PluginRecord plugin;
+  plugin.failure = lines.word();
+  const std::string_view how = lines.word();
+  if (how != "alone" && how != "batch")
+    lines.fail("plugin: 'alone' or 'batch' is wanted, not '" + std::string(how) + "'");
+  plugin.in_batch = how == "batch";
+  plugin.library = lines.unescaped(lines.rest_of_line());
+  if (plugin.library.empty()) lines.fail("plugin: its file is missing");
+  return plugin;
+}
+
 Vec3 parse_point(CaseLines& lines) {
   Vec3 point;
   for (double& coordinate : point) coordinate = lines.number(lines.word());
@@ -85,6 +98,11 @@ std::string format_case(const Case& kept) {
     text += (i == 0 ? " choices=" : ",") + std::to_string(kept.choices[i]);
   }
   text += "\n";
+  if (kept.plugin) {
+    const PluginRecord& plugin = *kept.plugin;
+    text += "plugin " + (plugin.failure.empty() ? "none" : plugin.failure) + (plugin.in_batch ? " batch " : " alone ") +
+            escaped(plugin.library) + "\n";
+  }
   const std::string_view names = point_names(query.kind);
   for (std::size_t i = 0; i < names.size(); ++i) {
     text += std::string(1, names[i]) + " " + format_point(query.x_t0[i]) + "  " + format_point(query.x_t1[i]) + "\n";
@@ -114,7 +132,13 @@ Case parse_case(std::string_view text, const std::string& name) {
   const std::string_view names = point_names(kept.query.kind);
   for (std::size_t i = 0; i < names.size(); ++i) {
     lines.advance();
-    lines.expect_word(names.substr(i, 1));
+    std::string_view word = lines.word();
+    if (i == 0 && word == "plugin") {
+      kept.plugin = parse_plugin(lines, kept.query.kind);
+      lines.advance();
+      word = lines.word();
+    }
+    if (word != names.substr(i, 1)) lines.fail("expected '" + std::string(names.substr(i, 1)) + "'");
     kept.query.x_t0[i] = parse_point(lines);
     kept.query.x_t1[i] = parse_point(lines);
     lines.expect_end_of_line();

@@ -3,6 +3,8 @@
 //   seed prop_ccd_no_miss:77123                         where it came from
 //   options tolerance=0x1p-20 max_intervals=4096        and, where it is about another promise than K1 to K3,
 //                                                       property=scale, and what that chose: choices=1403
+//   plugin missed alone ./mine.so                       where it is a plugin's: its failure; whether the query was
+//                                                       asked alone or in a batch; the library, as it was named
 //   p 0x1.9p+6 -0x1.2p+3 0x0p+0  0x1.8p+6 0x0p+0 0x1p-4 a point at t = 0, then at t = 1; vf: p a b c, ee: a b c d,
 //   ...                                                 self: p a b
 //   expect touches                                      the exact answer: touches, or apart
@@ -10,6 +12,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,12 +22,20 @@
 
 namespace selvage::fuzz {
 
+/// A plugin that failed.
+struct PluginRecord {
+  std::string library;  ///< as it was named
+  std::string failure;  ///< in a word; or "none"
+  bool in_batch = false;
+};
+
 struct Case {
   MotionQuery query;
   std::string seed;
   bool touches = false;                     ///< whether the features touch at some t in [0,1], exactly
   std::string property = "ccd";             ///< one of query_properties()
   std::vector<std::uint32_t> choices = {};  ///< what the property chooses besides the query; others are 0
+  std::optional<PluginRecord> plugin = {};
 };
 
 [[nodiscard]] std::string format_case(const Case& kept);

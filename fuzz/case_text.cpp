@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <system_error>
 
@@ -16,6 +17,18 @@ constexpr std::string_view kBlank = " \t\r";
 
 std::size_t word_start(std::string_view line) { return std::min(line.find_first_not_of(kBlank), line.size()); }
 
+bool is_printable(char c) { return c > ' ' && c <= '~' && c != '\\' && c != '#'; }
+
+/// Blanks are themselves within a piece, where no editor takes them away.
+std::string escaped(char c, bool at_edge) {
+  if (is_printable(c) || (c == ' ' && !at_edge)) return {c};
+  if (c == '\n') return "\\n";
+  if (c == '\\') return "\\\\";
+  std::array<char, 8> code{};
+  std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  return code.data();
+}
+
 }  // namespace
 
 std::string hex(double x) {
@@ -24,6 +37,12 @@ std::string hex(double x) {
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::hex).ptr;
   return (std::signbit(x) ? "-0x" : "0x") + std::string(text.data(), end);
+}
+
+std::string escaped(std::string_view bytes) {
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); ++i) text += escaped(bytes[i], i == 0 || i + 1 == bytes.size());
+  return text;
 }
 
 void CaseLines::advance() {
@@ -108,6 +127,32 @@ std::string_view CaseLines::rest_of_line() {
   const std::string_view rest = line_.substr(word_start(line_));
   line_ = {};
   return rest;
+}
+
+std::string CaseLines::unescaped(std::string_view piece) const {
+  std::string bytes;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] != '\\') {
+      bytes += piece[i];
+      continue;
+    }
+    const char code = ++i < piece.size() ? piece[i] : '\0';
+    if (code == 'n') {
+      bytes += '\n';
+    } else if (code == '\\') {
+      bytes += '\\';
+    } else {
+      unsigned value = 0;
+      const std::string_view digits = code == 'x' ? piece.substr(i + 1, 2) : std::string_view();
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+      if (error != std::errc() || digits.size() != 2 || end != digits.data() + 2) {
+        fail("'\\' is followed by n, \\ or x and two hexadecimal digits");
+      }
+      bytes += static_cast<char>(value);
+      i += 2;
+    }
+  }
+  return bytes;
 }
 
 void CaseLines::fail(const std::string& what) const {

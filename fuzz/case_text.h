@@ -12,6 +12,9 @@ namespace selvage::fuzz {
 /// The shortest hex float that reads back as x; or nan, inf, -inf.
 [[nodiscard]] std::string hex(double x);
 
+/// Bytes in one line: what is not printable ASCII becomes \n, \\ or \xHH, as in C.
+[[nodiscard]] std::string escaped(std::string_view bytes);
+
 /// Reads one line after another, and within a line one word after another. `text` and `name` must outlive it. Whatever
 /// does not fit throws io::Error with the name and the line.
 class CaseLines {
@@ -36,6 +39,8 @@ class CaseLines {
   [[nodiscard]] bool last_answer();
   /// What is left of the line, from the next word on.
   [[nodiscard]] std::string_view rest_of_line();
+  /// The bytes that escaped() wrote so.
+  [[nodiscard]] std::string unescaped(std::string_view piece) const;
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "fuzz/case_file.h"
-#include "fuzz/case_text.h"
-#include "fuzz/closest_approach.h"
+#include "fuzz/plugin_trial.h"
 #include "fuzz/query_streams.h"
 #include "fuzz/shrink_query.h"
 
@@ -13,14 +12,6 @@ namespace selvage::fuzz {
 namespace {
 
 constexpr std::array<PairKind, 2> kKinds{PairKind::kVf, PairKind::kEe};
-/// As for our own kernel: enough to bisect down to neighbouring doubles about one closest approach.
-constexpr int kMaxTests = 256;
-
-struct Verdict {
-  std::string failure;
-  bool touches = false, alarm = false;
-  Plugin::Answer answer;
-};
 
 class Conformance final : public Property {
  public:
@@ -41,7 +32,7 @@ class Conformance final : public Property {
     if (!has_loaded_cleanly_) return load_failure();
     const auto [query_class, kind] = query_stream(stream);
     const MotionQuery query = make_query(*query_class, kind, source);
-    const Verdict verdict = judge(query, source.one_in(16));
+    const PluginJudgement verdict = judge_plugin(*plugin_, query, source.one_in(16));
     Outcome outcome{{1, verdict.failure.empty() ? 0 : 1, {}, 0}, verdict.failure};
     outcome.counts.of = {verdict.touches,
                          verdict.alarm,
@@ -61,44 +52,22 @@ class Conformance final : public Property {
     if (shrunk) {
       query = shrink(query, [&](const MotionQuery& simpler) {
                 beat_();
-                return judge(simpler, in_batch).failure == failure;
+                return judge_plugin(*plugin_, simpler, in_batch).failure == failure;
               }).query;
     }
-    const std::string text = format_case({query, origin, exact_motion(query, verify::Detail::kDecision).touches});
-    return shrunk ? text + "# answered: " + words_of(judge(query, in_batch).answer) + "\n" : text;
+    const bool touches = exact_motion(query, verify::Detail::kDecision).touches;
+    const std::string text =
+        format_case({query, origin, touches, Case().property, {}, PluginRecord{library_.string(), failure, in_batch}});
+    if (!shrunk) return text;
+    return text + "# answered: " + words_of(judge_plugin(*plugin_, query, in_batch).answer, plugin_->info().has_toi) +
+           "\n";
   }
 
  private:
   /// Of the first case of a process: it says what loading did.
   Outcome load_failure() {
     has_loaded_cleanly_ = true;
-    return {{1, 1, {}, 0}, plugin_->load_misdeed() + "-at-load"};
-  }
-
-  [[nodiscard]] std::string words_of(const Plugin::Answer& answer) const {
-    if (!answer.misdeed.empty()) return answer.misdeed;
-    if (answer.answer.verdict != SELVAGE_COLLIDES) return "separated";
-    return plugin_->info().has_toi ? "collides at t = " + hex(answer.answer.toi) : "collides";
-  }
-
-  Verdict judge(const MotionQuery& query, bool in_batch) const {
-    Verdict verdict;
-    verdict.answer = plugin_->ask(query, in_batch);
-    verdict.failure = verdict.answer.misdeed;
-    if (!verdict.failure.empty()) return verdict;
-    const selvage_answer& answer = verdict.answer.answer;
-    verdict.alarm = answer.verdict == SELVAGE_COLLIDES;
-    const bool has_time = verdict.alarm && plugin_->info().has_toi;
-    const verify::MotionAgainst exact = motion_against(query, has_time ? answer.toi : 0);
-    verdict.touches = exact.touches;
-    if (exact.touches && !verdict.alarm) verdict.failure = "missed";
-    if (exact.touches && has_time && answer.toi > 0 && exact.order < 0) verdict.failure = "late-time";
-    if (!exact.touches && verdict.alarm) {
-      const double gap = plugin_->info().tolerance + plugin_->info().relative_tolerance * extent(query);
-      const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
-      if (closest_approach(query, gap, hints, kMaxTests) == Approach::kBeyond) verdict.failure = "alarm-too-far";
-    }
-    return verdict;
+    return {{1, 1, {}, 0}, failure_at_load(plugin_->load_misdeed())};
   }
 
   std::filesystem::path library_;

@@ -53,8 +53,8 @@ std::string DrawnCase::promise() const { return draw_of(origin_)->property->prom
 Retrial DrawnCase::retry() const {
   const std::optional<Draw> draw = draw_of(origin_);
   try {
-    draw->property->start();
-    return {run_case(*draw->property, *draw->stream, draw->seed, draw->number), {"drawn again from its seed"}, {}};
+    const OneCase run = run_case(*draw->property, *draw->stream, draw->seed, draw->number, kCaseSeconds);
+    return {run.outcome.failure, {"drawn again from its seed, in a process of its own"}, {}};
   } catch (const std::exception& error) {
     return {"threw", {error.what()}, {}};
   }

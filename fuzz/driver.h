@@ -18,7 +18,7 @@ struct DriverOptions {
   std::filesystem::path folder;  ///< campaign.json, stats.jsonl and kept cases
   std::int64_t shard = 1, shards = 1;
   bool resume = false;
-  double case_seconds = 10;  ///< that a case may compute or sleep (case_clock.h)
+  double case_seconds = kCaseSeconds;  ///< that a case may compute or sleep (case_clock.h)
   std::string version, target = "selvage";
 };
 

@@ -7,17 +7,17 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
 #include <dlfcn.h>
 #include <pthread.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "fuzz/wire.h"
+#include "fuzz/guarded_run.h"
 #include "io/fail.h"
 #include "io/text.h"
 #include "kernel/fp_env.h"
@@ -223,37 +223,12 @@ std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, con
 }
 
 PluginInfo probe_plugin(const std::filesystem::path& library) {
-  struct Reply {
-    PluginInfo info;
-    char error[256] = {};
-  };
   if (access(library.c_str(), R_OK) != 0) io::file_error(library.string(), "open", errno);
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  const pid_t child = fork();
-  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (child == 0) {
-    // A library that never finishes loading: of processor time, and of sleep as in case_clock.cpp.
-    const rlimit seconds{20, 20};
-    setrlimit(RLIMIT_CPU, &seconds);
-    alarm(400);
-    Reply reply;
-    try {
-      reply.info = Plugin(library).info();
-    } catch (const std::exception& error) {
-      std::strncpy(reply.error, error.what(), sizeof reply.error - 1);
-    }
-    send(ends[1], reply);
-    _exit(0);
-  }
-  close(ends[1]);
-  Reply reply;
-  const bool has_replied = receive(ends[0], reply);
-  close(ends[0]);
-  waitpid(child, nullptr, 0);
-  if (!has_replied) refuse(library, "crashes or hangs when it is loaded");
-  if (reply.error[0] != '\0') throw io::Error(io::ErrorKind::kBadInput, reply.error);
-  return reply.info;
+  std::optional<Plugin> plugin;
+  const auto probe =
+      run_guarded<PluginInfo>([&] { plugin.emplace(library); }, [&] { return plugin->info(); }, kPrepareSeconds);
+  if (!probe.death.empty()) refuse(library, "does not survive being loaded: " + probe.death);
+  return probe.result;
 }
 
 }  // namespace selvage::fuzz

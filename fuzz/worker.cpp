@@ -7,11 +7,12 @@
 
 #include <fcntl.h>
 #include <oneapi/tbb/global_control.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
+#include "fuzz/guarded_run.h"
 #include "fuzz/wire.h"
 #include "io/atomic_file.h"
+#include "io/error.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -22,10 +23,10 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Outcome run_guarded(Property& property, const Stream& stream, std::uint64_t seed) {
+Outcome outcome_of(Property& property, const Stream& stream, std::uint64_t seed) {
   try {
     return property.run(stream, ChoiceSource::from_seed(seed));
-  } catch (const std::exception&) {
+  } catch (...) {  // a plugin may throw anything, which must not unwind what the fork copied
     return {{1, 1, {}, 0}, "threw"};
   }
 }
@@ -58,7 +59,7 @@ class Worker {
         if (progress_.is_stopping) return;
         progress_.beat.fetch_add(1, std::memory_order_relaxed);
         const std::int64_t number = unit * stream.per_unit + progress_.number;
-        const Outcome outcome = run_guarded(property, stream, case_seed(setting_.seed, stream, number));
+        const Outcome outcome = outcome_of(property, stream, case_seed(setting_.seed, stream, number));
         progress_.rows[place] += outcome.counts;
         if (!outcome.failure.empty()) report(progress_.stream, number, outcome.failure);
       }
@@ -107,11 +108,9 @@ std::string case_origin(const Property& property, const Stream& stream, std::uin
 }
 
 void work(const WorkerSetting& setting, Progress& progress, int jobs, int events) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing goes on behind a driver that was killed
+  become_test_process();
   // The driver decides when to stop: a signal to the whole group, as `timeout` sends it, is no crash of what is tested.
   for (const int stop : {SIGINT, SIGTERM, SIGHUP}) std::signal(stop, SIG_IGN);
-  // A crash ends the worker by its signal, which the driver names; a sanitizer's handler would make an exit of it.
-  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(crash, SIG_DFL);
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   int code = 0;
   try {
@@ -131,12 +130,33 @@ void work(const WorkerSetting& setting, Progress& progress, int jobs, int events
     const ssize_t ignored = write(2, line.data(), line.size());
     static_cast<void>(ignored);  // there is nobody left to tell
     code = 1;
+  } catch (...) {
+    code = 1;
   }
   _exit(code);
 }
 
-std::string run_case(Property& property, const Stream& stream, std::uint64_t seed, std::int64_t number) {
-  return property.run(stream, ChoiceSource::from_seed(case_seed(seed, stream, number))).failure;
+OneCase run_case(Property& property, const Stream& stream, std::uint64_t seed, std::int64_t number, double seconds) {
+  struct Plain {
+    Counts counts;
+    char failure[kFailureWord] = {};
+  };
+  const auto work = [&] {
+    const Outcome outcome = outcome_of(property, stream, case_seed(seed, stream, number));
+    Plain plain{outcome.counts, {}};
+    outcome.failure.copy(plain.failure, kFailureWord - 1);
+    return plain;
+  };
+  const auto prepare = [&] {
+    property.prepare();
+    property.start();
+  };
+  const Guarded<Plain> run = run_guarded<Plain>(prepare, work, seconds);
+  if (run.death.empty()) return {{run.result.counts, run.result.failure}, false};
+  if (!run.has_prepared) {
+    throw io::Error(io::ErrorKind::kBadInput, property.name() + ": " + run.death + " before it could run a case");
+  }
+  return {{{1, 1, {}, 0}, run.death}, true};
 }
 
 }  // namespace selvage::fuzz

@@ -15,6 +15,8 @@ namespace selvage::fuzz {
 
 /// Longest word for a failure, with its end.
 inline constexpr std::size_t kFailureWord = 48;
+/// That a case may compute and sleep in all (case_clock.h), unless somebody says otherwise.
+inline constexpr double kCaseSeconds = 10;
 /// Where workers, and what they run, write their messages.
 inline constexpr const char* kWorkerLog = "workers.log";
 
@@ -62,7 +64,12 @@ struct WorkerSetting {
 /// stopped too: progress says how far it came.
 [[noreturn]] void work(const WorkerSetting& setting, Progress& progress, int jobs, int events);
 
-/// Runs one case here and now: its failure.
-[[nodiscard]] std::string run_case(Property& property, const Stream& stream, std::uint64_t seed, std::int64_t number);
+struct OneCase {
+  Outcome outcome;
+  bool has_died = false;  ///< and the failure says how
+};
+/// Runs one case now, in a process of its own. Throws io::Error(kBadInput) where it dies before the case begins.
+[[nodiscard]] OneCase run_case(Property& property, const Stream& stream, std::uint64_t seed, std::int64_t number,
+                               double case_seconds);
 
 }  // namespace selvage::fuzz

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fuzz/guarded_run.h"
 #include "fuzz/process_sight.h"
 #include "fuzz/wire.h"
 
@@ -94,11 +95,8 @@ Death WorkerProcess::bury() {
   death.is_abandoned = was_abandoned_;
   if (was_hung_) {
     death.failure = "hung";
-  } else if (WIFSIGNALED(status)) {
-    const char* name = sigabbrev_np(WTERMSIG(status));
-    death.failure = std::string("crashed-SIG") + (name != nullptr ? name : "?");
   } else {
-    death.failure = "exited";
+    death.failure = death_of(status);
   }
   return death;
 }

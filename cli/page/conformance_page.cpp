@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstring>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/page/report_words.h"
+#include "cli/shell_word.h"
 #include "fuzz/case_file.h"
 #include "fuzz/generators.h"
 #include "fuzz/shrink_query.h"
@@ -73,19 +72,10 @@ struct ByGravity {
   }
 };
 
-/// What a shell takes as one word.
-std::string quoted(const std::string& plain) {
-  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("/._-+:,@", c) != nullptr; };
-  if (std::ranges::all_of(plain, is_plain)) return plain;
-  std::string word = "'";
-  for (const char c : plain) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 std::string again(const Counterexample& one, const fuzz::Ledger& ledger, const ConformanceRun& run) {
   std::string stream = one.stream;
   std::ranges::replace(stream, ' ', '/');
-  return fmt::format("selvage fuzz --plugin {} --seed {} --only {}:{}", quoted(run.library.string()), ledger.seed,
+  return fmt::format("selvage fuzz --plugin {} --seed {} --only {}:{}", shell_word(run.library.string()), ledger.seed,
                      stream, one.finding.number);
 }
 
@@ -107,7 +97,8 @@ Html shown(const Counterexample& one, const fuzz::Ledger& ledger, const Conforma
   if (one.kept) {
     all += element("pre", {}, text(one.case_text));
     all += labelled("Exactly, the features", element("strong", {}, text(exact_words(*one.kept))));
-    all += labelled("Smallest:", element("code", {}, text("selvage replay " + quoted(one.file.string()))));
+    all += labelled("Smallest:", element("code", {}, text("selvage replay --plugin " + shell_word(run.library.string()) + " " +
+                                                                  shell_word(one.file.string()))));
   }
   all += labelled("First:", element("code", {}, text(again(one, ledger, run))));
   return all;

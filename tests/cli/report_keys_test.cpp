@@ -79,7 +79,13 @@ TEST(ReportKeys, OfReplayAreDocumented) {
   const char* kept_cases = SELVAGE_SOURCE_DIR "/tests/fuzz/cases";  // motions of all kinds, some without a touch
   const auto file = cases / "file.case";
   spit(file, "selvage-case 1 file\nseed files:obj:1:2\nfailure unsound\nformat obj\n| v 0 0 0\\n\n");
-  ASSERT_EQ(run_program(folder, {"replay", cases, kept_cases, "--json", json}).exit_code, 0);
+  const auto plugins = cases / "plugins.case";  // which the textbook answers rightly
+  spit(plugins,
+       "selvage-case 1 vf\nseed hand\noptions tolerance=0x0p+0 max_intervals=64\nplugin missed alone x.so\n"
+       "p 1 1 2  1 1 1\na 0 0 0  0 0 0\nb 4 0 0  4 0 0\nc 0 4 0  0 4 0\nexpect apart\n");
+  const auto replayed =
+      run_program(folder, {"replay", cases, kept_cases, "--json", json, "--plugin", SELVAGE_TEXTBOOK_PLUGIN});
+  ASSERT_EQ(replayed.exit_code, 1) << "the textbook misses some of those kept" << replayed.err;
   Keys keys;
   collect(nlohmann::json::parse(slurp(json)), "", keys);
   EXPECT_EQ(keys, documented("The report of `selvage replay --json`"));

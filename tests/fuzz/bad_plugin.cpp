@@ -1,7 +1,12 @@
 // A plugin that says "collides" wherever boxes meet and does one thing that nobody may do, chosen by a macro.
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
 
+#include <fenv.h>
 #include <unistd.h>
 #include <xmmintrin.h>
 
@@ -16,6 +21,17 @@ namespace {
 constexpr const char* kName = "a\n\x1b[31m \xff ........ ........ ........ ........ ........ .......\xc3\xa9 and so on";
 #else
 constexpr const char* kName = "bad";
+#endif
+
+#if defined(IS_OF_ANOTHER_VERSION)
+constexpr std::uint32_t kVersion = SELVAGE_PLUGIN_VERSION + 1;
+#else
+constexpr std::uint32_t kVersion = SELVAGE_PLUGIN_VERSION;
+#endif
+#if defined(GIVES_NO_TIME)
+constexpr std::int32_t kHasToi = 1;
+#else
+constexpr std::int32_t kHasToi = 0;
 #endif
 
 /// Whether the boxes about the paths of the two features meet: the first feature are the points below `first_of_other`.
@@ -36,10 +52,19 @@ bool boxes_meet(const selvage_query& query, int first_of_other) {
 
 void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   answer->verdict = boxes_meet(*query, kind == SELVAGE_VF ? 1 : 2) ? SELVAGE_COLLIDES : SELVAGE_SEPARATED;
+  answer->toi = std::numeric_limits<double>::quiet_NaN();  // which counts where it is said to be a time
 #if defined(HANGS)
   volatile bool goes_on = true;
   while (goes_on) {
   }
+#elif defined(SLEEPS)
+  while (true) pause();
+#elif defined(EXITS)
+  std::exit(0);
+#elif defined(THROWS)
+  throw 1;
+#elif defined(UNMASKS_FP_ERRORS)
+  feenableexcept(FE_INEXACT);
 #elif defined(FORKS)
   static int calls = 0;
   if (++calls == 30) [[maybe_unused]]
@@ -80,7 +105,15 @@ void answer_batch(int32_t kind, size_t count, const selvage_query* queries, selv
 
 }  // namespace
 
+#if defined(HAS_ANOTHER_ENTRY)
+#define selvage_plugin_entry selvage_plugin_entry_v0
+#endif
+
 extern "C" const selvage_plugin* selvage_plugin_entry(void) {
-  static const selvage_plugin plugin = {SELVAGE_PLUGIN_VERSION, kName, 0x1p+1000, 0, 0, answer, answer_batch};
+#if defined(EXITS_AT_LOAD)
+  std::exit(0);
+#endif
+  std::puts("a plugin says hello");
+  static const selvage_plugin plugin = {kVersion, kName, 0x1p+1000, 0, kHasToi, answer, answer_batch};
   return &plugin;
 }

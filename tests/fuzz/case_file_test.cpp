@@ -77,6 +77,21 @@ TEST(CaseFile, KeepsEveryBitOfEveryClass) {
   }
 }
 
+TEST(CaseFile, KeepsWhichPluginFailed) {
+  Case kept = parse_case(kGood, "x.case");
+  EXPECT_FALSE(kept.plugin);
+  const std::string hostile = " my # kernel\n\\\xc3\xa9.so ";
+  kept.plugin = PluginRecord{hostile, "missed", true};
+  const std::string text = format_case(kept);
+  const Case again = parse_case(text, "again");
+  ASSERT_TRUE(again.plugin);
+  EXPECT_EQ(again.plugin->library, hostile);
+  EXPECT_EQ(again.plugin->failure, "missed");
+  EXPECT_TRUE(again.plugin->in_batch);
+  expect_error(replaced(text, "missed batch", "missed often"), "x.case:4: plugin: 'alone' or 'batch' is wanted");
+  expect_error(replaced(kGood, "p 0x1.9", "plugin missed alone\np 0x1.9"), "x.case:5: plugin: its file is missing");
+}
+
 TEST(CaseFile, KeepsThePropertyAndWhatItChose) {
   Case kept = parse_case(kGood, "x.case");
   EXPECT_EQ(kept.property, "ccd");

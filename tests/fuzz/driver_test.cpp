@@ -119,7 +119,7 @@ TEST(Driver, EveryKindOfFailureIsKeptOnce) {
     const auto& streams = properties[0]->streams();
     const auto stream =
         std::find_if(streams.begin(), streams.end(), [&name = key.first](const Stream& s) { return s.name == name; });
-    EXPECT_EQ(run_case(*properties[0], *stream, 1, finding.number), "unlucky");
+    EXPECT_EQ(run_case(*properties[0], *stream, 1, finding.number, 1).outcome.failure, "unlucky");
   }
   EXPECT_EQ(ledger.properties[0].findings.size(), 2U);
 }

@@ -52,7 +52,12 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"repeats_a_vector", "batch-differs"},
                                                       {"writes_to_files", "broke-the-channel"},
                                                       {"closes_files", "exited"},
-                                                      {"forks", "forked"}};
+                                                      {"forks", "forked"},
+                                                      {"sleeps", "hung"},
+                                                      {"exits", "exited"},
+                                                      {"throws", "threw"},
+                                                      {"unmasks_fp_errors", "crashed-SIGFPE"},
+                                                      {"gives_no_time", "invalid-time"}};
   for (const auto& [plugin, failure] : kBad) {
     const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
     EXPECT_EQ(failures_of(library), std::set<std::string>{failure}) << plugin;
@@ -104,12 +109,27 @@ TEST(Plugin, TheTextbookMissesAndTheMissIsMadeSimpleAndShown) {
   const std::string gravest = between(html, "<article>", "</article>");
   EXPECT_EQ(between(gravest, "<h3>", "<"), "contact missed");
   EXPECT_NE(gravest.find("# answered: separated"), gravest.npos) << gravest;
-  const auto replayed = run_program(folder, {"replay", between(gravest, "selvage replay ", "<")});
-  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  std::istringstream command(between(gravest, "selvage replay ", "<"));
+  std::vector<std::string> words{"replay"};
+  for (std::string word; command >> word;) words.push_back(word);
+  ASSERT_EQ(words.size(), 4U);
+  const auto replayed = run_program(folder, words);
+  EXPECT_EQ(replayed.exit_code, 1) << replayed.err;
+  EXPECT_NE(replayed.out.find("  plugin:   textbook: separated: FAILS: missed\n"), replayed.out.npos) << replayed.out;
+  EXPECT_NE(replayed.out.find("A PROMISE IS BROKEN (by the plugin: missed)\n"), replayed.out.npos) << replayed.out;
+  const auto unasked = run_program(folder, {"replay", words[3]});
+  EXPECT_EQ(unasked.exit_code, 0) << unasked.err;
+  EXPECT_NE(unasked.out.find(SELVAGE_TEXTBOOK_PLUGIN " failed with 'missed' when this was kept"), unasked.out.npos);
+  EXPECT_NE(unasked.out.find("ask it with: selvage replay --plugin " SELVAGE_TEXTBOOK_PLUGIN " " + words[3] + "\n"),
+            unasked.out.npos)
+      << unasked.out;
+  EXPECT_NE(unasked.out.find("no promise is broken by Selvage's own kernel\n"), unasked.out.npos) << unasked.out;
   const auto again =
       run_program(folder, {"fuzz", "--plugin", SELVAGE_TEXTBOOK_PLUGIN, "--only", between(gravest, "--only ", "<")});
   EXPECT_EQ(again.exit_code, 1) << again.err;
-  EXPECT_EQ(again.out, "missed\n");
+  EXPECT_NE(again.out.find(": missed, case "), again.out.npos) << again.out;
+  EXPECT_NE(again.out.find("  touches: 1, alarms: 0, missed: 1, late: 0,"), again.out.npos) << again.out;
+  EXPECT_NE(again.out.find("FAILS: missed\n"), again.out.npos) << again.out;
 }
 
 TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
@@ -123,6 +143,57 @@ TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
   EXPECT_EQ(html.find("<article>"), html.npos);
 }
 
+TEST(Plugin, OneCaseIsRunInAProcessOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::pair<const char*, const char*> kBad[] = {{"crashes", "crashed-SIGSEGV"},
+                                                      {"exits", "exited"},
+                                                      {"throws", "threw"},
+                                                      {"sleeps", "hung"},
+                                                      {"gives_no_time", "invalid-time"}};
+  for (const auto& [plugin, failure] : kBad) {
+    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const auto run = run_program(
+        folder, {"fuzz", "--plugin", library, "--seed", "7", "--only", "lattice-ulp/vf:3", "--case-time", "0.3"});
+    EXPECT_EQ(run.exit_code, 1) << plugin << run.err;
+    EXPECT_NE(run.out.find(std::string("  lattice-ulp vf: ") + failure + ", case 3 of seed 7\n"), run.out.npos)
+        << run.out;
+    EXPECT_EQ(run.out.find("a plugin says hello"), run.out.npos) << "among the results";
+  }
+}
+
+TEST(Plugin, ReplayAsksAPluginAsACampaignDoes) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.case", overlap = folder.path() / "overlap.case", json = folder.path() / "r.json";
+  testing::spit(file,
+                "selvage-case 1 vf\nseed hand\noptions tolerance=0x0p+0 max_intervals=64\np 1 1 1  1 1 -1\n"
+                "a 0 0 0  0 0 0\nb 4 0 0  4 0 0\nc 0 4 0  0 4 0\nexpect touches\n");
+  testing::spit(overlap,
+                "selvage-case 1 overlap\nseed hand\na 0 0 0 0\nb 1 4 0 0\nc 2 0 4 0\nd 3 1 1 1\ne 4 2 1 1\n"
+                "f 5 1 2 1\nexpect apart\n");
+  const auto replay = [&](const std::string& library, const std::filesystem::path& case_file) {
+    return run_program(folder, {"replay", "--plugin", library, "--case-time", "0.3", "--json", json, case_file});
+  };
+  const std::pair<const char*, const char*> kBad[] = {{"crashes", "crashed-SIGSEGV"},
+                                                      {"sleeps", "hung"},
+                                                      {"sets_ftz", "set-flush-to-zero"},
+                                                      {"gives_no_time", "invalid-time"},
+                                                      {"answers_all_like_the_first", "batch-differs"}};
+  for (const auto& [plugin, failure] : kBad) {
+    const auto run = replay(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so", file);
+    EXPECT_EQ(run.exit_code, 1) << plugin << run.err;
+    EXPECT_NE(run.out.find(std::string("  plugin:   bad: no answer: FAILS: ") + failure + "\n"), run.out.npos)
+        << run.out;
+    EXPECT_EQ(nlohmann::json::parse(slurp(json))["cases"][0]["plugin"]["failure"], failure);
+  }
+  const auto conforms = replay(SELVAGE_KERNEL_PLUGIN, file);
+  EXPECT_EQ(conforms.exit_code, 0) << conforms.out << conforms.err;
+  EXPECT_NE(conforms.out.find("before the first touch: conforms\n"), conforms.out.npos) << conforms.out;
+  EXPECT_EQ(replay(SELVAGE_PROGRAM, file).exit_code, 3);
+  const auto asked_nothing = replay(SELVAGE_KERNEL_PLUGIN, overlap);
+  EXPECT_EQ(asked_nothing.exit_code, 3);
+  EXPECT_NE(asked_nothing.err.find("was asked nothing; name a case of vf or ee"), asked_nothing.err.npos);
+}
+
 TEST(Plugin, ANameIsCutBetweenCharactersAndHasNothingButCharacters) {
   EXPECT_STREQ(probe_plugin(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_has_a_bad_name.so").name,
                "a??[31m ? ........ ........ ........ ........ ........ .......");
@@ -134,6 +205,16 @@ TEST(Plugin, WhatIsNoPluginIsRefused) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("cannot be loaded"), std::string::npos) << run.err;
   EXPECT_EQ(run_program(folder, {"fuzz", "--plugin", (folder.path() / "absent.so").string()}).exit_code, 4);
+  const std::pair<const char*, const char*> kUnfit[] = {
+      {"exits_at_load", "does not survive being loaded: exited"},
+      {"is_of_another_version", "is built for version 2 of selvage-plugin.h, this is version 1"},
+      {"has_another_entry", "has no function selvage_plugin_entry"}};
+  for (const auto& [plugin, words] : kUnfit) {
+    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const auto refused = run_program(folder, {"fuzz", "--plugin", library, "--artifacts", folder.path() / "artifacts"});
+    EXPECT_EQ(refused.exit_code, 3) << plugin;
+    EXPECT_NE(refused.err.find(library + ": " + words), std::string::npos) << refused.err;
+  }
 }
 
 }  // namespace
