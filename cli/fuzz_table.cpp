@@ -73,6 +73,7 @@ FuzzTable fuzz_table(const fuzz::Ledger& ledger, const fuzz::Properties& propert
       for (const auto& [letter, row] : groups) print(group_name(letter), row);
     }
     print("all", all);
+    table.text += accuracy_text(done.total_accuracy());
     table.text += complaints;
     for (const auto& [key, finding] : done.findings) {
       table.text +=

@@ -19,13 +19,6 @@ struct Interval {
   friend bool operator<(const Interval& a, const Interval& b) { return a.estimate > b.estimate; }
 };
 
-double estimated_distance(const MotionQuery& query, double t) {
-  std::array<Vec3, 4> x;
-  for (std::size_t i = 0; i < 4; ++i) x[i] = (1 - t) * query.x_t0[i] + t * query.x_t1[i];
-  if (query.kind == PairKind::kSelf) x[3] = x[2];
-  return query.kind == PairKind::kEe ? ee_proximity(x).distance : vf_proximity(x).distance;
-}
-
 double speed_upper(const MotionQuery& query, std::size_t i, std::size_t j) {
   // Each of the 6 roundings costs 2^-53 of |coordinate differences|, which may cancel: bounded by the larger of the two
   // differences, not by the result.
@@ -38,6 +31,13 @@ double speed_upper(const MotionQuery& query, std::size_t i, std::size_t j) {
 }
 
 }  // namespace
+
+double rounded_distance(const MotionQuery& query, double t) {
+  std::array<Vec3, 4> x;
+  for (std::size_t i = 0; i < 4; ++i) x[i] = (1 - t) * query.x_t0[i] + t * query.x_t1[i];
+  if (query.kind == PairKind::kSelf) x[3] = x[2];
+  return query.kind == PairKind::kEe ? ee_proximity(x).distance : vf_proximity(x).distance;
+}
 
 double relative_speed_upper(const MotionQuery& query) {
   double speed = 0;
@@ -73,7 +73,7 @@ Approach closest_approach(const MotionQuery& query, double d, std::span<const do
     if (middle <= first || middle >= last) return Approach::kUnknown;  // neighbouring doubles
     const double half_motion = speed * radius / 2;
     for (const auto& [from, to] : {std::pair{first, middle}, std::pair{middle, last}}) {
-      open.push({from, to, estimated_distance(query, from + (to - from) / 2) - half_motion});
+      open.push({from, to, rounded_distance(query, from + (to - from) / 2) - half_motion});
     }
   }
   return Approach::kBeyond;

@@ -21,6 +21,9 @@ enum class Approach : std::uint8_t {
 [[nodiscard]] Approach closest_approach(const MotionQuery& query, double d, std::span<const double> hints,
                                         int max_tests);
 
+/// The distance at time t, rounded: no proof may rest on it.
+[[nodiscard]] double rounded_distance(const MotionQuery& query, double t);
+
 /// Upper bound on the relative speed (length a step) of the features' vertices.
 [[nodiscard]] double relative_speed_upper(const MotionQuery& query);
 

@@ -40,6 +40,11 @@ class Conformance final : public Property {
                          verdict.failure == "late-time",
                          verdict.failure == "alarm-too-far",
                          verdict.answer.nanoseconds};
+    if (source.one_in(kMeasuredOneIn) && (verdict.failure.empty() || verdict.failure == "alarm-too-far")) {
+      const bool has_time = verdict.alarm && plugin_->info().has_toi;
+      outcome.accuracy = measure_accuracy(query, verdict.touches, verdict.alarm,
+                                          has_time ? std::optional(verdict.answer.answer.toi) : std::nullopt);
+    }
     return outcome;
   }
 

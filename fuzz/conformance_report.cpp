@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -43,13 +44,40 @@ std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const
                 "alarms", "missed", "late", "too far", "ns a query");
   report += text.data();
   for (std::size_t i = 0; i < done.rows.size(); ++i) report += line(done.streams[i], done.rows[i]);
-  report += line("all", done.total());
+  report += line("all", done.total()) + accuracy_text(done.total_accuracy());
   for (const auto& [key, finding] : done.findings) {
     report += "  " + key.second + ": " + key.first + ", " + std::to_string(finding.count) + " times, first in case " +
               std::to_string(finding.number) + "; smallest: " + folder + "/" + finding.file + "\n";
   }
   return report + (done.findings.empty() ? "  nothing found\n" : "");
 }
+
+namespace {
+
+nlohmann::ordered_json json_of(const Spread& spread) {
+  return {{"mean", spread.mean},
+          {"half", spread.half},
+          {"nine_tenths", spread.nine_tenths},
+          {"all_but_a_hundredth", spread.all_but_a_hundredth},
+          {"worst", spread.worst}};
+}
+
+nlohmann::ordered_json json_of(const Accuracy& accuracy) {
+  const Spread time = spread_of(accuracy.early_time);
+  nlohmann::ordered_json json = {
+      {"times", time.count}, {"early_at_most", nullptr}, {"apart", nlohmann::ordered_json::array()}};
+  if (time.count > 0) {
+    json["early_at_most"] = {{"of_the_step", json_of(time)},
+                             {"of_the_size", json_of(spread_of(accuracy.early_distance))}};
+  }
+  for (std::size_t i = 0; i < accuracy.apart.size(); ++i) {
+    const double bound = i < Accuracy::kGaps.size() ? std::ldexp(1, Accuracy::kGaps.at(i)) : 0;
+    json["apart"].push_back({{"beyond", bound}, {"cases", accuracy.apart[i]}, {"alarms", accuracy.alarms[i]}});
+  }
+  return json;
+}
+
+}  // namespace
 
 std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
   const PropertyLedger& done = ledger.properties.front();
@@ -71,8 +99,10 @@ std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
                                {"late", row.late},
                                {"too_far", row.too_far},
                                {"nanoseconds", row.nanoseconds},
-                               {"failures", done.rows[i].failures}});
+                               {"failures", done.rows[i].failures},
+                               {"accuracy", json_of(done.accuracy[i])}});
   }
+  json["accuracy"] = json_of(done.total_accuracy());
   json["findings"] = nlohmann::ordered_json::array();
   for (const auto& [key, finding] : done.findings) {
     json["findings"].push_back({{"class", key.first},

@@ -101,6 +101,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
       property.open.clear();
       property.findings.clear();
       for (Counts& row : property.rows) row = {};
+      for (Accuracy& row : property.accuracy) row = {};
     }
     if (blank != ledger_) {
       throw io::Error(io::ErrorKind::kBadInput,
@@ -278,6 +279,7 @@ void Driver::take_unit(Team& team) {
   }
   for (std::size_t i = 0; i < property.rows.size(); ++i) {
     property.rows[i] += progress.rows[i];
+    property.accuracy[i] += progress.accuracy[i];
     status_.cases += progress.rows[i].cases;
   }
   for (const Event& failure : team.failures) {

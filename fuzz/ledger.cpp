@@ -31,6 +31,7 @@ void add(PropertyLedger& to, const PropertyLedger& from) {
   }
   to.open.insert(from.open.begin(), from.open.end());
   for (std::size_t i = 0; i < to.rows.size(); ++i) to.rows[i] += from.rows[i];
+  for (std::size_t i = 0; i < to.accuracy.size(); ++i) to.accuracy[i] += from.accuracy[i];
   for (const auto& [key, finding] : from.findings) {
     const auto [place, is_new] = to.findings.try_emplace(key, finding);
     if (is_new) continue;
@@ -45,6 +46,12 @@ void add(PropertyLedger& to, const PropertyLedger& from) {
 Counts PropertyLedger::total() const {
   Counts sum;
   for (const Counts& row : rows) sum += row;
+  return sum;
+}
+
+Accuracy PropertyLedger::total_accuracy() const {
+  Accuracy sum;
+  for (const Accuracy& row : accuracy) sum += row;
   return sum;
 }
 
@@ -66,6 +73,7 @@ Ledger make_ledger(const Properties& properties) {
     PropertyLedger one{property->name(), {}, {}, property->counters(), {}, {}};
     for (const Stream& stream : property->streams()) one.streams.push_back(stream.name);
     one.rows.resize(one.streams.size());
+    one.accuracy.resize(one.streams.size());
     ledger.properties.push_back(std::move(one));
   }
   return ledger;

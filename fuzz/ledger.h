@@ -36,7 +36,9 @@ struct PropertyLedger {
   std::vector<Counts> rows;                                         ///< a stream
   std::map<std::pair<std::string, std::string>, Finding> findings;  ///< by stream and failure
   std::map<std::int64_t, UnitPlace> open = {};                      ///< units cut short: what is before is counted
+  std::vector<Accuracy> accuracy = {};                              ///< a stream
   [[nodiscard]] Counts total() const;
+  [[nodiscard]] Accuracy total_accuracy() const;
   friend bool operator==(const PropertyLedger&, const PropertyLedger&) = default;
 };
 

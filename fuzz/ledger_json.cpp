@@ -1,15 +1,33 @@
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "fuzz/ledger.h"
+#include "io/text.h"
 
 namespace selvage::fuzz {
 namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "selvage.fuzz/1";
+
+/// The bins that hold something, by number.
+Json json_of(const Accuracy::Histogram& histogram) {
+  Json json = Json::object();
+  for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
+    if (histogram[bin] > 0) json[std::to_string(bin)] = histogram[bin];
+  }
+  return json;
+}
+
+Json json_of(const Accuracy& accuracy) {
+  return {{"early_time", json_of(accuracy.early_time)},
+          {"early_distance", json_of(accuracy.early_distance)},
+          {"apart", accuracy.apart},
+          {"alarms", accuracy.alarms}};
+}
 
 Json json_of(const PropertyLedger& property) {
   Json json;
@@ -26,6 +44,9 @@ Json json_of(const PropertyLedger& property) {
                        {"failures", row.failures},
                        {"counts", std::vector<std::int64_t>(row.of.begin(), row.of.begin() + used)},
                        {"nearest_bits", row.nearest_bits}});
+    if (i < property.accuracy.size() && property.accuracy[i] != Accuracy()) {
+      streams.back()["accuracy"] = json_of(property.accuracy[i]);
+    }
   }
   json["streams"] = std::move(streams);
   Json findings = Json::array();
@@ -48,6 +69,30 @@ std::int64_t count(const Json& json) {
     throw std::invalid_argument("'" + json.dump() + "' is no such count");
   }
   return json.get<std::int64_t>();
+}
+
+Accuracy::Histogram histogram_of(const Json& json) {
+  Accuracy::Histogram histogram{};
+  for (const auto& [bin, value] : json.items()) {
+    const std::optional<std::int64_t> place = io::parse_integer(bin);
+    if (!place || *place < 0 || *place >= static_cast<std::int64_t>(histogram.size())) {
+      throw std::invalid_argument("'" + bin + "' is no bin of a histogram");
+    }
+    histogram.at(static_cast<std::size_t>(*place)) = count(value);
+  }
+  return histogram;
+}
+
+Accuracy::ByGap by_gap_of(const Json& json) {
+  Accuracy::ByGap by_gap{};
+  if (json.size() != by_gap.size()) throw std::invalid_argument("a stream has not as many counts as there are gaps");
+  std::transform(json.begin(), json.end(), by_gap.begin(), count);
+  return by_gap;
+}
+
+Accuracy accuracy_of(const Json& json) {
+  return {histogram_of(json.at("early_time")), histogram_of(json.at("early_distance")), by_gap_of(json.at("apart")),
+          by_gap_of(json.at("alarms"))};
 }
 
 PropertyLedger property_of(const Json& json) {
@@ -73,6 +118,7 @@ PropertyLedger property_of(const Json& json) {
     }
     std::transform(counts.begin(), counts.end(), row.of.begin(), count);
     property.rows.push_back(row);
+    property.accuracy.push_back(stream.contains("accuracy") ? accuracy_of(stream.at("accuracy")) : Accuracy());
   }
   for (const Json& finding : json.at("findings")) {
     property.findings[{finding.at("stream").get<std::string>(), finding.at("failure").get<std::string>()}] = {

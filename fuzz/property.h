@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/accuracy.h"
 #include "fuzz/choice_source.h"
 #include "fuzz/counts.h"
 
@@ -24,6 +25,7 @@ struct Stream {
 struct Outcome {
   Counts counts;
   std::string failure;  ///< the broken promise in a word, or empty
+  AccuracySample accuracy = {};
 };
 
 class Property {

@@ -19,6 +19,7 @@ Observation check_ccd(const MotionQuery& query, CcdKernel kernel, ChoiceSource& 
   const CcdResult answer = kernel(query);
   const Judgement judgement = judge(query, answer);
   Observation seen = observe(query, answer);
+  if (seen.alarm) seen.toi = answer.toi_lower;
   seen.touches = judgement.touches;
   seen.hit = judgement.hit;
   seen.undecided = judgement.gap_unknown;

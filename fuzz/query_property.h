@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -13,13 +14,14 @@ namespace selvage::fuzz {
 /// What one case showed. `failure` names the broken promise in a word, or is empty.
 struct Observation {
   std::string_view failure;
-  bool touches = false;     ///< exactly, at some t in [0,1] (proximity: at an end)
-  bool hit = false;         ///< touches or ends within tolerance: must not be answered `separated`
-  bool alarm = false;       ///< answered `collides`
-  bool unresolved = false;  ///< answered `unresolved` although the limit was the default one
-  bool exact_used = false;  ///< no filter of the checker decided whether they touch
-  int near_miss_bits = 0;   ///< as in Judgement
-  bool undecided = false;   ///< the oracle could not decide within its own limit
+  bool touches = false;       ///< exactly, at some t in [0,1] (proximity: at an end)
+  bool hit = false;           ///< touches or ends within tolerance: must not be answered `separated`
+  bool alarm = false;         ///< answered `collides`
+  bool unresolved = false;    ///< answered `unresolved` although the limit was the default one
+  bool exact_used = false;    ///< no filter of the checker decided whether they touch
+  int near_miss_bits = 0;     ///< as in Judgement
+  std::optional<double> toi;  ///< of an alarm: no touch before it
+  bool undecided = false;     ///< the oracle could not decide within its own limit
 };
 
 struct QueryProperty {

@@ -37,6 +37,11 @@ class QueryCampaign final : public Property {
     const Observation seen = property_.check(query, selvage_kernel, source);
     Outcome outcome{{1, !seen.failure.empty(), {}, seen.near_miss_bits}, std::string(seen.failure)};
     outcome.counts.of = {seen.touches, seen.hit, seen.alarm, seen.unresolved, seen.undecided, seen.exact_used};
+    // With a tolerance, what ends within it is rightly called a collision.
+    const bool is_measured = is_judged_exactly_ && seen.failure.empty() && query.options.tolerance == 0;
+    if (is_measured && source.one_in(kMeasuredOneIn)) {
+      outcome.accuracy = measure_accuracy(query, seen.touches, seen.alarm, seen.toi);
+    }
     return outcome;
   }
 

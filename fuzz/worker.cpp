@@ -61,6 +61,7 @@ class Worker {
         const std::int64_t number = unit * stream.per_unit + progress_.number;
         const Outcome outcome = outcome_of(property, stream, case_seed(setting_.seed, stream, number));
         progress_.rows[place] += outcome.counts;
+        progress_.accuracy[place].add(outcome.accuracy);
         if (!outcome.failure.empty()) report(progress_.stream, number, outcome.failure);
       }
     }

@@ -8,6 +8,7 @@
 
 #include <sys/types.h>
 
+#include "fuzz/accuracy.h"
 #include "fuzz/counts.h"
 #include "fuzz/property.h"
 
@@ -43,6 +44,7 @@ struct Progress {
   std::int64_t number = 0;  ///< of the case in the unit's part of the stream
   static constexpr std::size_t kMaxStreams = 192;
   Counts rows[kMaxStreams];
+  Accuracy accuracy[kMaxStreams];
   bool is_skipped[kMaxStreams] = {};      ///< streams not to be run any more
   std::atomic<bool> is_stopping = false;  ///< a unit ends behind the case in hand
   std::atomic<bool> has_kept = false;     ///< of kKeep: the case is written, be it not yet simple

@@ -69,6 +69,7 @@ void WorkerProcess::give(const Job& job, const std::vector<bool>& is_skipped, co
   progress_->number = from.number;
   progress_->has_kept = false;
   for (Counts& row : progress_->rows) row = {};
+  for (Accuracy& row : progress_->accuracy) row = {};
   for (std::size_t i = 0; i < is_skipped.size(); ++i) progress_->is_skipped[i] = is_skipped[i];
   job_ = job;
   clock_ = {};

@@ -97,8 +97,9 @@ Html shown(const Counterexample& one, const fuzz::Ledger& ledger, const Conforma
   if (one.kept) {
     all += element("pre", {}, text(one.case_text));
     all += labelled("Exactly, the features", element("strong", {}, text(exact_words(*one.kept))));
-    all += labelled("Smallest:", element("code", {}, text("selvage replay --plugin " + shell_word(run.library.string()) + " " +
-                                                                  shell_word(one.file.string()))));
+    all += labelled("Smallest:", element("code", {},
+                                         text("selvage replay --plugin " + shell_word(run.library.string()) + " " +
+                                              shell_word(one.file.string()))));
   }
   all += labelled("First:", element("code", {}, text(again(one, ledger, run))));
   return all;
@@ -160,6 +161,26 @@ Html fact(const std::string& name, const std::string& value, const std::string& 
          Html{"\n"};
 }
 
+/// What an absurd tolerance shows in, though it keeps every promise.
+Html accuracy_facts(const fuzz::Accuracy& accuracy) {
+  Html list;
+  const fuzz::Spread time = fuzz::spread_of(accuracy.early_time), distance = fuzz::spread_of(accuracy.early_distance);
+  if (time.count > 0) {
+    list +=
+        fact("Times early by", fmt::format("{:.3g}", time.half),
+             fmt::format("of the step at most, half of {}; 99 % {:.3g}, all {:.3g}; of the size {:.3g}, {:.3g}, {:.3g}",
+                         grouped(time.count), time.all_but_a_hundredth, time.worst, distance.half,
+                         distance.all_but_a_hundredth, distance.worst));
+  }
+  if (accuracy.apart[0] > 0) {
+    const double share = 100 * static_cast<double>(accuracy.alarms[0]) / static_cast<double>(accuracy.apart[0]);
+    list += fact("False alarms", grouped(accuracy.alarms[0]),
+                 fmt::format("{:.3g} % of what stays apart by more than 2^{} of the size, of {} measured", share,
+                             fuzz::Accuracy::kGaps[0], grouped(accuracy.apart[0])));
+  }
+  return list;
+}
+
 Html facts_of(const fuzz::Ledger& ledger, const fuzz::PluginInfo& info) {
   const ConformanceRow total(ledger.properties.front().total());
   Html list = fact("Queries", grouped(total.queries), grouped(total.touches) + " touch exactly");
@@ -169,6 +190,7 @@ Html facts_of(const fuzz::Ledger& ledger, const fuzz::PluginInfo& info) {
                info.has_toi ? "the features touch before them" : "it gives no times of impact");
   list += fact("Alarms too far", grouped(total.too_far),
                fmt::format("beyond {:g} + {:g} of the size, as it declares", info.tolerance, info.relative_tolerance));
+  list += accuracy_facts(ledger.properties.front().total_accuracy());
   list += fact("Misdeeds", grouped(total.misdeeds), "crashes, hangs, answers that are none");
   list += fact("Time a query", fmt::format("{:.0f} ns", total.nanoseconds_per_query()),
                "reading the clock included, about 50 ns");

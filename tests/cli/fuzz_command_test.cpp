@@ -78,6 +78,25 @@ TEST(FuzzCommand, ShardsThatDoNotFitTogetherAreNamedWithARemedy) {
   }
 }
 
+TEST(FuzzCommand, OurOwnKernelsAccuracyIsReported) {
+  const TemporaryFolder folder;
+  const auto artifacts = folder.path() / "artifacts";
+  const auto result =
+      testing::run_program(folder, {"fuzz", "ccd", "--cases", "1", "--jobs", "1", "--artifacts", artifacts});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_NE(result.out.find("  how early times of impact are at most, of "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("  called a collision, of "), std::string::npos) << result.out;
+  std::int64_t apart = 0, alarms = 0;
+  const auto ledger = nlohmann::json::parse(slurp(artifacts / "campaign.json"));
+  for (const auto& stream : ledger["properties"][0]["streams"]) {
+    if (!stream.contains("accuracy")) continue;
+    apart += stream["accuracy"]["apart"][0].get<std::int64_t>();
+    alarms += stream["accuracy"]["alarms"][0].get<std::int64_t>();
+  }
+  EXPECT_GT(apart, 100);
+  EXPECT_EQ(alarms, 0) << "apart by more than 2^-10 of the size";
+}
+
 // Scripts beyond float32 occur in the first cases: they must be refused, and nobody goes on from what is refused.
 TEST(FuzzCommand, TheFirstCasesOfStepsAndSubdivisionHold) {
   for (const std::string property : {"step", "subdivision"}) {

@@ -28,10 +28,16 @@ constexpr std::uint32_t kVersion = SELVAGE_PLUGIN_VERSION + 1;
 #else
 constexpr std::uint32_t kVersion = SELVAGE_PLUGIN_VERSION;
 #endif
-#if defined(GIVES_NO_TIME)
+#if defined(GIVES_NO_TIME) || defined(CALLS_ALL_COLLISIONS)
 constexpr std::int32_t kHasToi = 1;
 #else
 constexpr std::int32_t kHasToi = 0;
+#endif
+
+#if defined(CALLS_ALL_COLLISIONS)
+constexpr double kTolerance = 1e308;
+#else
+constexpr double kTolerance = 0x1p+1000;
 #endif
 
 /// Whether the boxes about the paths of the two features meet: the first feature are the points below `first_of_other`.
@@ -53,7 +59,9 @@ bool boxes_meet(const selvage_query& query, int first_of_other) {
 void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   answer->verdict = boxes_meet(*query, kind == SELVAGE_VF ? 1 : 2) ? SELVAGE_COLLIDES : SELVAGE_SEPARATED;
   answer->toi = std::numeric_limits<double>::quiet_NaN();  // which counts where it is said to be a time
-#if defined(HANGS)
+#if defined(CALLS_ALL_COLLISIONS)
+  *answer = {SELVAGE_COLLIDES, 0};
+#elif defined(HANGS)
   volatile bool goes_on = true;
   while (goes_on) {
   }
@@ -114,6 +122,6 @@ extern "C" const selvage_plugin* selvage_plugin_entry(void) {
   std::exit(0);
 #endif
   std::puts("a plugin says hello");
-  static const selvage_plugin plugin = {kVersion, kName, 0x1p+1000, 0, kHasToi, answer, answer_batch};
+  static const selvage_plugin plugin = {kVersion, kName, kTolerance, 0, kHasToi, answer, answer_batch};
   return &plugin;
 }

@@ -45,7 +45,8 @@ class Arithmetic final : public Property {
     if (is_deadly_ && stream.name == "one" && value == 500) endless_loop();
     if (is_deadly_ && stream.name == "one" && value == 600) endless_sleep();
     if (value == 13) return {{1, 1, {value}, value}, "unlucky"};
-    return {{1, 0, {value}, value}, {}};
+    const int small = static_cast<int>(value % 6);
+    return {{1, 0, {value}, value}, {}, {small, 2 * small, small, value % 2 == 0}};
   }
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
                    bool shrunk) override {
@@ -84,6 +85,10 @@ TEST(Driver, AnyNumberOfWorkersAndShardsGivesTheSameBits) {
   const Ledger ledger = parse_ledger(whole, "whole");
   EXPECT_EQ(ledger.properties[0].total().cases, kCases);
   EXPECT_GT(ledger.properties[0].findings.at({"one", "unlucky"}).count, 1);
+  const Accuracy accuracy = ledger.properties[0].total_accuracy();
+  EXPECT_GT(accuracy.early_time[5], kCases / 10);
+  EXPECT_EQ(accuracy.early_time[5], accuracy.early_distance[10]);
+  EXPECT_EQ(accuracy.early_time[5], accuracy.apart[5]);
 
   DriverOptions many = options_for(folder.path() / "many", kCases);
   many.jobs = 5;

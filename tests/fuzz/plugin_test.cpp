@@ -141,6 +141,35 @@ TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
   const std::string html = slurp(artifacts / "conformance.html");
   EXPECT_EQ(between(html, "<h1 id=\"verdict\">", "<"), "selvage kernel: nothing found");
   EXPECT_EQ(html.find("<article>"), html.npos);
+  const auto accuracy = nlohmann::json::parse(slurp(artifacts / "conformance.json"))["accuracy"];
+  EXPECT_EQ(accuracy["apart"][0]["alarms"], 0);
+  EXPECT_LE(accuracy["early_at_most"]["of_the_step"]["half"], 0x1p-40);
+}
+
+// It keeps what it declares, which is nothing: the report must show it.
+TEST(Plugin, AnAbsurdToleranceShowsInTheReport) {
+  const TemporaryFolder folder;
+  const std::filesystem::path artifacts = folder.path() / "artifacts";
+  const auto run =
+      run_program(folder, {"fuzz", "--plugin", std::string(SELVAGE_BAD_PLUGINS) + "/plugin_calls_all_collisions.so",
+                           "--cases", "1", "--jobs", "1", "--artifacts", artifacts.string()});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_NE(run.out.find(" 100 %\n"), run.out.npos) << run.out;
+  const auto report = nlohmann::json::parse(slurp(artifacts / "conformance.json"));
+  const auto& far = report["accuracy"]["apart"][0];
+  EXPECT_EQ(far["beyond"], 0x1p-10);
+  EXPECT_GT(far["cases"], 100);
+  EXPECT_EQ(far["alarms"], far["cases"]);
+  const auto& early = report["accuracy"]["early_at_most"];
+  EXPECT_EQ(early["of_the_step"]["worst"], 1);
+  EXPECT_GE(early["of_the_step"]["half"], 0.25);
+  EXPECT_GE(early["of_the_size"]["half"], 0x1p-6);
+  std::int64_t times = 0;
+  for (const auto& one : report["classes"]) times += one["accuracy"]["times"].get<std::int64_t>();
+  EXPECT_EQ(report["accuracy"]["times"], times);
+  EXPECT_GT(times, 10);
+  const std::string html = slurp(artifacts / "conformance.html");
+  EXPECT_NE(html.find("100 % of what stays apart by more than 2^-10 of the size"), html.npos);
 }
 
 TEST(Plugin, OneCaseIsRunInAProcessOfItsOwn) {
