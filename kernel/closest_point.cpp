@@ -106,13 +106,15 @@ void consider_edge(Nearest<Real>& nearest, const DifferencePolygon<Real>& polygo
   if (!(leading(from_first) > 0 && leading(from_second) > 0)) return;
   const bool near_first = from_first < from_second;
   const Real t = (near_first ? from_first : from_second) / length_squared;
+  const Real rest = Real(1) - t;
+  if (!(leading(rest) >= 0)) return;  // the edge is shorter than the rounding of its ends, which disagree with it
   const Triple<Real> foot =
       near_first ? polygon.corner[first] + scaled(t, edge) : polygon.corner[second] - scaled(t, edge);
   const double distance_squared = leading(dot(foot, foot));
   if (!(distance_squared < kTie * nearest.distance_squared)) return;
   nearest = {distance_squared, foot, {}, Feature::kEdge, &edge};
-  nearest.corner_weights[first] = near_first ? Real(1) - t : t;
-  nearest.corner_weights[second] = near_first ? t : Real(1) - t;
+  nearest.corner_weights[first] = near_first ? rest : t;
+  nearest.corner_weights[second] = near_first ? t : rest;
 }
 
 /// Steps of the least-squares problem min |base + alpha u + beta v|. The residual is recomputed from the corners, so
