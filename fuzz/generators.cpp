@@ -69,6 +69,10 @@ std::vector<QueryClass> make_classes() {
        Bands{HitBand{0.721, 0.976}, HitBand{0.724, 0.98}, HitBand{0.649, 0.878}}},
       {'H', 75, "triple-root", make::triple_root,
        Bands{HitBand{0.698, 0.945}, HitBand{0.698, 0.944}, HitBand{0.65, 0.88}}},
+      {'K', 30, "one-point", make::one_point,
+       Bands{HitBand{0.616, 0.833}, HitBand{0.742, 0.98}, HitBand{0.454, 0.615}}},
+      {'K', 180, "exchange", make::exchange,
+       Bands{HitBand{0.129, 0.175}, HitBand{0.239, 0.324}, HitBand{0.127, 0.172}}},
       {'A', 12, "end-at-tolerance", make::end_at_tolerance,
        Bands{HitBand{0.421, 0.57}, HitBand{0.426, 0.576}, HitBand{0.42, 0.568}}, true},
       {'G', 50, "huge", scaled_by(341, 985),
@@ -122,7 +126,7 @@ const std::vector<QueryGroup>& query_groups() {
       {'A', "constructed contacts"},     {'B', "small integers, ulps"},    {'C', "degenerate features"},
       {'D', "in plane, rigid, at rest"}, {'E', "slivers and needles"},     {'F', "short and huge motions"},
       {'G', "scales and exponents"},     {'H', "double and triple roots"}, {'I', "uniform"},
-      {'J', "recorded from cloth"}};
+      {'J', "recorded from cloth"},      {'K', "corners that meet"}};
   return groups;
 }
 

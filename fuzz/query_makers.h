@@ -47,6 +47,14 @@ MotionQuery no_motion(ChoiceSource& source, PairKind kind);
 /// Both features turn by one rational rotation, so straight paths dip inside the arc.
 MotionQuery rigid_rotation(ChoiceSource& source, PairKind kind);
 
+// meeting_makers.cpp: corners that come together in mid-step, three in four with one to three coordinates moved by up
+// to three ulps
+/// All corners meet in one point at a rational time: every difference of two vanishes at once. One in four meets in two
+/// points, each corner in one of them.
+MotionQuery one_point(ChoiceSource& source, PairKind kind);
+/// The end positions are the start positions in another order: corners that change places pass each other half-way.
+MotionQuery exchange(ChoiceSource& source, PairKind kind);
+
 // scale_makers.cpp: the exponent range
 MotionQuery scaled(ChoiceSource& source, PairKind kind, int exponent_first, int exponent_last);
 /// Axes with units of their own, or one of 2^-340 to 2^340 for all: contacts stay contacts.
