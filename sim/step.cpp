@@ -117,6 +117,7 @@ StepResult Simulation::step() {
     clock_.advance((few || is_too_short) && result.dynamics.unconverged == 0);
   }
   result.report = std::move(tried.safe.report);
+  result.held_repulsions = tried.held.repulsions;
   result.report.repulsions += tried.held.repulsions;
   result.report.frictions += tried.held.frictions;
   return result;

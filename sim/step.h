@@ -31,7 +31,8 @@ struct SimulationState {
 struct StepResult {
   /// Of the step that was taken, or that could not be. Its contacts are those that the dynamics held, too.
   CollisionStepReport report;
-  DynamicsReport dynamics;  ///< of the step that was taken
+  std::int64_t held_repulsions = 0;  ///< of its repulsions, those within the dynamics
+  DynamicsReport dynamics;           ///< of the step that was taken
   double dt_s = 0, end_s = 0;
   Strained most_strained;  ///< of structural and shear springs, at the end of the step
   /// Tries thrown away because repulsions were not enough, the equations of implicit dynamics were not solved, or
