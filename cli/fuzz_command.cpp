@@ -80,7 +80,6 @@ std::optional<std::int64_t> parse_case_number(std::string_view text) {
   return is_whole && number >= 0 ? std::optional(number) : std::nullopt;
 }
 
-/// "STREAM:NUMBER" of the only property.
 /// What `selvage replay` says of a case that has just run: of a query whatever it came to, of others where they fail.
 std::string explanation(fuzz::Property& property, const fuzz::Stream& stream, std::int64_t number,
                         const Arguments& arguments, const std::string& failure) {
@@ -95,6 +94,7 @@ std::string explanation(fuzz::Property& property, const fuzz::Stream& stream, st
   return replay_text(property.kept(stream, source, origin, failure, false), arguments.only, asked).text;
 }
 
+/// "STREAM:NUMBER" of the only property.
 ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
   const std::size_t colon = arguments.only.rfind(':');
   std::string name = arguments.only.substr(0, colon);

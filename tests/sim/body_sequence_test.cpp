@@ -105,17 +105,13 @@ TEST_F(BodySequenceTest, EveryStepOnItIsExactlyFree) {
     Simulation simulation(falling);
     const World& world = simulation.world();
     std::int64_t contacts = 0;
-    while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
-      const Positions before = simulation.x();
-      const StepResult step = simulation.step();
-      ASSERT_EQ(step.report.status, StepStatus::kSafe);
-      ASSERT_EQ(testing::violations(world, before, simulation.x()), 0);
+    testing::run_exactly_free(simulation, simulation.scene().time.frame_count, [&](const StepResult& step) {
       contacts += step.report.repulsions;
       const Collider& body = world.colliders.front();
       EXPECT_EQ(Positions(simulation.x()(body.vertices(), Eigen::all)),
                 body.sequence()->at(simulation.clock().time_s()))
           << "to the bit where its frames are, at " << simulation.clock().time_s() << " s";
-    }
+    });
     EXPECT_GT(contacts, 1000);
   }
 }
@@ -131,13 +127,10 @@ TEST_F(BodySequenceTest, CarriesWhatIsPinnedToIt) {
   Simulation simulation(hung);
   const World& world = simulation.world();
   const Positions x_t0 = simulation.x();
-  while (simulation.clock().state().frame < 30) {
-    const Positions before = simulation.x();
-    ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
-    ASSERT_EQ(testing::violations(world, before, simulation.x()), 0);
+  testing::run_exactly_free(simulation, 30, [&](const StepResult&) {
     const Positions carried = world.colliders.back().placed_at(simulation.clock().time_s(), false, simulation.x());
     ASSERT_EQ(Positions(simulation.x()(pin.vertices, Eigen::all)), carried);
-  }
+  });
   const auto above = [](const Positions& x) {
     return (x.bottomRows(make_sphere(0.1, 2).x.rows()).rowwise() - x.row(119)).rowwise().norm().minCoeff();
   };
@@ -179,16 +172,12 @@ sequence = {file = "jaws_*.obj", frames_per_s = 30}
   const Collider& body = simulation.world().colliders.front();
   std::int64_t most_lag = 0, waits = 0;
   Eigen::Index lag = 0;
-  while (simulation.clock().state().frame < 40) {
-    const Positions before = simulation.x();
-    const StepResult step = simulation.step();
-    ASSERT_EQ(step.report.status, StepStatus::kSafe);
-    ASSERT_EQ(testing::violations(simulation.world(), before, simulation.x()), 0);
+  testing::run_exactly_free(simulation, 40, [&](const StepResult& step) {
     waits += std::ssize(step.report.waiting_bodies);
     const Positions script = body.placed_at(simulation.clock().time_s(), false, simulation.x());
     lag = (simulation.x()(body.vertices(), Eigen::all) - script).rowwise().any().count();
     most_lag = std::max(most_lag, std::int64_t{lag});
-  }
+  });
   EXPECT_GT(waits, 0);
   EXPECT_GT(most_lag, 3);
   EXPECT_LT(most_lag, n / 2) << "of the upper slab what is over the sheet";
