@@ -84,7 +84,7 @@ void prop_friction_keeps_momenta_and_the_cone() {
   const RandomPair pair = random_contact(number_between(0, 0.2));
   const double normal_change = number_between(0, 1);
   const double on_static = number_between(0, 2);
-  const FrictionCoefficients friction{on_static, number_between(0, on_static)};
+  const FrictionCoefficients friction{on_static, number_between(0, on_static), integer_in(0, 2) * number_between(0, 1)};
   FrictionLoad load{normal_change};
   const auto change = friction_change(pair.interaction, pair.x_t0, pair.displacement, Vec3::UnitZ(), friction, load);
   // A pair that slips by chance does not slip as it turns: there is friction.
