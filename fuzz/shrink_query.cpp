@@ -188,7 +188,7 @@ QueryCost cost_of(const MotionQuery& query) {
     ++cost.non_zero;
     distinct.insert(std::abs(x));
     cost.bits += mantissa_bits(x);
-    cost.exponents += std::abs(std::ilogb(x));
+    cost.exponents += std::isfinite(x) ? std::abs(std::ilogb(x)) : 0;
   }
   cost.distinct = static_cast<int>(distinct.size());
   return cost;
