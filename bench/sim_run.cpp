@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "bench/timed.h"
-#include "sim/subdivision.h"
+#include "sim/subdivision/subdivision.h"
 
 namespace selvage::bench {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/types.h"
-#include "sim/scene.h"
+#include "sim/scene/scene.h"
 #include "sim/step.h"
 
 namespace selvage::bench {

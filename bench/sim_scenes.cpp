@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 
 namespace selvage::bench {
 namespace {

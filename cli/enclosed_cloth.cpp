@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "sim/points.h"
-#include "sim/surface_parts.h"
+#include "sim/base/points.h"
+#include "sim/contact/surface_parts.h"
 #include "verify/enclosed.h"
 
 namespace selvage::cli {

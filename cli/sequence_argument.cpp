@@ -9,7 +9,7 @@
 #include "cli/output_check.h"
 #include "cli/terminal.h"
 #include "io/point_cache.h"
-#include "sim/recorder.h"
+#include "sim/record/recorder.h"
 
 namespace selvage::cli {
 

@@ -19,8 +19,8 @@
 #include "cli/terminal.h"
 #include "cli/thread_limit.h"
 #include "cli/waiting_summary.h"
-#include "sim/recorder.h"
-#include "sim/scene_reader.h"
+#include "sim/record/recorder.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 
 namespace selvage::cli {

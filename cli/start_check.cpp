@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
-#include "sim/points.h"
-#include "sim/start_repair.h"
+#include "sim/base/points.h"
+#include "sim/repair/start_repair.h"
 #include "verify/check.h"
 
 namespace selvage::cli {

@@ -22,8 +22,8 @@
 #include "cli/thread_limit.h"
 #include "io/sequence_outputs.h"
 #include "kernel/types.h"
-#include "sim/points.h"
-#include "sim/subdivision.h"
+#include "sim/base/points.h"
+#include "sim/subdivision/subdivision.h"
 #include "verify/check.h"
 
 namespace selvage::cli {

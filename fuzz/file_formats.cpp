@@ -15,7 +15,7 @@
 #include "io/query_csv.h"
 #include "io/sequence_json.h"
 #include "io/sequence_readers.h"
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "verify/report.h"
 
 namespace selvage::fuzz {

@@ -3,7 +3,7 @@
 
 #include "fuzz/query_makers.h"
 #include "kernel/box_hierarchy.h"
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 
 namespace selvage::fuzz::make {

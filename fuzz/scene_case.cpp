@@ -5,7 +5,7 @@
 #include "fuzz/check_facts.h"
 #include "fuzz/step_world.h"
 #include "io/error.h"
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 
 namespace selvage::fuzz {

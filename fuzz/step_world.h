@@ -9,8 +9,8 @@
 
 #include "fuzz/choice_source.h"
 #include "fuzz/surface_makers.h"
+#include "sim/base/points.h"
 #include "sim/collision_step.h"
-#include "sim/points.h"
 #include "verify/check.h"
 
 namespace selvage::fuzz {

@@ -5,7 +5,7 @@
 #include "fuzz/check_facts.h"
 #include "fuzz/step_world.h"
 #include "kernel/assert.h"
-#include "sim/subdivision.h"
+#include "sim/subdivision/subdivision.h"
 
 namespace selvage::fuzz {
 namespace {

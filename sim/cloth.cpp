@@ -106,7 +106,7 @@ std::optional<Stabilizer> hinge_stabilizer(const Positions& x, const std::array<
       {edge[0], edge[1], opposite[0], opposite[1]}, {1 - s, s, t - 1, -t}, 0, 0, kStraight * (height[0] + height[1])};
 }
 
-// Those along x, then those along y: the lanes of a block are neighbours then (sim/stabilizer_lanes.h).
+// Those along x, then those along y: the lanes of a block are neighbours then (sim/springs/stabilizer_lanes.h).
 std::vector<Stabilizer> sheet_stabilizers(const SheetSpec& sheet) {
   std::vector<Stabilizer> made;
   const std::int32_t nx = sheet.nx, ny = sheet.ny;

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "sim/scene.h"
-#include "sim/shapes.h"
-#include "sim/spring.h"
-#include "sim/stabilizer.h"
+#include "sim/scene/scene.h"
+#include "sim/scene/shapes.h"
+#include "sim/springs/spring.h"
+#include "sim/springs/stabilizer.h"
 
 namespace selvage::sim {
 

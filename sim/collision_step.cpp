@@ -7,20 +7,20 @@
 
 #include "kernel/assert.h"
 #include "kernel/fp_env.h"
-#include "sim/collision_tracker.h"
-#include "sim/contact_table.h"
-#include "sim/friction.h"
-#include "sim/impact_zone.h"
-#include "sim/impulse.h"
-#include "sim/parallel.h"
-#include "sim/repulsion.h"
-#include "sim/scripted_groups.h"
-#include "sim/start_proximities.h"
+#include "sim/base/parallel.h"
+#include "sim/contact/contact_table.h"
+#include "sim/contact/start_proximities.h"
+#include "sim/contact/surface_parts.h"
+#include "sim/response/collision_tracker.h"
+#include "sim/response/friction.h"
+#include "sim/response/impact_zone.h"
+#include "sim/response/impulse.h"
+#include "sim/response/repulsion.h"
+#include "sim/response/scripted_groups.h"
+#include "sim/response/step_limit.h"
+#include "sim/response/step_motion.h"
+#include "sim/response/travel_limit.h"
 #include "sim/step_input.h"
-#include "sim/step_limit.h"
-#include "sim/step_motion.h"
-#include "sim/surface_parts.h"
-#include "sim/travel_limit.h"
 
 namespace selvage::sim {
 namespace {
@@ -231,10 +231,6 @@ Positions average_velocity(const Positions& displacement, double dt_s) {
 }
 
 }  // namespace
-
-ContactProperties contact_of(const CollisionOptions& options) {
-  return {options.thickness_m, options.tolerance_m, options.friction_static, options.friction_kinetic};
-}
 
 std::string_view name_of(StepStatus status) {
   switch (status) {

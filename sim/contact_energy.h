@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "sim/dynamics.h"
-#include "sim/spring.h"
-#include "sim/surface_parts.h"
+#include "sim/contact/surface_parts.h"
+#include "sim/dynamics/dynamics.h"
+#include "sim/springs/spring.h"
 
 namespace selvage::sim {
 

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "kernel/assert.h"
-#include "sim/catch_up.h"
-#include "sim/central_differences.h"
+#include "sim/bodies/catch_up.h"
 #include "sim/contact_energy.h"
-#include "sim/held_contacts.h"
-#include "sim/implicit_dynamics.h"
+#include "sim/dynamics/central_differences.h"
+#include "sim/dynamics/held_contacts.h"
+#include "sim/dynamics/implicit_dynamics.h"
 
 namespace selvage::sim {
 namespace {

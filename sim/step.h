@@ -6,17 +6,17 @@
 #include <vector>
 
 #include "kernel/fp_env.h"
+#include "sim/base/phase_times.h"
+#include "sim/base/vertex_faces.h"
 #include "sim/collision_step.h"
-#include "sim/contact_load.h"
-#include "sim/dynamics.h"
-#include "sim/phase_times.h"
-#include "sim/repulsion_contact.h"
-#include "sim/scene.h"
-#include "sim/spring_strain.h"
+#include "sim/contact/repulsion_contact.h"
+#include "sim/contact/surface_parts.h"
+#include "sim/dynamics/contact_load.h"
+#include "sim/dynamics/dynamics.h"
+#include "sim/scene/scene.h"
+#include "sim/springs/spring_strain.h"
 #include "sim/step_lengths.h"
-#include "sim/surface_parts.h"
 #include "sim/time_step.h"
-#include "sim/vertex_faces.h"
 #include "sim/world.h"
 
 namespace selvage::sim {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "sim/step_motion.h"
+#include "sim/response/step_motion.h"
 
 namespace selvage::sim {
 namespace {

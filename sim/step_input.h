@@ -1,7 +1,9 @@
 // Whether a collision step can be done at all: options, sizes, domain, masses, lattice.
 #pragma once
 
-#include "sim/collision_step.h"
+#include "kernel/mesh.h"
+#include "sim/contact/collision_options.h"
+#include "sim/contact/repulsion_contact.h"
 
 namespace selvage::sim {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/scene/scene_ranges.h"
+
 namespace selvage::sim {
 namespace {
 

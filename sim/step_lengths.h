@@ -1,7 +1,7 @@
 // How long the steps of a scene may be: of the dynamics, and of the collision step (paper, section 5).
 #pragma once
 
-#include "sim/scene.h"
+#include "sim/scene/scene.h"
 #include "sim/time_step.h"
 #include "sim/world.h"
 

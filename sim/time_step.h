@@ -8,9 +8,6 @@
 
 namespace selvage::sim {
 
-/// Of a frame: no step is shorter. More of them than that are no simulation that anyone waits for.
-inline constexpr double kLeastStepShare = 1e-6;
-
 /// Time is counted in ticks of frame / 2^n, so that it does not drift and every frame is met exactly.
 class StepClock {
  public:

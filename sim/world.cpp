@@ -8,10 +8,10 @@
 #include "io/fail.h"
 #include "io/mesh_reader.h"
 #include "kernel/fp_env.h"
-#include "sim/body_sequence.h"
+#include "sim/bodies/body_sequence.h"
+#include "sim/bodies/mesh_shape.h"
 #include "sim/cloth.h"
-#include "sim/mesh_shape.h"
-#include "sim/scene_ranges.h"
+#include "sim/scene/scene_ranges.h"
 #include "sim/time_step.h"
 
 namespace selvage::sim {

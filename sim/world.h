@@ -6,10 +6,10 @@
 
 #include "io/mesh_data.h"
 #include "kernel/mesh.h"
-#include "sim/collider.h"
+#include "sim/bodies/collider.h"
 #include "sim/collision_step.h"
-#include "sim/scene.h"
-#include "sim/spring.h"
+#include "sim/scene/scene.h"
+#include "sim/springs/spring.h"
 
 namespace selvage::sim {
 

@@ -5,7 +5,7 @@
 #include "bench/stability/exact_watch.h"
 #include "bench/stability/hard_shapes.h"
 #include "bench/stability/stage.h"
-#include "sim/points.h"
+#include "sim/base/points.h"
 
 namespace selvage::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/points.h"
+#include "sim/base/points.h"
 #include "verify/distance_check.h"
 
 namespace selvage::bench {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/rigid_path.h"
+#include "sim/scene/rigid_path.h"
 
 namespace selvage::bench {
 namespace {

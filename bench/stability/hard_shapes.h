@@ -1,7 +1,7 @@
 // Closed and open surfaces that scenes do not name.
 #pragma once
 
-#include "sim/shapes.h"
+#include "sim/scene/shapes.h"
 
 namespace selvage::bench {
 

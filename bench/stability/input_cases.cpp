@@ -6,8 +6,8 @@
 #include "bench/stability/exact_watch.h"
 #include "bench/stability/stage.h"
 #include "io/error.h"
-#include "sim/points.h"
-#include "sim/scene_reader.h"
+#include "sim/base/points.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/world.h"
 #include "verify/check.h"
 

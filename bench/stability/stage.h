@@ -7,10 +7,10 @@
 
 #include "bench/stability/exact_watch.h"
 #include "bench/stability/trial.h"
-#include "sim/central_differences.h"
 #include "sim/collision_step.h"
-#include "sim/rigid_path.h"
-#include "sim/shapes.h"
+#include "sim/dynamics/central_differences.h"
+#include "sim/scene/rigid_path.h"
+#include "sim/scene/shapes.h"
 
 namespace selvage::bench {
 

@@ -2,7 +2,7 @@
 //   mutant MS5 the repulsion pulls          a name, then the defect in words
 //   breaks S3                               the promise
 //   killer step within 400                  the property that finds it, in so many cases under every seed
-//   in sim/impulse.cpp                      a source, below the root of the tree
+//   in sim/response/impulse.cpp                      a source, below the root of the tree
 //   find std::max(-displacement, 0.0)       text that stands there exactly once
 //   with std::max(displacement, 0.0)        what stands there instead when the mutant is on
 // More finds, each with its replacement, and more files may follow. A find that ends in ';' is one or more statements,

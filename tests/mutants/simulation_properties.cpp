@@ -8,8 +8,8 @@
 #include "fuzz/step_world.h"
 #include "io/atomic_file.h"
 #include "io/sequence.h"
-#include "sim/recorder.h"
-#include "sim/scene_reader.h"
+#include "sim/record/recorder.h"
+#include "sim/scene/scene_reader.h"
 #include "tests/mutants/properties.h"
 #include "verify/check.h"
 

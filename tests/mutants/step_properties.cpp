@@ -2,10 +2,10 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "fuzz/step_oracle.h"
-#include "sim/impact_zone.h"
+#include "sim/response/impact_zone.h"
 #include "tests/mutants/drawn_property.h"
 #include "tests/mutants/properties.h"
-#include "tests/sim/response_properties.h"
+#include "tests/sim/response/response_properties.h"
 
 namespace selvage::mutants {
 namespace {

@@ -2,7 +2,7 @@
 // long form of these figures.
 #include <gtest/gtest.h>
 
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 
 namespace selvage {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/points.h"
+#include "sim/base/points.h"
 #include "sim/step.h"
 #include "verify/check.h"
 

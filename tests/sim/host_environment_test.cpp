@@ -6,11 +6,11 @@
 
 #include <xmmintrin.h>
 
-#include "sim/contact_table.h"
-#include "sim/rest_pairs.h"
-#include "sim/scene_reader.h"
+#include "sim/contact/contact_table.h"
+#include "sim/contact/rest_pairs.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
-#include "sim/subdivision.h"
+#include "sim/subdivision/subdivision.h"
 #include "tests/sim/small_scene.h"
 #include "tests/sim/step_scene.h"
 

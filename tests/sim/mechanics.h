@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <rapidcheck.h>
 
-#include "sim/interaction.h"
-#include "sim/repulsion_contact.h"
+#include "sim/contact/interaction.h"
+#include "sim/contact/repulsion_contact.h"
 
 namespace selvage::sim::testing {
 

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "sim/central_differences.h"
-#include "sim/scene_reader.h"
+#include "sim/dynamics/central_differences.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "tests/sim/physics_support.h"
 

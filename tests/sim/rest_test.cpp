@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "tests/sim/exact_step.h"
 #include "tests/sim/physics_support.h"
@@ -84,7 +84,7 @@ TEST(Rest, SheetsWhoseVerticesLieOverVerticesKeepTheirDistances) {
 
 TEST(Rest, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
   // The least distance of neighbours, in the middle, where they lie on the ball: 2.2 to 2.6 mm of 3, as rounding goes,
-  // 0.9 with one sweep; 1.4 where contacts do not keep the order of their vertices (sim/contact_groups.cpp).
+  // 0.9 with one sweep; 1.4 where contacts do not keep the order of their vertices (sim/dynamics/contact_groups.cpp).
   constexpr int kLayers = 16, kSide = 8;
   Simulation simulation(
       parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 0.3\n[time]\nframes_per_s = 30\nduration_s = 0.3\n"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 
 namespace selvage::testing {
 

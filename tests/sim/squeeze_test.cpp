@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/catch_up.h"
-#include "sim/run_totals.h"
-#include "sim/scene_reader.h"
-#include "sim/scripted_groups.h"
+#include "sim/bodies/catch_up.h"
+#include "sim/record/run_totals.h"
+#include "sim/response/scripted_groups.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "tests/sim/exact_step.h"
 #include "tests/squeeze_scene.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 
 namespace selvage {
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/base/points.h"
 #include "sim/collision_step.h"
-#include "sim/points.h"
-#include "sim/shapes.h"
+#include "sim/scene/shapes.h"
 #include "verify/check.h"
 
 namespace selvage::sim::testing {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "sim/run_totals.h"
+#include "sim/record/run_totals.h"
 #include "tests/sim/exact_step.h"
 #include "tests/sim/small_scene.h"
 

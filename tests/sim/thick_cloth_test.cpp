@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/collisions.h"
-#include "sim/scene_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 
 namespace selvage::sim {

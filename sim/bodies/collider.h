@@ -1,0 +1,55 @@
+// Vertices that follow a script instead of the dynamics: rigid bodies, figures that a sequence animates, and pins of
+// cloth, which may hang on a body.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/bodies/attachment.h"
+#include "sim/bodies/body_sequence.h"
+#include "sim/bodies/linkage.h"
+
+namespace selvage::sim {
+
+class Collider {
+ public:
+  /// x_world = linkage.at(t)(local), as many rows as vertices.
+  struct Rigid {
+    Positions local;
+    Linkage linkage;
+  };
+  struct Animated {
+    std::shared_ptr<const BodySequence> local;
+    Linkage linkage;
+  };
+  using Motion = std::variant<Rigid, Animated, Attachment>;
+
+  /// Vertex vertices[i] is at row i of the motion, until release_s.
+  Collider(std::string name, std::vector<VertexId> vertices, Motion motion,
+           double release_s = std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
+  [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
+  /// Null where none animates it.
+  [[nodiscard]] const BodySequence* sequence() const;
+  /// Whether its vertices may move against each other: then each waits, and catches up, by itself.
+  [[nodiscard]] bool deforms() const { return !std::holds_alternative<Rigid>(motion_); }
+  /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. x: all
+  /// vertices, of which an attachment looks where its body is. Throws io::Error where a frame of the sequence cannot be
+  /// read any more.
+  [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32, const Positions& x) const;
+  /// Writes them to their rows.
+  void place_at(double time_s, bool round_to_float32, Positions& x) const;
+
+ private:
+  std::string name_;
+  std::vector<VertexId> vertices_;
+  Motion motion_;
+  double release_s_;
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,40 @@
+// What surfaces bring to their contacts, and what two of them have together.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/contact/rest_pairs.h"
+
+namespace selvage::sim {
+
+/// Of one surface, or of a pair of them.
+struct ContactProperties {
+  double thickness_m = 1e-3;    ///< repulsions act below it (paper, 7.2); >= 0
+  double tolerance_m = 1e-6;    ///< distance kept at the end of every step (paper, section 6); >= 0
+  double friction_static = 0;   ///< Coulomb coefficient, dimensionless, >= friction_kinetic
+  double friction_kinetic = 0;  ///< Coulomb coefficient, dimensionless, >= 0
+
+  friend bool operator==(const ContactProperties&, const ContactProperties&) = default;
+};
+
+/// Of a pair of two surfaces. Where both have the same value the pair has it, to the bit (between 1e-150 and 1e150).
+///   thickness  the mean: each surface carries half of its thickness to either side;
+///   tolerance  the larger, which is safe for both;
+///   friction   the geometric mean, as in Box2D: between the two, and nothing grips what is frictionless.
+[[nodiscard]] ContactProperties combine(const ContactProperties& a, const ContactProperties& b);
+
+/// Whether every value lies in the range stated above.
+[[nodiscard]] bool is_valid(const ContactProperties& properties);
+
+/// Which surface each vertex is of. Without any, all of the mesh has the properties in its CollisionOptions. Without
+/// those and without rest pairs no pair costs a look.
+struct ContactSurfaces {
+  std::vector<ContactProperties> properties;    ///< one for each surface
+  std::vector<std::int32_t> surface_of_vertex;  ///< #V: index into `properties`; the same for all corners of a face
+  /// Those of every cloth that repel below another distance than its thickness (find_rest_pairs()). Fill them in where
+  /// a thickness is above 0.7 of an edge, or the cloth inflates.
+  std::vector<RestPair> rest_pairs{};
+};
+
+}  // namespace selvage::sim

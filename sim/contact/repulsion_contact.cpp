@@ -1,0 +1,45 @@
+#include "sim/contact/repulsion_contact.h"
+
+namespace selvage::sim {
+namespace {
+
+std::optional<RepulsionContact> if_it_acts(RepulsionContact contact) {
+  contact.mobility = effective_mobility(contact.interaction);
+  if (!(contact.mobility > 0) || contact.normal.isZero(0)) return std::nullopt;
+  return contact;
+}
+
+}  // namespace
+
+std::optional<RepulsionContact> make_contact(const PairProximity& pair, const ContactProperties& properties,
+                                             const Positions& V_t0, std::span<const double> inverse_mass) {
+  RepulsionContact contact;
+  contact.kind = pair.kind;
+  contact.first = pair.first;
+  contact.second = contact.second_t0 = pair.second;
+  contact.interaction = make_interaction(pair.kind, pair.vertices, pair.proximity.weights, inverse_mass);
+  contact.properties = properties;
+  contact.x_t0 = gather(contact.interaction, V_t0);
+  contact.normal = pair.proximity.normal;
+  contact.distance = pair.proximity.distance;
+  return if_it_acts(contact);
+}
+
+std::optional<RepulsionContact> make_contact(const Collision& collision, const std::array<VertexId, 4>& vertices,
+                                             const ContactProperties& properties, const Positions& V_t0,
+                                             std::span<const double> inverse_mass) {
+  RepulsionContact contact;
+  contact.kind = collision.kind;
+  contact.first = collision.first;
+  contact.second = contact.second_t0 = collision.second;
+  contact.interaction = make_interaction(collision.kind, vertices, collision.ccd.weights, inverse_mass);
+  contact.properties = properties;
+  contact.x_t0 = gather(contact.interaction, V_t0);
+  const Vec3 separation = relative(contact.interaction, contact.x_t0);
+  const bool separates = separation.dot(collision.ccd.normal) > 0;
+  contact.normal = separates ? collision.ccd.normal : Vec3(separation.stableNormalized());
+  contact.distance = separation.dot(contact.normal);
+  return if_it_acts(contact);
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,82 @@
+#include "sim/contact/start_proximities.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+
+#include "sim/base/parallel.h"
+#include "sim/base/points.h"
+#include "sim/contact/contact_reach.h"
+#include "sim/contact/local_proximities.h"
+
+namespace selvage::sim {
+
+void StartProximities::start(BoxHierarchy& hierarchy, const Positions& V_t0, const std::vector<std::uint8_t>& surface) {
+  known_.clear();
+  count_ = 0;
+  if (V_t0.rows() > 0 && same_bits(V_t0, V_t0_) && surface == surface_) return;
+  V_t0_.resize(0, 3);  // if an exception ends this, what is known is of no positions
+  const double reach = kContactReach * contacts_.thickness_upper();
+  near_.find(mesh_, contacts_, find_near_candidates(mesh_, hierarchy, V_t0, reach, surface), V_t0);
+  decision_.assign(near_.size(), kUndecided);
+  local_.clear();
+  surface_ = surface;
+  V_t0_ = V_t0;
+}
+
+void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
+  std::vector<std::array<std::optional<std::size_t>, 2>> places(contacts.size());
+  parallel_each(std::ssize(contacts), [&](Eigen::Index i) {
+    const RepulsionContact& held = contacts[static_cast<std::size_t>(i)];
+    auto& [met, now] = places[static_cast<std::size_t>(i)];
+    met = near_.place(held.kind, held.first, held.second_t0);
+    if (held.second != held.second_t0) now = near_.place(held.kind, held.first, held.second);
+  });
+  for (const auto& of_contact : places) {
+    for (const auto& place : of_contact) {
+      if (place) known_.push_back(*place);
+    }
+  }
+  std::ranges::sort(known_);
+  known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
+}
+
+std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const Vec3& fall) {
+  std::vector<std::size_t> found, known;
+  std::ranges::set_difference(near_.approaching(V_t0_, V_t1, fall), known_, std::back_inserter(found));
+  count_ += std::ssize(found);
+  decide(found);
+  std::ranges::set_union(known_, found, std::back_inserter(known));
+  known_ = std::move(known);
+  std::vector<PairProximity> result;
+  for (const std::size_t pair : found) {
+    if (decision_[pair] != kNotLocal) result.push_back(local_[static_cast<std::size_t>(decision_[pair])]);
+  }
+  return result;
+}
+
+void StartProximities::decide(const std::vector<std::size_t>& pairs) {
+  std::vector<std::size_t> open;
+  std::ranges::copy_if(pairs, std::back_inserter(open), [&](std::size_t i) { return decision_[i] == kUndecided; });
+  if (open.empty()) return;
+  const Candidates asked = near_.candidates(near_.with_nearer(open));
+  std::vector<PairProximity> near = ask_proximities(mesh_, V_t0_, asked, kContactReach * contacts_.thickness_upper());
+  if (!contacts_.is_uniform()) {
+    std::erase_if(near, [&](const PairProximity& pair) {
+      return !(pair.proximity.distance_lower <
+               kContactReach * contacts_.of(pair.kind, pair.first, pair.second).thickness_m);
+    });
+  }
+  const std::vector<PairProximity> found = local_proximities(mesh_, V_t0_, near, contacts_.thickness_upper());
+  local_.reserve(local_.size() + found.size());  // nothing throws from here on
+  for (const std::size_t pair : open) decision_[pair] = kNotLocal;
+  for (const PairProximity& pair : found) {
+    const auto place = near_.place(pair.kind, pair.first, pair.second);
+    if (!place || !std::ranges::binary_search(open, *place)) continue;  // asked only to compare others with it
+    decision_[*place] = static_cast<std::int32_t>(local_.size());
+    local_.push_back(pair);
+  }
+}
+
+}  // namespace selvage::sim

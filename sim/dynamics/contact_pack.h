@@ -1,0 +1,80 @@
+// Contacts in lanes: eight that share no vertex of cloth act at once (held_contacts.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "sim/base/lane_vectors.h"
+#include "sim/dynamics/contact_groups.h"
+
+namespace selvage::sim {
+
+/// One value a lane.
+template <class T>
+using LaneColumn = std::array<T, kLanes>;
+using LaneColumn3 = std::array<LaneColumn<double>, 3>;
+
+/// What contacts are and what they have done, in columns. A vertex of cloth is its row, any other row k of those that
+/// are not cloth is ~k. Lanes without a contact are zero.
+struct alignas(64) ContactPack {
+  std::array<LaneColumn<std::int32_t>, 4> vertices{};
+  std::array<LaneColumn<double>, 4> weights{};  ///< as in Interaction; so are mobilities
+  std::array<LaneColumn<double>, 4> mobility{};
+  LaneColumn3 normal{};  ///< unit
+  LaneColumn<double> thickness_m{}, friction_static{}, friction_kinetic{};
+  LaneColumn<double> load_m_s2{};  ///< as in ContactLoad, and its friction; HeldContacts::hold() leaves 0 for edges
+  LaneColumn3 friction_m_s2{};
+  LaneColumn<double> pressed{};  ///< in this step of the dynamics, as in FrictionLoad; so is what rubbed
+  LaneColumn3 rubbed{};
+  Lanes ever_repelled = 0, ever_rubbed = 0;
+};
+
+/// The cloth in a step of the dynamics of h seconds, x_t1 = x + h v, and what is not cloth: at x + share way at the
+/// start, from where it goes by step_share way.
+struct ContactMotion {
+  LaneVectors& x_t1;
+  LaneVectors& v;
+  const LaneVectors& scripted_x;
+  const LaneVectors& scripted_way;
+  double h, share, step_share;
+  double creep_m = 0;  ///< as in FrictionCoefficients
+};
+
+/// The vertices of a pack, at the start of the step and how they move in it.
+struct alignas(64) PackMotion {
+  std::array<LaneColumn3, 4> x{}, displacement{};
+};
+
+/// Nearest points of the pairs of a pack at the start of the step, as in QuickProximity.
+struct PackNearest {
+  LaneColumn<double> distance;
+  LaneColumn3 direction;
+  std::array<LaneColumn<double>, 4> weights;
+  Lanes on_border = 0;  ///< a corner has no weight: the surface may go on beyond
+};
+
+// For all lanes, or for those given; same bits for any vector unit. What an impulse is and why is said in
+// held_contacts.h, what friction is in friction.h.
+
+void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result);
+
+/// Those that approach too far, and neither bear a load nor have pressed in this step.
+[[nodiscard]] Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
+
+void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
+
+/// The contacts at their nearest points, but for those that are nearer than the thickness on the other side, which stay
+/// as they are. Leaves out those whose points are all on vertices that cannot move.
+[[nodiscard]] Lanes take_nearest(const PackNearest& nearest, Lanes lanes, ContactPack& pack);
+
+/// Their loads with their friction.
+void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion);
+
+/// One sweep; `relaxation` is the factor on what is missing. The last one rubs.
+void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,
+           const ContactMotion& motion);
+
+/// From what they did, what they begin the next step with: `share` of what was missing or too much.
+void learn_loads(double share, double h, ContactPack& pack);
+
+}  // namespace selvage::sim

@@ -1,0 +1,401 @@
+#include "sim/dynamics/held_contacts.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+#include "kernel/assert.h"
+#include "sim/base/parallel.h"
+
+namespace selvage::sim {
+namespace {
+
+/// Share of what a contact had to add that it remembers, of its friction as well. A column of twelve that is put down
+/// in steps of 0.4 ms keeps every distance to a hundredth and comes to rest
+/// (tests/sim/dynamics/held_contacts_test.cpp). Measured: with nothing it sinks, and with all of it velocities, which
+/// last by themselves, are learnt as forces, and it swings.
+constexpr double kLearning = 0.5;
+
+/// Factor on what is missing, in all sweeps but the last (successive over-relaxation); what was too much is taken back
+/// as it is. Measured: 25 sheets that are laid over a ball keep 2.5 to 3 mm of 3 under four sweeps with it, 1.3 to 3
+/// without, 0.8 to 3 under one (docs/simulator-speed.md).
+constexpr double kOverRelaxation = 1.7;
+
+/// Slower than what falls for so many steps of the dynamics, what slips counts as sticking still, with the static cone.
+/// In a step gravity and neighbours move a contact by as much, edges more, as they remember no load; and where kinetic
+/// friction is below the slope, what begins to slide by that would never stop. Measured on planes of 8 to 40 faces a
+/// side, slope 0.47 (docs/stability.md): 2 hold what has a fifth of static friction to spare, so do 4; 6 and 8 hold a
+/// thirtieth, but what should slide begins to a tenth of a second late.
+constexpr double kCreepSteps = 4;
+
+/// As far as another face must be nearer to count: above rounding, which has a vertex over an edge go back and forth;
+/// on a flat surface it has slid over the border by 1.4e-3 of its distance then.
+constexpr double kNearer = 1 - 1e-6;
+
+constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
+
+std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.vertex, load.face}; }
+
+template <class Columns>
+Vec3 vector_in(const Columns& columns, std::size_t lane) {
+  return {columns[0][lane], columns[1][lane], columns[2][lane]};
+}
+
+/// Of those whose column is above zero.
+Lanes above_zero(const LaneColumn<double>& column) {
+  Lanes result = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only_lane(lane) : Lanes{0};
+  return result;
+}
+
+/// Packs are read one after the other, and all of them take more than a core's cache.
+void fetch(const std::vector<ContactPack>& packs, std::size_t id) {
+  if (id >= packs.size()) return;
+  const auto* const bytes = reinterpret_cast<const char*>(&packs[id]);
+  for (std::size_t k = 0; k < sizeof(ContactPack); k += 64) __builtin_prefetch(bytes + k);
+}
+
+/// In parallel, in blocks of as many contacts as other loops have items.
+template <class Body>
+void each_pack(std::span<ContactPack> packs, Body body) {
+  parallel_blocks(std::ssize(packs) * kLanes, [&](Eigen::Index begin, Eigen::Index end) {
+    std::ranges::for_each(
+        packs.subspan(static_cast<std::size_t>(begin / kLanes), static_cast<std::size_t>((end - begin) / kLanes)),
+        body);
+  });
+}
+
+}  // namespace
+
+HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
+                           const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s,
+                           int sweeps)
+    : surface_(surface),
+      V_t0_(V_t0),
+      V_t1_(V_t1),
+      dt_s_(dt_s),
+      sweeps_(sweeps),
+      place_of_(contacts.size(), ContactGroups::kNobody) {
+  if (contacts.empty()) return;
+  const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
+  scripted_t0_.copy(V_t0.bottomRows(scripted));
+  scripted_way_.copy(V_t1.bottomRows(scripted) - V_t0.bottomRows(scripted));
+  for (Kind* kind : {&vf_, &ee_}) add_kind(*kind, contacts);
+  const auto is_placed = [](std::size_t place) { return place != ContactGroups::kNobody; };
+  SELVAGE_ASSERT(std::ranges::all_of(place_of_, is_placed));
+  begin_with(loads);
+}
+
+/// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on through all
+/// layers: as cubes the fifty of sim/scenes/stack.toml as a draft came as near as 0.6 mm of 3, as columns 1.7
+/// (docs/simulator-speed.md).
+void HeldContacts::add_kind(Kind& kind, const std::vector<RepulsionContact>& contacts) {
+  const Vec3 down = surface_.gravity_m_s2.stableNormalized();
+  std::vector<std::size_t> of_kind;
+  std::vector<ContactGroups::Member> members;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].kind != kind.kind) continue;
+    of_kind.push_back(i);
+    std::array<VertexId, 4> vertices = contacts[i].interaction.vertices;
+    const Vec3 at = V_t0_.row(vertices.front());
+    std::ranges::replace_if(
+        vertices, [&](VertexId v) { return !is_cloth(v); }, -1);
+    SELVAGE_ASSERT(std::ranges::any_of(vertices, [](VertexId v) { return v >= 0; }));
+    members.push_back({vertices, at - down.dot(at) * down});
+  }
+  const bool is_vf = kind.kind == PairKind::kVf;
+  kind.groups = ContactGroups(members, surface_.cloth_count,
+                              is_vf ? ContactGroups::Order::kAsGiven : ContactGroups::Order::kNearly);
+  kind.first_pack = packs_.size();
+  const std::vector<std::size_t>& order = kind.groups.order();
+  packs_.resize(packs_.size() + order.size() / kLanes);
+  contacts_.resize(packs_.size() * kLanes);
+  parallel_each(std::ssize(order), [&](Eigen::Index at) {
+    const std::size_t member = order[static_cast<std::size_t>(at)];
+    if (member == ContactGroups::kNobody) return;
+    const std::size_t place = kind.first_pack * kLanes + static_cast<std::size_t>(at);
+    contacts_[place] = contacts[of_kind[member]];
+    place_of_[of_kind[member]] = place;
+    set_lane(place);
+  });
+}
+
+/// The lane of contacts_[place].
+void HeldContacts::set_lane(std::size_t place) {
+  const RepulsionContact& contact = contacts_[place];
+  ContactPack& pack = packs_[place / kLanes];
+  const std::size_t lane = place % kLanes;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const VertexId vertex = contact.interaction.vertices[i];
+    pack.vertices[i][lane] = is_cloth(vertex) ? vertex : ~(vertex - static_cast<VertexId>(surface_.cloth_count));
+    pack.weights[i][lane] = contact.interaction.weights[i];
+    pack.mobility[i][lane] = contact.interaction.mobility[i];
+  }
+  for (int k = 0; k < 3; ++k) pack.normal[static_cast<std::size_t>(k)][lane] = contact.normal[k];
+  pack.thickness_m[lane] = contact.properties.thickness_m;
+  pack.friction_static[lane] = contact.properties.friction_static;
+  pack.friction_kinetic[lane] = contact.properties.friction_kinetic;
+}
+
+void HeldContacts::begin_with(const std::vector<ContactLoad>& loads) {
+  parallel_each(std::ssize(place_of_), [&](Eigen::Index i) {
+    const std::size_t place = place_of_[static_cast<std::size_t>(i)];
+    if (contacts_[place].kind != PairKind::kVf) return;
+    const ContactLoad* const load = load_of(contacts_[place], loads);
+    if (load == nullptr) return;
+    ContactPack& pack = packs_[place / kLanes];
+    pack.load_m_s2[place % kLanes] = load->acceleration_m_s2;
+    for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][place % kLanes] = load->friction_m_s2[k];
+  });
+}
+
+/// That of its pair; else that of the vertex on a face beside. Over an edge or a corner of the surface a vertex lies on
+/// any of the faces there, and another may have been found than the one that bore it. Several may begin with one load:
+/// what is too much they take back.
+const ContactLoad* HeldContacts::load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const {
+  const auto begin = std::ranges::lower_bound(loads, contact.first, {}, &ContactLoad::vertex);
+  const auto end = std::ranges::upper_bound(loads, contact.first, {}, &ContactLoad::vertex);
+  auto load = std::find_if(begin, end, [&](const ContactLoad& l) { return l.face == contact.second; });
+  if (load == end) load = std::find_if(begin, end, [&](const ContactLoad& l) { return touch(l.face, contact.second); });
+  return load == end ? nullptr : &*load;
+}
+
+bool HeldContacts::touch(FaceId a, FaceId b) const {
+  const auto& of_a = surface_.mesh.faces[static_cast<std::size_t>(a)];
+  const auto& of_b = surface_.mesh.faces[static_cast<std::size_t>(b)];
+  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
+}
+
+ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
+  const double step_share = step.h / dt_s_;
+  const double creep_m = kCreepSteps * step.h * step.h * surface_.gravity_m_s2.norm();
+  return {step.x_t1, step.v, scripted_t0_, scripted_way_, step.h, step.share - step_share, step_share, creep_m};
+}
+
+void HeldContacts::bear(const MidstepMotion& step) {
+  each_pack(packs_, [](ContactPack& pack) {
+    pack.pressed = {};
+    pack.rubbed = {};
+  });
+  vf_.groups.each(false,
+                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
+}
+
+void HeldContacts::hold(const MidstepMotion& step) {
+  for (int sweep = 1; sweep <= sweeps_; ++sweep) {
+    const bool is_last = sweep == sweeps_;
+    for (Kind* kind : {&vf_, &ee_}) {
+      kind->groups.each(backwards_, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
+        return hold(*kind, pack, lanes, reach, is_last, step);
+      });
+    }
+    backwards_ = !backwards_;
+  }
+  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) { learn_loads(kLearning, step.h, pack); });
+}
+
+/// What they bore in the last step, before anything else, where they are now.
+HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
+  ContactPack& pack = packs_[vf_.first_pack + id];
+  fetch(packs_, vf_.first_pack + id + 1);
+  lanes &= above_zero(pack.load_m_s2);
+  if (lanes == 0) return {};
+  PackMotion read;
+  read_motion(pack, lanes, motion_of(step), read);
+  Lanes acting = lanes;
+  const Refused refused = look_again(vf_, id, reach, step, read, acting);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!has_lane(lanes, lane) || has_lane(acting | refused.out_of_reach | refused.at_once, lane)) continue;
+    pack.load_m_s2[lane] = 0;
+    for (auto& column : pack.friction_m_s2) column[lane] = 0;
+  }
+  if (acting != 0) bear_loads(read, acting, pack, motion_of(step));
+  return refused;
+}
+
+/// What is missing; or takes back what was too much, down to nothing.
+HeldContacts::Refused HeldContacts::hold(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach, bool is_last,
+                                         const MidstepMotion& step) {
+  ContactPack& pack = packs_[kind.first_pack + id];
+  fetch(packs_, kind.first_pack + (backwards_ ? id - 1 : id + 1));
+  PackMotion read;
+  read_motion(pack, lanes, motion_of(step), read);
+  const Lanes looked_at = lanes & (above_zero(pack.load_m_s2) | above_zero(pack.pressed));
+  Lanes pressed = newly_pressed(pack, read, lanes);
+  const Refused refused = pressed == 0 ? Refused{} : look_again(kind, id, reach, step, read, pressed);
+  const Lanes acting = looked_at | pressed;
+  const double relaxation = is_last ? 1 : kOverRelaxation;
+  if (acting != 0) press(read, acting, relaxation, is_last, pack, motion_of(step));
+  return refused;
+}
+
+/// The pairs' nearest points now, seen from the side on which they are while they are farther apart than the thickness;
+/// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
+/// that cannot move do not act.
+HeldContacts::Refused HeldContacts::look_again(Kind& kind, std::size_t id, const Reach& reach,
+                                               const MidstepMotion& step, PackMotion& read, Lanes& lanes) {
+  ContactPack& pack = packs_[kind.first_pack + id];
+  PackNearest nearest;
+  find_nearest(kind.kind, read, nearest);
+  const Lanes on_border = lanes & nearest.on_border;
+  Slid slid;
+  if (kind.kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, step);
+  if (slid.on != 0) read_motion(pack, lanes, motion_of(step), read);
+  const Lanes acting = slid.on | slid.through;
+  const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot;
+  lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
+  return slid.refused;
+}
+
+/// Each of the lanes of vf on to the face on which its vertex is, seen from the side on which it is, as above.
+HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
+  Slid slid;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!has_lane(lanes, lane)) continue;
+    const std::size_t place = (vf_.first_pack + id) * kLanes + lane;
+    RepulsionContact now = contacts_[place];
+    QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
+    Answer answer = Answer::kYes;
+    while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, step);
+    if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only_lane(lane);
+    if (answer == Answer::kOutOfReach || now.second == contacts_[place].second) continue;
+    const bool is_near = !(nearest.distance > now.properties.thickness_m);
+    if (is_near && !(nearest.direction.dot(vector_in(packs_[place / kLanes].normal, lane)) > 0)) {
+      slid.through |= only_lane(lane);
+      continue;
+    }
+    now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
+    now.interaction.weights = nearest.weights;
+    now.normal = nearest.direction;
+    if (!(effective_mobility(now.interaction) > 0)) {
+      slid.cannot |= only_lane(lane);
+      continue;
+    }
+    now.properties = surface_.properties.of(now.kind, now.first, now.second);
+    contacts_[place] = now;
+    set_lane(place);
+    const Lanes together = vf_.groups.together(id);
+    const bool clashes = has_lane(together, lane) && shares_vertex(place, together);
+    (clashes ? slid.refused.at_once : slid.on) |= only_lane(lane);
+  }
+  return slid;
+}
+
+/// A vertex of cloth, with one of the others of its pack.
+bool HeldContacts::shares_vertex(std::size_t place, Lanes with) const {
+  const ContactPack& pack = packs_[place / kLanes];
+  const std::size_t own = place % kLanes;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (lane == own || !has_lane(with, lane)) continue;
+    for (const auto& a : pack.vertices) {
+      for (const auto& b : pack.vertices) {
+        if (a[own] >= 0 && a[own] == b[lane]) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is
+/// nearer. A walk from face to face ends, because the distance falls.
+HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
+                                             const MidstepMotion& step) const {
+  if (contact.kind != PairKind::kVf) return Answer::kNo;
+  const std::array<VertexId, 4> from = contact.interaction.vertices;
+  const auto on_corner = [weights = nearest.weights](std::size_t k) { return weights[k] != 0; };
+  const auto corner = std::ranges::find_if(kCorners, on_corner);
+  if (corner == kCorners.end() || std::ranges::all_of(kCorners, on_corner)) return Answer::kNo;
+  Answer slides = Answer::kNo;
+  for (const FaceId id : surface_.faces.of(from[*corner])) {
+    const std::array<VertexId, 3>& face = surface_.mesh.faces[static_cast<std::size_t>(id)];
+    const auto holds = [&](VertexId v) { return std::ranges::find(face, v) != face.end(); };
+    const auto is_beside = [&](std::size_t k) { return !on_corner(k) || holds(from[k]); };
+    if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
+    if (!is_within(reach, face)) return Answer::kOutOfReach;
+    const std::array<VertexId, 4> pair{from[0], face[0], face[1], face[2]};
+    const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, step));
+    if (!(other.distance < kNearer * nearest.distance)) continue;
+    nearest = other;
+    contact.second = id;
+    contact.interaction.vertices = pair;
+    slides = Answer::kYes;
+  }
+  return slides;
+}
+
+bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& face) const {
+  return std::ranges::all_of(face, [&](VertexId v) { return !is_cloth(v) || reach.has(v); });
+}
+
+PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const {
+  PairVectors x;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const VertexId vertex = vertices[i];
+    if (is_cloth(vertex)) {
+      x[i] = step.x_t1.row(vertex) - step.h * step.v.row(vertex);
+    } else {
+      x[i] = V_t0_.row(vertex) + (step.share - step.h / dt_s_) * (V_t1_.row(vertex) - V_t0_.row(vertex));
+    }
+  }
+  return x;
+}
+
+double HeldContacts::load_m_s2(std::size_t i) const {
+  const std::size_t place = place_of_[i];
+  return packs_[place / kLanes].load_m_s2[place % kLanes];
+}
+
+void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
+  const std::size_t lane = place_of_[i] % kLanes;
+  ContactPack& pack = packs_[place_of_[i] / kLanes];
+  pack.load_m_s2[lane] = load_m_s2;
+  for (auto& column : pack.friction_m_s2) column[lane] = 0;
+  if (load_m_s2 > 0) pack.ever_repelled |= only_lane(lane);
+  if (rubbed) pack.ever_rubbed |= only_lane(lane);
+}
+
+std::vector<RepulsionContact> HeldContacts::contacts() const {
+  std::vector<RepulsionContact> result(size());
+  parallel_each(std::ssize(result), [&](Eigen::Index at) {
+    const auto i = static_cast<std::size_t>(at);
+    const std::size_t lane = place_of_[i] % kLanes;
+    const ContactPack& pack = packs_[place_of_[i] / kLanes];
+    RepulsionContact& contact = result[i];
+    contact = contacts_[place_of_[i]];
+    contact.normal = vector_in(pack.normal, lane);
+    for (std::size_t k = 0; k < 4; ++k) contact.interaction.weights[k] = pack.weights[k][lane];
+    contact.x_t0 = gather(contact.interaction, V_t0_);
+    contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
+    contact.mobility = effective_mobility(contact.interaction);
+  });
+  return result;
+}
+
+RepulsionCount HeldContacts::count() const {
+  RepulsionCount result;
+  for (const ContactPack& pack : packs_) {
+    result.repulsions += std::popcount(pack.ever_repelled);
+    result.frictions += std::popcount(pack.ever_rubbed);
+  }
+  return result;
+}
+
+std::vector<ContactLoad> HeldContacts::loads() const {
+  std::vector<ContactLoad> result;
+  for (std::size_t place = 0; place < ee_.first_pack * kLanes; ++place) {
+    const ContactPack& pack = packs_[place / kLanes];
+    const std::size_t lane = place % kLanes;
+    if (!(pack.load_m_s2[lane] > 0)) continue;
+    const RepulsionContact& contact = contacts_[place];
+    const Vec3 friction = vector_in(pack.friction_m_s2, lane);
+    result.push_back({contact.first, contact.second, pack.load_m_s2[lane], {friction.x(), friction.y(), friction.z()}});
+  }
+  // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
+  std::ranges::stable_sort(result, {}, pair_of);
+  const auto same = [](const ContactLoad& a, const ContactLoad& b) { return pair_of(a) == pair_of(b); };
+  result.erase(std::unique(result.begin(), result.end(), same), result.end());
+  return result;
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,94 @@
+#include "sim/record/changed_setting.h"
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/text.h"
+#include "sim/scene/toml_parser.h"
+
+namespace selvage::sim {
+namespace {
+
+constexpr std::size_t kShownBytes = 60;  // of a value: a list of vertices does not fill the terminal
+
+struct Setting {
+  std::string path, value;
+  std::size_t line = 0;
+};
+
+std::string text_of(const toml::node& node) {
+  // 40 and 40.0 are one value.
+  if (const auto number = node.value<double>(); number && node.is_number()) return fmt::format("{}", *number);
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
+}
+
+void collect(const toml::node& node, const std::string& path, std::vector<Setting>& settings) {
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, value] : *table) {
+      collect(value, path + (path.empty() ? "" : ".") + std::string(key.str()), settings);
+    }
+    return;
+  }
+  const toml::array* array = node.as_array();
+  if (array != nullptr && array->is_array_of_tables()) {
+    for (std::size_t i = 0; i < array->size(); ++i) collect((*array)[i], fmt::format("{}[{}]", path, i), settings);
+    return;
+  }
+  if (array == nullptr) {
+    settings.push_back({path, text_of(node), node.source().begin.line});
+    return;
+  }
+  std::string list;
+  for (const toml::node& item : *array) list += (list.empty() ? "" : ", ") + text_of(item);
+  settings.push_back({path, "[" + list + "]", node.source().begin.line});
+}
+
+/// In the order of the lines.
+std::vector<Setting> settings_of(std::string_view text) {
+  std::vector<Setting> settings;
+  collect(toml::parse(text), "", settings);
+  std::ranges::stable_sort(settings, {}, &Setting::line);
+  return settings;
+}
+
+/// In `all`, or null.
+const Setting* find(const std::vector<Setting>& all, const std::string& path) {
+  const auto found = std::ranges::find(all, path, &Setting::path);
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string shown(const std::string& value) { return io::printable(value, kShownBytes); }
+
+std::size_t first_line_that_differs(std::string_view a, std::string_view b) {
+  const auto at = std::ranges::mismatch(a, b).in1;
+  return 1 + static_cast<std::size_t>(std::count(a.begin(), at, '\n'));
+}
+
+}  // namespace
+
+std::string changed_setting(std::string_view before, std::string_view now) {
+  const std::vector<Setting> old_settings = settings_of(before), settings = settings_of(now);
+  for (const Setting& setting : settings) {
+    const Setting* old = find(old_settings, setting.path);
+    if (old == nullptr) {
+      return fmt::format("{} (line {}) is {} and was not there", setting.path, setting.line, shown(setting.value));
+    }
+    if (old->value != setting.value) {
+      return fmt::format("{} (line {}) was {} and is {}", setting.path, setting.line, shown(old->value),
+                         shown(setting.value));
+    }
+  }
+  for (const Setting& old : old_settings) {
+    if (find(settings, old.path) == nullptr) {
+      return fmt::format("{} was {} and is not there any more", old.path, shown(old.value));
+    }
+  }
+  return fmt::format("no setting differs, but the text does, from line {} on", first_line_that_differs(before, now));
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,154 @@
+#include "sim/repair/body_return.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace selvage::sim {
+namespace {
+
+constexpr double kStepSeconds = 1;   // nothing here has a time: no springs, no gravity
+constexpr int kApproachSteps = 12;   // each goes half of what is left
+constexpr double kLeastGain = 1e-3;  // of the way: a step that gains less ends the approach
+// A body that comes back goes at most this many gaps a step: a ball through which a cloth passed by its middle comes
+// back in 3.2 s so, and in 10.4 s with steps four times as long, which the rigid zones have to resolve (measured).
+constexpr double kStepGaps = 4;
+constexpr int kMostSteps = 256;   // so that bodies much larger than the gap come back too
+constexpr double kClearGaps = 4;  // between bodies that stand aside and the cloth
+
+CollisionStep make_step(const UntangleState& state) {
+  return {state.mesh, step_options(state.options), state.options.surfaces};
+}
+
+class BodyReturn {
+ public:
+  explicit BodyReturn(UntangleState& state) : state_(state), step_(make_step(state)) {
+    for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
+      if (state.mesh.vertex_owner[static_cast<std::size_t>(v)] < 0) continue;
+      (state.is_body(v) ? body_box_ : cloth_box_).extend(Vec3(state.x.row(v)));
+    }
+  }
+
+  bool run() {
+    if (is_free(state_.x)) return true;
+    if (body_box_.isEmpty()) return false;
+    return come_out_again() || come_from_aside();
+  }
+
+ private:
+  [[nodiscard]] bool is_free(const Positions& at) { return state_.only(state_.judge(at), true).empty(); }
+  [[nodiscard]] Positions normals() const;
+  [[nodiscard]] Positions moved_bodies(const Positions& displacement) const;
+  /// The cloth after the bodies have come back from where they are in `away`; none where it could not give way.
+  [[nodiscard]] std::optional<Positions> come_back(const Positions& away);
+  bool come_out_again();
+  bool come_from_aside();
+  [[nodiscard]] double largest_move(const Positions& x) const { return (x - state_.V).rowwise().norm().maxCoeff(); }
+
+  UntangleState& state_;
+  CollisionStep step_;
+  Eigen::AlignedBox3d body_box_, cloth_box_;
+};
+
+/// #V by 3: of the bodies' vertices, outwards.
+Positions BodyReturn::normals() const {
+  Positions sum = Positions::Zero(state_.x.rows(), 3);
+  for (std::size_t f = 0; f < state_.mesh.faces.size(); ++f) {
+    if (!state_.is_body_face(static_cast<FaceId>(f))) continue;
+    const auto& v = state_.mesh.faces[f];
+    const Vec3 a = state_.x.row(v[0]), b = state_.x.row(v[1]), c = state_.x.row(v[2]);
+    for (const VertexId corner : v) sum.row(corner) += (b - a).cross(c - a).transpose();
+  }
+  for (Eigen::Index v = 0; v < sum.rows(); ++v) sum.row(v) = sum.row(v).stableNormalized().eval();
+  return sum;
+}
+
+Positions BodyReturn::moved_bodies(const Positions& displacement) const {
+  Positions x = state_.x;
+  for (VertexId v = 0; v < state_.mesh.vertex_count; ++v) {
+    if (state_.is_body(v)) x.row(v) = state_.on_lattice(x.row(v) + displacement.row(v));
+  }
+  return x;
+}
+
+std::optional<Positions> BodyReturn::come_back(const Positions& away) {
+  Positions x = away;
+  const double steps = std::ceil((away - state_.x).rowwise().norm().maxCoeff() / (kStepGaps * state_.options.gap_m));
+  const int step_count = static_cast<int>(std::clamp<double>(steps, 1, kMostSteps));
+  for (int n = 1; n <= step_count; ++n) {
+    const double left = 1 - double(n) / step_count;
+    Positions candidate = x;
+    for (VertexId v = 0; v < state_.mesh.vertex_count; ++v) {
+      if (!state_.is_scripted(v)) continue;
+      const Vec3 end = state_.V.row(v), start = away.row(v);
+      candidate.row(v) = state_.on_lattice(end + left * (start - end));
+    }
+    const CollisionStepResult result = step_(x, candidate, state_.bodies, kStepSeconds);
+    if (result.report.status != StepStatus::kSafe) return std::nullopt;
+    x = result.x;
+  }
+  return x;
+}
+
+bool BodyReturn::come_out_again() {
+  const Positions inwards = -normals();
+  const double deepest = body_box_.diagonal().stableNorm() / 2;
+  for (double depth = state_.options.gap_m; depth <= deepest && state_.may_judge(); depth *= 2) {
+    const Positions away = moved_bodies(depth * inwards);
+    if (!is_free(away)) continue;
+    if (const std::optional<Positions> x = come_back(away)) {
+      state_.x = *x;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool BodyReturn::come_from_aside() {
+  std::optional<Positions> best;
+  for (int direction = 0; direction < 6 && state_.may_judge(); ++direction) {
+    const int axis = direction / 2;
+    const double gap = kClearGaps * state_.options.gap_m;
+    const double shift = direction % 2 == 0 ? cloth_box_.max()[axis] - body_box_.min()[axis] + gap
+                                            : cloth_box_.min()[axis] - body_box_.max()[axis] - gap;
+    Positions displacement = Positions::Zero(state_.x.rows(), 3);
+    displacement.col(axis).setConstant(shift);
+    const Positions away = moved_bodies(displacement);
+    if (!is_free(away)) continue;  // the box of the cloth was passed by less than the lattice holds apart
+    const std::optional<Positions> x = come_back(away);
+    if (x && (!best || largest_move(*x) < largest_move(*best))) best = x;
+  }
+  if (best) state_.x = *best;
+  return best.has_value();
+}
+
+}  // namespace
+
+bool return_bodies(UntangleState& state) { return BodyReturn(state).run(); }
+
+void approach_start(UntangleState& state) {
+  std::vector<double> inverse_mass(state.bodies.inverse_mass.begin(), state.bodies.inverse_mass.end());
+  for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
+    if (state.x.row(v) == state.V.row(v)) inverse_mass[static_cast<std::size_t>(v)] = 0;
+  }
+  CollisionStep step = make_step(state);
+  double left = (state.x - state.V).norm();
+  for (int n = 0; n < kApproachSteps && left > 0; ++n) {
+    Positions candidate = state.x;
+    for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
+      if (!(inverse_mass[static_cast<std::size_t>(v)] > 0)) continue;
+      const Vec3 here = state.x.row(v), there = state.V.row(v);
+      candidate.row(v) = here + (there - here) / 2;
+    }
+    const CollisionStepResult result = step(state.x, candidate, {inverse_mass, state.bodies.body}, kStepSeconds);
+    if (result.report.status != StepStatus::kSafe) return;
+    const double now_left = (result.x - state.V).norm();
+    if (!(now_left < (1 - kLeastGain) * left)) return;
+    state.x = result.x;
+    left = now_left;
+  }
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,239 @@
+#include "sim/repair/membrane.h"
+
+#include <algorithm>
+#include <map>
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+
+#include "sim/base/disjoint_sets.h"
+
+namespace selvage::sim {
+namespace {
+
+constexpr int kShapeHalvings = 12;  // of the shape that is kept: 2^-12 of a hand is thinner than cloth
+constexpr int kMostGrowth = 3;      // rings by which a region may grow, where the ring around it is too near
+
+using Region = std::vector<VertexId>;  // sorted
+
+class ClothUntangler {
+ public:
+  explicit ClothUntangler(UntangleState& state)
+      : state_(state), mesh_(state.mesh), neighbours_(static_cast<std::size_t>(mesh_.vertex_count)) {
+    for (const auto& edge : mesh_.edges) {
+      neighbours_[static_cast<std::size_t>(edge[0])].push_back(edge[1]);
+      neighbours_[static_cast<std::size_t>(edge[1])].push_back(edge[0]);
+    }
+  }
+
+  bool run() {
+    pairs_ = judge(state_.x);
+    while (!pairs_.empty() && (move_a_part() || draw_one_back(regions()) || draw_one_back(crossings()))) {
+    }
+    return pairs_.empty();
+  }
+
+ private:
+  [[nodiscard]] std::vector<FacePair> judge(const Positions& at) { return state_.only(state_.judge(at), false); }
+  [[nodiscard]] const std::array<VertexId, 3>& face(FaceId f) const { return mesh_.faces[static_cast<std::size_t>(f)]; }
+  [[nodiscard]] Vec3 at(VertexId v) const { return state_.x.row(v); }
+  [[nodiscard]] std::vector<std::uint8_t> cut_edges() const;
+  [[nodiscard]] std::vector<Region> regions() const;
+  void grow(Region& region) const;
+  [[nodiscard]] bool has_ring(const Region& region) const {
+    return std::ranges::any_of(region, [&](VertexId v) {
+      const auto& around = neighbours_[static_cast<std::size_t>(v)];
+      return std::ranges::any_of(around, [&](VertexId n) { return !std::ranges::binary_search(region, n); });
+    });
+  }
+  [[nodiscard]] Positions membrane(const Region& region) const;
+  [[nodiscard]] std::vector<Region> crossings() const;
+  bool draw_back(Region region);
+  bool draw_one_back(const std::vector<Region>& regions) {
+    return std::ranges::any_of(regions, [this](const Region& region) { return draw_back(region); });
+  }
+  bool move_a_part();
+  /// Keeps the positions where fewer pairs intersect, and none that must end.
+  bool keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end = {});
+
+  UntangleState& state_;
+  const Mesh& mesh_;
+  std::vector<std::vector<VertexId>> neighbours_;  ///< #V
+  std::vector<FacePair> pairs_;                    ///< at state_.x
+};
+
+double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
+
+/// In doubles: what is nearly so may be called either way, and only chooses what is tried.
+bool crosses(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
+  const double at_a = volume(t[0], t[1], t[2], a), at_b = volume(t[0], t[1], t[2], b);
+  if (at_a == at_b || (at_a > 0) == (at_b > 0)) return false;
+  const double u = volume(a, b, t[0], t[1]), v = volume(a, b, t[1], t[2]), w = volume(a, b, t[2], t[0]);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+std::vector<std::uint8_t> ClothUntangler::cut_edges() const {
+  std::vector<std::uint8_t> cut(mesh_.edges.size(), 0);
+  for (const FacePair& pair : pairs_) {
+    for (const std::size_t side : {0U, 1U}) {
+      const auto& other = face(pair[1 - side]);
+      for (const EdgeId e : mesh_.face_edges[static_cast<std::size_t>(pair[side])]) {
+        const auto& edge = mesh_.edges[static_cast<std::size_t>(e)];
+        if (std::ranges::any_of(other, [&](VertexId v) { return v == edge[0] || v == edge[1]; })) continue;
+        if (crosses(at(edge[0]), at(edge[1]), {at(other[0]), at(other[1]), at(other[2])})) {
+          cut[static_cast<std::size_t>(e)] = 1;
+        }
+      }
+    }
+  }
+  return cut;
+}
+
+/// Those at a cut that no script holds, the smallest first, without the largest of each part.
+std::vector<Region> ClothUntangler::regions() const {
+  const std::vector<std::uint8_t> cut = cut_edges();
+  DisjointSets<VertexId> uncut(mesh_.vertex_count);
+  for (std::size_t e = 0; e < cut.size(); ++e) {
+    if (cut[e] == 0) uncut.join(mesh_.edges[e][0], mesh_.edges[e][1]);
+  }
+  std::map<VertexId, Region> by_root;
+  for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
+    if (!state_.is_body(v)) by_root[uncut.root(v)].push_back(v);
+  }
+  std::map<VertexId, std::size_t> largest;
+  for (const auto& [root, region] : by_root) {
+    std::size_t& size = largest[state_.parts.part(root)];
+    size = std::max(size, region.size());
+  }
+  std::vector<Region> result;
+  for (auto& [root, region] : by_root) {
+    const bool has_script = std::ranges::any_of(region, [&](VertexId v) { return state_.is_scripted(v); });
+    if (region.size() < largest[state_.parts.part(root)] && !has_script) result.push_back(std::move(region));
+  }
+  std::ranges::stable_sort(result, {}, &Region::size);
+  return result;
+}
+
+void ClothUntangler::grow(Region& region) const {
+  Region grown = region;
+  for (const VertexId v : region) {
+    const auto& around = neighbours_[static_cast<std::size_t>(v)];
+    grown.insert(grown.end(), around.begin(), around.end());
+  }
+  std::ranges::sort(grown);
+  grown.erase(std::unique(grown.begin(), grown.end()), grown.end());
+  region = std::move(grown);
+}
+
+/// Every vertex of the region at the mean of its neighbours, the ring around it where it is.
+Positions ClothUntangler::membrane(const Region& region) const {
+  const auto count = static_cast<Eigen::Index>(region.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  Positions right = Positions::Zero(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& around = neighbours_[static_cast<std::size_t>(region[static_cast<std::size_t>(i)])];
+    entries.emplace_back(i, i, static_cast<double>(around.size()));
+    for (const VertexId v : around) {
+      const auto found = std::ranges::lower_bound(region, v);
+      if (found != region.end() && *found == v) {
+        entries.emplace_back(i, found - region.begin(), -1.0);
+      } else {
+        right.row(i) += state_.x.row(v);
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> laplacian(count, count);
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(laplacian).solve(Eigen::MatrixXd(right));
+}
+
+bool ClothUntangler::keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end) {
+  if (!x.allFinite() || !state_.may_judge()) return false;
+  std::vector<FacePair> pairs = judge(x);
+  if (pairs.size() >= pairs_.size() || (must_end && std::ranges::any_of(pairs, must_end))) return false;
+  pairs_ = std::move(pairs);
+  state_.x = x;
+  return true;
+}
+
+bool ClothUntangler::draw_back(Region region) {
+  for (int growth = 0; growth <= kMostGrowth; ++growth, grow(region)) {
+    std::erase_if(region, [&](VertexId v) { return state_.is_scripted(v); });
+    if (!has_ring(region)) return false;
+    const Positions flat = membrane(region);
+    for (int halvings = 1; halvings <= kShapeHalvings; ++halvings) {
+      Positions x = state_.x;
+      for (std::size_t i = 0; i < region.size(); ++i) {
+        const Vec3 target = flat.row(static_cast<Eigen::Index>(i)), here = at(region[i]);
+        x.row(region[i]) = state_.on_lattice(target + std::ldexp(1.0, -halvings) * (here - target));
+      }
+      if (keep_if_better(x)) return true;
+    }
+  }
+  return false;
+}
+
+/// What hangs together by crossing and by common vertices; the smallest first.
+std::vector<Region> ClothUntangler::crossings() const {
+  DisjointSets<VertexId> together(mesh_.vertex_count);
+  std::vector<std::uint8_t> is_in(static_cast<std::size_t>(mesh_.vertex_count), 0);
+  for (const FacePair& pair : pairs_) {
+    for (const FaceId f : pair) {
+      for (const VertexId v : face(f)) {
+        together.join(face(pair[0])[0], v);
+        is_in[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+  }
+  std::map<VertexId, Region> by_root;
+  for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
+    if (is_in[static_cast<std::size_t>(v)] != 0) by_root[together.root(v)].push_back(v);
+  }
+  std::vector<Region> result;
+  for (auto& [root, region] : by_root) result.push_back(std::move(region));
+  std::ranges::stable_sort(result, {}, &Region::size);
+  return result;
+}
+
+bool ClothUntangler::move_a_part() {
+  const auto part_of = [&](FaceId f) { return state_.parts.part(face(f)[0]); };
+  std::map<VertexId, Vec3> normal_of;  // by part: the sum of the unit normals of the others' faces that it meets
+  for (const FacePair& pair : pairs_) {
+    if (part_of(pair[0]) == part_of(pair[1])) continue;
+    for (const std::size_t side : {0U, 1U}) {
+      const auto& other = face(pair[1 - side]);
+      const Vec3 normal = (at(other[1]) - at(other[0])).cross(at(other[2]) - at(other[0])).stableNormalized();
+      normal_of.try_emplace(part_of(pair[side]), Vec3::Zero()).first->second += normal;
+    }
+  }
+  const double farthest = 2 * (state_.x.colwise().maxCoeff() - state_.x.colwise().minCoeff()).stableNorm();
+  std::erase_if(normal_of, [&](const auto& entry) {
+    bool has_script = false;
+    for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
+      has_script = has_script || (state_.is_scripted(v) && state_.parts.part(v) == entry.first);
+    }
+    return has_script;
+  });
+  for (double distance = state_.options.gap_m; distance <= farthest; distance *= 2) {
+    for (const auto& [part, normal_sum] : normal_of) {
+      const auto meets_another = [&, moved = part](const FacePair& p) {
+        return part_of(p[0]) != part_of(p[1]) && (part_of(p[0]) == moved || part_of(p[1]) == moved);
+      };
+      for (const double side : {1.0, -1.0}) {
+        const Vec3 shift = side * distance * normal_sum.stableNormalized();
+        Positions x = state_.x;
+        for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
+          if (state_.parts.part(v) == part) x.row(v) = state_.on_lattice(at(v) + shift);
+        }
+        if (keep_if_better(x, meets_another)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool draw_cloth_back(UntangleState& state) { return ClothUntangler(state).run(); }
+
+}  // namespace selvage::sim

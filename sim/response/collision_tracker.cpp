@@ -1,0 +1,97 @@
+#include "sim/response/collision_tracker.h"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+namespace selvage::sim {
+
+CollisionTracker::CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts,
+                                   std::int32_t max_intervals, std::vector<std::uint8_t> surface)
+    : mesh_(mesh),
+      hierarchy_(hierarchy),
+      contacts_(contacts),
+      max_intervals_(max_intervals),
+      surface_(std::move(surface)) {}
+
+std::array<VertexId, 4> CollisionTracker::vertices(const Collision& collision) const {
+  return pair_vertices(mesh_, collision.kind, collision.first, collision.second);
+}
+
+bool CollisionTracker::has_motion_collision() const {
+  return std::ranges::any_of(report_.collisions, [](const Collision& c) { return c.ccd.cause != CcdCause::kEnd; });
+}
+
+CollisionReport CollisionTracker::find(const StepMotion& motion, std::span<const std::uint8_t> active) {
+  const CcdOptions options{contacts_.tolerance_upper(), max_intervals_};
+  CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options, active);
+  if (!contacts_.is_uniform()) hold_to_own_tolerance(motion, found);
+  for (Collision& collision : found.collisions) {
+    if (std::ranges::any_of(vertices(collision), [&](VertexId v) { return motion.moves(v); })) continue;
+    collision.ccd.cause = CcdCause::kEnd;
+    collision.ccd.toi_lower = 1;
+  }
+  return found;
+}
+
+void CollisionTracker::hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const {
+  const auto corners = [](const Positions& V, const std::array<VertexId, 4>& v) {
+    return std::array<Vec3, 4>{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
+  };
+  for (Collision& collision : found.collisions) {
+    if (collision.ccd.cause != CcdCause::kEnd) continue;  // a motion is free of touch or not, whatever the tolerance
+    const std::array<VertexId, 4> v = vertices(collision);
+    const CcdOptions options{contacts_.of(collision.kind, collision.first, collision.second).tolerance_m,
+                             max_intervals_};
+    if (options.tolerance == contacts_.tolerance_upper()) continue;
+    const std::array<Vec3, 4> x_t0 = corners(motion.V_t0(), v), x_t1 = corners(motion.x(), v);
+    switch (collision.kind) {
+      case PairKind::kVf:
+        collision.ccd = vf_ccd(x_t0, x_t1, options);
+        break;
+      case PairKind::kEe:
+        collision.ccd = ee_ccd(x_t0, x_t1, options);
+        break;
+      case PairKind::kSelf:
+        collision.ccd = self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
+        break;
+    }
+    found.intervals += collision.ccd.intervals;
+  }
+  std::erase_if(found.collisions, [](const Collision& c) { return c.ccd.verdict == CcdVerdict::kSeparated; });
+}
+
+void CollisionTracker::count(const CollisionReport& found) {
+  report_.vf_candidates += found.vf_candidates;
+  report_.ee_candidates += found.ee_candidates;
+  report_.self_candidates += found.self_candidates;
+  report_.intervals += found.intervals;
+  report_.toi_lower = 1;
+  for (const Collision& c : report_.collisions) report_.toi_lower = std::min(report_.toi_lower, c.ccd.toi_lower);
+}
+
+void CollisionTracker::start(StepMotion& motion) {
+  motion.take_changed();
+  CollisionReport found = find(motion, surface_);
+  report_ = {};
+  report_.collisions = std::move(found.collisions);
+  count(found);
+}
+
+void CollisionTracker::update(StepMotion& motion) {
+  if (!motion.anything_changed()) return;
+  const std::vector<std::uint8_t> changed = motion.take_changed();
+  CollisionReport found = find(motion, changed);
+  std::vector<Collision> unchanged;
+  for (const Collision& collision : report_.collisions) {
+    const auto has_changed = [&](VertexId v) { return changed[static_cast<std::size_t>(v)] != 0; };
+    if (std::ranges::none_of(vertices(collision), has_changed)) unchanged.push_back(collision);
+  }
+  const auto key = [](const Collision& c) { return std::tuple(c.kind, c.first, c.second); };
+  report_.collisions.clear();
+  std::ranges::merge(unchanged, found.collisions, std::back_inserter(report_.collisions), {}, key, key);
+  count(found);
+}
+
+}  // namespace selvage::sim

@@ -1,0 +1,20 @@
+// Candidates that are no motion but a blow-up are cut back before anything is tested.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/response/scripted_groups.h"
+#include "sim/response/step_motion.h"
+
+namespace selvage::sim {
+
+/// A cloth vertex travels at most this many diagonals of the scene's box in a step. Pairs whose motion is 10^8 times
+/// the distances in the scene cost 60 times as much to decide (measured: 2 us a query up to 10^4, 110 us at 10^8), and
+/// all pairs of the scene are candidates then.
+inline constexpr double kMaxTravel = 1024;
+
+/// Shortens the displacements of cloth vertices that travel farther, and says how many: 0 in any simulation that has
+/// not blown up. The scene's box holds all start positions and the ends of scripts.
+[[nodiscard]] std::int64_t limit_travel(const ScriptedGroups& groups, StepMotion& motion);
+
+}  // namespace selvage::sim

@@ -1,0 +1,27 @@
+// Reads what a part of a scene says about its contacts. Internal to the scene reader.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/scene/toml_table.h"
+
+namespace selvage::sim {
+
+class ContactReader {
+ public:
+  explicit ContactReader(const CollisionOptions& scene);
+
+  /// The part's own properties, where it has a key for one of them; the others are the scene's. Throws io::Error where
+  /// the tolerance does not stay below the thickness, with the part itself and with every part read before that it can
+  /// meet: two bodies never do.
+  [[nodiscard]] std::optional<ContactProperties> read(TomlTable& table, bool cloth);
+
+ private:
+  void check_pairs(const TomlTable& table, const ContactProperties& own, bool cloth) const;
+
+  ContactProperties scene_;
+  std::vector<ContactProperties> cloths_, bodies_;  ///< those read so far, each once
+};
+
+}  // namespace selvage::sim

@@ -1,0 +1,90 @@
+// A sheet in free flight through still air: its speed and its way have closed forms.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "sim/dynamics/drag_steps.h"
+#include "sim/scene/scene_reader.h"
+#include "sim/step.h"
+#include "tests/sim/physics_support.h"
+
+namespace selvage {
+
+using namespace sim;
+using namespace sim::testing;
+
+namespace {
+
+constexpr VertexId kVertices = 36;
+
+struct Flight {
+  double drag_1_s, quadratic_drag_1_m, v_t0;
+  [[nodiscard]] double way_m(double time_s) const {
+    return quadratic_drag_1_m > 0 ? std::log1p(quadratic_drag_1_m * v_t0 * time_s) / quadratic_drag_1_m
+                                  : v_t0 * -std::expm1(-drag_1_s * time_s) / drag_1_s;
+  }
+};
+
+/// Its ways at the ends of the steps, of a 30th of a second each, and the state in the end.
+struct Flown {
+  std::vector<double> way_m;
+  SimulationState end;
+};
+Flown fly(const std::string& solver, const Flight& flight) {
+  Simulation simulation(parse_scene(
+      "solver = \"" + solver + "\"\ndrag_1_s = " + std::to_string(flight.drag_1_s) +
+          "\nquadratic_drag_1_m = " + std::to_string(flight.quadratic_drag_1_m) +
+          "\n[time]\nframes_per_s = 30\nframes = 4\n[[cloth]]\nname = \"sheet\"\nsheet = {nx = 6, ny = 6, width_m = 1, "
+          "height_m = 1}\ndensity_kg_m2 = 0.05\nstretch_n_m = 5\nshear_n_m = 2\nvelocity_m_s = [" +
+          std::to_string(flight.v_t0) + ", 0, 0]\n",
+      "flight.toml"));
+  const Vec3 start = mean(simulation.x(), 0, kVertices);
+  Flown flown;
+  while (simulation.clock().time_s() < 4.0 / 30 - 1e-9) {
+    simulation.step();
+    flown.way_m.push_back((mean(simulation.x(), 0, kVertices) - start).x());
+  }
+  flown.end = simulation.state();
+  return flown;
+}
+
+}  // namespace
+
+TEST(Drag, StopsAMotionAndNeverTurnsItRound) {
+  for (const std::string solver : {"explicit", "implicit"}) {
+    for (const Flight& flight : {Flight{1000, 0, 1}, Flight{1e5, 0, 1}, Flight{100, 0, 1}, Flight{0, 15, 20},
+                                 Flight{0, 15, 300}, Flight{0, 50, 100}, Flight{0, 1000, 10}, Flight{0, 1000, 1000}}) {
+      const Flown flown = fly(solver, flight);
+      double before_m = 0;
+      for (const double way_m : flown.way_m) {
+        EXPECT_GE(way_m, before_m - 1e-9)
+            << solver << ", " << flight.quadratic_drag_1_m << " 1/m, " << flight.v_t0 << " m/s";
+        before_m = way_m;
+      }
+      EXPECT_GE(flown.end.v.col(0).minCoeff(), -1e-7) << "a residual of 1e-9 m in a step of 1/120 s";
+    }
+  }
+}
+
+TEST(Drag, TakesCloseToItsClosedForm) {
+  for (const std::string solver : {"explicit", "implicit"}) {
+    for (const Flight& flight : {Flight{1, 0, 1}, Flight{30, 0, 1}, Flight{1000, 0, 1}, Flight{1e5, 0, 1}}) {
+      const double way_m = flight.way_m(4.0 / 30);
+      EXPECT_NEAR(fly(solver, flight).way_m.back(), way_m, 0.01 * way_m) << solver << ", " << flight.drag_1_s;
+    }
+    for (const Flight& flight : {Flight{0, 1, 3}, Flight{0, 15, 20}, Flight{0, 7, 50}, Flight{0, 15, 300}}) {
+      const double way_m = flight.way_m(4.0 / 30);
+      EXPECT_NEAR(fly(solver, flight).way_m.back(), way_m, 0.1 * way_m) << solver << ", " << flight.quadratic_drag_1_m;
+    }
+  }
+}
+
+TEST(Drag, AsksForStepsThatTakeHalfOfAVelocityAndNoMoreThanSixtyFour) {
+  EXPECT_EQ(steps_for_drag(0, 1), 1);
+  EXPECT_EQ(steps_for_drag(15.0 * 20, 1.0 / 30), 10);
+  EXPECT_EQ(steps_for_drag(1e15, 1), 64);
+}
+
+}  // namespace selvage

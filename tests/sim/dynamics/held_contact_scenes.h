@@ -1,0 +1,111 @@
+// Contacts held over one face or a few, for the tests of held contacts.
+#pragma once
+
+#include <utility>
+
+#include "sim/dynamics/held_contacts.h"
+#include "tests/sim/mechanics.h"
+
+namespace selvage::sim::testing {
+
+inline constexpr double kThickness = 0.25, kStep = 0.125;
+
+/// What contacts are on: `faces` over all vertices, of which those with mass come first.
+struct Ground {
+  Mesh mesh;
+  VertexFaces faces;
+  ContactTable properties;
+  std::vector<double> inverse_mass;
+
+  Ground(const Faces& F, std::vector<double> inverse_masses)
+      : mesh(make_mesh(static_cast<std::int32_t>(inverse_masses.size()), F)),
+        faces(mesh),
+        properties(mesh, options(), {}),
+        inverse_mass(std::move(inverse_masses)) {}
+  static CollisionOptions options() {
+    CollisionOptions options;
+    options.thickness_m = kThickness;
+    return options;
+  }
+  [[nodiscard]] HeldSurface surface(Eigen::Index cloth_count) const {
+    return {mesh, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()};
+  }
+};
+
+inline void act(HeldContacts& held, const MidstepMotion& step) {
+  held.bear(step);
+  held.hold(step);
+}
+
+/// The face of the contact alone.
+inline Ground one_face() { return {Faces{{1, 2, 3}}, std::vector<double>(4, 0.0)}; }
+
+/// Four vertices of one contact, along z at the start.
+struct OneContact {
+  RepulsionContact contact;
+  Positions V_t0, V_t1;
+  Eigen::Index cloth_count;
+  LaneVectors x, v;
+  std::vector<ContactLoad> loads;
+
+  OneContact(const RandomPair& pair, Eigen::Index cloth_vertices) : V_t0(4, 3), cloth_count(cloth_vertices) {
+    for (Eigen::Index i = 0; i < 4; ++i) V_t0.row(i) = pair.x_t0[static_cast<std::size_t>(i)];
+    V_t1 = V_t0;
+    contact = contact_of(pair, kThickness);
+    x.copy(V_t0.topRows(cloth_count));
+    v.resize(cloth_count);
+    for (Eigen::Index i = 0; i < cloth_count; ++i) v.row(i) = pair.displacement[static_cast<std::size_t>(i)];
+  }
+
+  /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with.
+  RepulsionCount step(double load_m_s2 = 0, int sweeps = 1, const Vec3& friction_m_s2 = Vec3::Zero()) {
+    for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kStep * v.row(i);
+    const std::vector<RepulsionContact> contacts{contact};
+    const Ground ground = one_face();
+    const ContactLoad load{
+        contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
+    HeldContacts held(contacts, {load}, ground.surface(cloth_count), V_t0, V_t1, kStep, sweeps);
+    act(held, {kStep, 1, x, v});
+    loads = held.loads();
+    return held.count();
+  }
+
+  [[nodiscard]] PairVectors velocities() const {
+    PairVectors result = zero_vectors();
+    for (Eigen::Index i = 0; i < cloth_count; ++i) result[static_cast<std::size_t>(i)] = v.row(i);
+    return result;
+  }
+  /// Along the direction, at the end.
+  [[nodiscard]] double distance() const {
+    PairVectors at;
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      at[static_cast<std::size_t>(i)] = i < cloth_count ? Vec3(x.row(i)) : Vec3(V_t1.row(i));
+    }
+    return relative(contact.interaction, at).dot(contact.normal);
+  }
+};
+
+inline Vec3 friction_of(const ContactLoad& load) { return Vec3(load.friction_m_s2.data()); }
+
+/// One step of the dynamics in which the first vertex moves at v, m/s.
+inline void move_and_hold(OneContact& one, HeldContacts& held, const Eigen::RowVector3d& v, double share) {
+  one.v.row(0) = v;
+  one.x.row(0) += kStep * v;
+  act(held, {kStep, share, one.x, one.v});
+}
+
+/// A vertex a thickness above the middle of a face of a body, which moves by `moved` within the step.
+inline OneContact vertex_over_body(const Vec3& velocity, const Vec3& moved = Vec3::Zero()) {
+  RandomPair pair;
+  pair.x_t0 = {Vec3(0, 0, kThickness), Vec3(-2, -2, 0), Vec3(2, -2, 0), Vec3(0, 4, 0)};
+  pair.displacement = {velocity, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  pair.interaction =
+      make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, std::array<double, 4>{1, 0, 0, 0});
+  OneContact one(pair, 1);
+  one.contact.properties.friction_static = 0.5;
+  one.contact.properties.friction_kinetic = 0.4;
+  for (Eigen::Index i = 1; i < 4; ++i) one.V_t1.row(i) += moved.transpose();
+  return one;
+}
+
+}  // namespace selvage::sim::testing

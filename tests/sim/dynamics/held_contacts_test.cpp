@@ -1,0 +1,232 @@
+// What held contacts press, rub, bear and learn.
+#include <cmath>
+
+#include "tests/property.h"
+#include "tests/sim/dynamics/held_contact_scenes.h"
+
+namespace selvage::sim::testing {
+namespace {
+
+/// Vertices one above the other over a face of a body, a thickness apart: each lies on the one below by a contact of
+/// its own.
+struct Column {
+  static constexpr int kCount = 12;
+  static constexpr double kGravity = 10, kShort = 4e-4;
+  Positions V = Positions(kCount + 3, 3);
+  Ground ground{faces(), inverse_mass()};
+  std::vector<RepulsionContact> contacts;
+  std::vector<ContactLoad> loads;
+  LaneVectors x, v;
+  double highest = 0, lowest = 1;  ///< of the distances of neighbours over the thickness, ever
+
+  Column() {
+    for (int i = 0; i < kCount; ++i) V.row(i) = Eigen::RowVector3d(0, 0, (i + 1) * kThickness);
+    V.bottomRows(3) << -2, -2, 0, 2, -2, 0, 0, 4, 0;
+    add({0, kCount, kCount + 1, kCount + 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3});
+    // The nearest point of the next one's face is its corner below: the others have no weight.
+    for (int i = 1; i < kCount; ++i) add({i, i - 1, kCount + 1, kCount + 2}, {1, 1, 0, 0});
+    x.copy(V.topRows(kCount));
+    v.resize(kCount);
+    v.set_zero();
+  }
+
+  static Faces faces() {
+    Faces F(kCount, 3);
+    for (int i = 0; i < kCount; ++i) F.row(i) = Eigen::RowVector3i(i == 0 ? kCount : i - 1, kCount + 1, kCount + 2);
+    return F;
+  }
+  static std::vector<double> inverse_mass() {
+    std::vector<double> result(kCount + 3, 1.0);
+    for (std::size_t i = kCount; i < kCount + 3; ++i) result[i] = 0;
+    return result;
+  }
+
+  void add(const std::array<VertexId, 4>& vertices, const std::array<double, 4>& weights) {
+    RepulsionContact contact;
+    contact.first = vertices[0];
+    contact.second = static_cast<std::int32_t>(contacts.size());
+    contact.interaction = make_interaction(PairKind::kVf, vertices, weights, ground.inverse_mass);
+    contact.x_t0 = gather(contact.interaction, V);
+    contact.normal = Vec3::UnitZ();
+    contact.properties.thickness_m = kThickness;
+    contacts.push_back(contact);
+  }
+
+  /// A collision step of 40 steps of the dynamics.
+  void step(int sweeps) {
+    constexpr int kSteps = 40;
+    HeldContacts held(contacts, loads, ground.surface(kCount), V, V, kSteps * kShort, sweeps);
+    for (int step = 1; step <= kSteps; ++step) {
+      for (int i = 0; i < kCount; ++i) {
+        v.row(i).z() -= kShort * kGravity;
+        x.row(i) += kShort * v.row(i);
+      }
+      act(held, {kShort, double(step) / kSteps, x, v});
+      for (int i = 0; i < kCount; ++i) {
+        const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kThickness;
+        highest = std::max(highest, gap);
+        lowest = std::min(lowest, gap);
+      }
+    }
+    loads = held.loads();
+  }
+};
+
+}  // namespace
+
+TEST(HeldContacts, ComeNoNearerThanTheThicknessAndAddNeitherMomentumNorEnergy) {
+  selvage::testing::check_property(300, 31, [] {
+    const RandomPair pair = random_contact(number_between(1e-3, 0.4));
+    RC_PRE(lever_share(pair.interaction) == 1);
+    OneContact one(pair, 4);
+    one.contact.properties.friction_static = one.contact.properties.friction_kinetic = number_between(0, 1);
+    const Mechanics m0 = mechanics(pair.x_t0, pair.displacement, pair.inverse_mass);
+    const RepulsionCount count = one.step();
+    const Mechanics m1 = mechanics(pair.x_t0, one.velocities(), pair.inverse_mass);
+    RC_ASSERT((m1.linear - m0.linear).norm() <= 1e-12 * m0.linear_scale);
+    RC_ASSERT(m1.energy <= m0.energy * (1 + 1e-12));
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      RC_ASSERT((one.x.row(i) - one.V_t0.row(i) - kStep * one.v.row(i)).norm() <= 1e-12);  // x follows v
+    }
+    RC_CLASSIFY(count.repulsions > 0);
+    if (count.repulsions > 0) RC_ASSERT(one.distance() >= std::min(kThickness, one.contact.distance) - 1e-12);
+  });
+}
+
+TEST(HeldContacts, PropALoneContactTakesBackWhatItsLoadOrOverRelaxedSweepsWereTooMuch) {
+  selvage::testing::check_property(300, 33, [] {
+    const RandomPair pair = random_contact(number_between(1e-3, 0.4));
+    RC_PRE(lever_share(pair.interaction) == 1);
+    OneContact without(pair, 4);
+    without.contact.properties.friction_static = without.contact.properties.friction_kinetic = number_between(0, 1);
+    OneContact with = without;
+    without.step();
+    const double load_m_s2 = number_between(0, 100);
+    const Vec3 friction_m_s2(number_between(-50, 50), number_between(-50, 50), number_between(-50, 50));
+    with.step(load_m_s2, integer_in(1, 5), friction_m_s2);
+    RC_CLASSIFY(!without.loads.empty());
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      RC_ASSERT((with.v.row(i) - without.v.row(i)).norm() <= 1e-11);
+      RC_ASSERT((with.x.row(i) - without.x.row(i)).norm() <= 1e-11);
+    }
+    RC_ASSERT(with.loads.empty() == without.loads.empty());
+    if (without.contact.kind == PairKind::kEe) RC_ASSERT(with.loads.empty());
+    if (!without.loads.empty()) {
+      const double learnt_m_s2 = without.loads[0].acceleration_m_s2 + load_m_s2 / 2;
+      RC_ASSERT(std::abs(with.loads.at(0).acceleration_m_s2 - learnt_m_s2) <= 1e-10);
+      const Vec3 learnt = friction_of(without.loads[0]) + friction_m_s2 / 2;
+      RC_ASSERT((friction_of(with.loads[0]) - learnt).norm() <= 1e-9);
+    }
+  });
+}
+
+TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
+  OneContact one = vertex_over_body({0.2, 0.3, -1});
+  one.contact.first = 3;
+  one.contact.second = 7;
+  one.step();
+  ASSERT_EQ(one.loads.size(), 1U);
+  EXPECT_EQ(one.loads[0].vertex, 3);
+  EXPECT_EQ(one.loads[0].face, 7);
+  EXPECT_NEAR(one.loads[0].acceleration_m_s2, 0.5 / kStep, 1e-12);  // half of the 1 m/s that it took away in a step
+  EXPECT_LT((friction_of(one.loads[0]) - Vec3(-0.1, -0.15, 0) / kStep).norm(), 1e-12);  // and of the slip
+  OneContact leaves = vertex_over_body({0, 0, 1});
+  leaves.step(5);
+  EXPECT_TRUE(leaves.loads.empty());
+}
+
+TEST(HeldContacts, LearnNothingThatLeavesTheRangeOfDoubles) {
+  for (const double begun_m_s2 : {0.0, 1.7e308}) {  // the slip asks for the opposite
+    OneContact one = vertex_over_body({2e307, 0, -5e307});
+    one.step(begun_m_s2, 1, Vec3(begun_m_s2, 0, 0));
+    ASSERT_EQ(one.loads.size(), 1U);
+    EXPECT_TRUE(std::isfinite(one.loads[0].acceleration_m_s2));
+    EXPECT_TRUE(friction_of(one.loads[0]).allFinite());
+  }
+  OneContact too_fast = vertex_over_body({2.4e307, 0, -5e307});
+  too_fast.step();
+  ASSERT_EQ(too_fast.loads.size(), 1U);
+  EXPECT_EQ(friction_of(too_fast.loads[0]), Vec3(0, 0, 0));
+}
+
+TEST(HeldContacts, AColumnRestsOnItsLoads) {
+  // Where two sweeps begin at the other end in every other step, it swings.
+  for (const int sweeps : {1, 2, 3, 4}) {
+    SCOPED_TRACE(sweeps);
+    Column column;
+    for (int collision_step = 0; collision_step < 75; ++collision_step) column.step(sweeps);
+    EXPECT_GT(column.lowest, 0.99);
+    EXPECT_LT(column.highest, 1.01);
+    for (int i = 0; i < Column::kCount; ++i) EXPECT_LT(column.v.row(i).norm(), 1e-6) << i;
+    ASSERT_EQ(column.loads.size(), static_cast<std::size_t>(Column::kCount));
+    EXPECT_NEAR(column.loads[0].acceleration_m_s2, Column::kCount * Column::kGravity, 1e-3) << "the lowest bears all";
+  }
+}
+
+TEST(HeldContacts, KeepTheLimitOfALever) {
+  // The only free corner of a face, 32 times as far from the body's vertex below it as the corners that are held. The
+  // vertex rises.
+  constexpr double kLever = 32, kRise = 1e-3;
+  struct Case {
+    int sweeps;
+    bool is_found_late;
+    double load_m_s2;
+  };
+  for (const auto& [sweeps, is_found_late, load_m_s2] :
+       {Case{1, false, 0}, {4, false, 0}, {1, true, 0}, {4, true, 0}, {1, false, 1e-3}, {4, false, 1e-3}}) {
+    SCOPED_TRACE(::testing::Message() << sweeps << " sweeps, the lever is " << (is_found_late ? "found" : "known")
+                                      << ", it bore " << load_m_s2);
+    Positions V(4, 3), V_t1(4, 3);
+    V << 0, 1, kThickness, 0, 1 / kLever, 0, -2, 0, kThickness, 2, 0, kThickness;
+    V_t1 = V;
+    V_t1(1, 2) += kRise;
+    RepulsionContact contact;
+    contact.interaction =
+        make_interaction(PairKind::kVf, {1, 2, 3, 0}, {1, (1 - 1 / kLever) / 2, (1 - 1 / kLever) / 2, 1 / kLever},
+                         std::array<double, 4>{1, 0, 0, 0});
+    ASSERT_LT(lever_share(contact.interaction), 0.5);
+    if (is_found_late) contact.interaction.weights = {1, -1.0 / 3, -1.0 / 3, -1.0 / 3};
+    contact.x_t0 = gather(contact.interaction, V);
+    contact.normal = -Vec3::UnitZ();
+    contact.properties.thickness_m = kThickness;
+    LaneVectors x, v;
+    x.copy(V.topRows(1));
+    v.resize(1);
+    v.set_zero();
+    const Ground ground(Faces{{2, 3, 0}}, {1, 0, 0, 0});
+    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(1), V, V_t1, kStep, sweeps);
+    act(held, {kStep, 1, x, v});
+    const double moved = x.row(0).z() - V(0, 2);
+    EXPECT_NEAR(moved, kMaxLever * kMaxLever / kLever * kRise, 1e-3 * kRise) << sweeps;
+    EXPECT_TRUE(held.loads().empty());
+  }
+}
+
+TEST(HeldContacts, StickWithinTheConeAndSlideBeyond) {
+  OneContact sticks = vertex_over_body({0.4, 0, -1});
+  EXPECT_EQ(sticks.step().frictions, 1);
+  EXPECT_LT(sticks.v.row(0).norm(), 1e-15);
+  EXPECT_LT((sticks.x.row(0) - sticks.V_t0.row(0)).norm(), 1e-15);
+
+  OneContact slides = vertex_over_body({1.9, 0, -1});
+  EXPECT_EQ(slides.step().frictions, 1);
+  EXPECT_LT((slides.v.row(0) - Eigen::RowVector3d(1.9 - 0.4, 0, 0)).norm(), 1e-15);
+
+  OneContact creeps = vertex_over_body({0.9, 0, -1});
+  EXPECT_EQ(creeps.step().frictions, 1);
+  EXPECT_LT((creeps.v.row(0) - Eigen::RowVector3d(0.9 - 0.5, 0, 0)).norm(), 1e-15)
+      << "slower than four steps of gravity";
+
+  OneContact leaves = vertex_over_body({0.9, 0, 1});
+  EXPECT_EQ(leaves.step().repulsions, 0);
+  EXPECT_EQ(Eigen::RowVector3d(leaves.v.row(0)), Eigen::RowVector3d(0.9, 0, 1));
+}
+
+TEST(HeldContacts, FollowTheBodyTheyLieOn) {
+  OneContact one = vertex_over_body({0, 0, 0}, kStep * Vec3(0.2, 0, 1));
+  one.step();
+  EXPECT_LT((one.v.row(0) - Eigen::RowVector3d(0.2, 0, 1)).norm(), 1e-14);
+  EXPECT_NEAR(one.distance(), kThickness, 1e-15);
+}
+
+}  // namespace selvage::sim::testing

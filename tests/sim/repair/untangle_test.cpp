@@ -1,0 +1,239 @@
+// The repair of a start, judged by the exact checker: clean, or an honest no.
+#include "sim/repair/untangle.h"
+
+#include <cmath>
+#include <random>
+
+#include <xmmintrin.h>
+
+#include "tests/sim/step_scene.h"
+
+namespace selvage::sim::testing {
+namespace {
+
+FindIntersections exact_judge(const StepScene& scene) {
+  return [surface = verify::Surface{scene.triangles, scene.face_is_body}](const Positions& V) {
+    verify::CheckOptions options;
+    options.max_violations = 1'000'000;
+    std::vector<FacePair> pairs;
+    for (const verify::Violation& found : check_frame(surface, points_of(V), options).violations) {
+      pairs.push_back(verify::faces_of(found));
+    }
+    std::ranges::sort(pairs);
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  };
+}
+
+UntangleResult untangle_scene(const StepScene& scene, double gap_m = 1e-3) {
+  UntangleOptions options;
+  options.gap_m = gap_m;
+  options.precision = scene.options.precision;
+  options.surfaces = scene.surfaces;
+  return untangle(scene.mesh(), scene.V_t0, scene.bodies(), options, exact_judge(scene));
+}
+
+/// What holds for every repair, whether it succeeded or not; "" for nothing wrong.
+std::string defect_of(const StepScene& scene, const UntangleResult& result) {
+  if (result.x.rows() != scene.V_t0.rows() || !result.x.allFinite()) return "not the positions of the scene";
+  const bool is_clean = exact_defect(scene, result.x).empty();
+  if (is_clean != result.report.remaining.empty()) return "it does not say whether it is clean";
+  if (!is_clean && result.x != scene.V_t0) return "half repaired";
+  std::int64_t moved = 0;
+  for (Eigen::Index v = 0; v < result.x.rows(); ++v) {
+    const bool moves = result.x.row(v) != scene.V_t0.row(v);
+    moved += moves ? 1 : 0;
+    if (moves && scene.inverse_mass[static_cast<std::size_t>(v)] == 0) return "a script was left";
+  }
+  const double largest_m = (result.x - scene.V_t0).rowwise().norm().maxCoeff();
+  const bool counted = moved == result.report.moved_vertices &&
+                       std::abs(largest_m - result.report.largest_move_m) <= 1e-12 * (1 + largest_m);
+  return counted ? "" : "it miscounts what it moved";
+}
+
+/// Repairs, and requires that it worked with no vertex moved farther.
+void expect_repaired(const StepScene& scene, double largest_move_m) {
+  ASSERT_NE(exact_defect(scene, scene.V_t0), "") << "the case is no tangle";
+  const UntangleResult result = untangle_scene(scene);
+  EXPECT_EQ(defect_of(scene, result), "");
+  EXPECT_TRUE(result.report.remaining.empty())
+      << result.report.remaining.size() << " pairs remain of " << result.report.before.size();
+  EXPECT_LE(result.report.largest_move_m, largest_move_m);
+  EXPECT_GT(result.report.moved_vertices, 0);
+}
+
+StepScene interpenetrating_layers() {
+  StepScene scene;
+  scene.add(make_sheet(13, 13, 0.3, 0.3), Vec3::Zero());
+  const StepScene::Part upper = scene.add(make_sheet(12, 12, 0.28, 0.28), Vec3(0.003, 0.002, 0.001));
+  for (VertexId v = upper.begin; v < upper.end; ++v) {
+    scene.V_t0(v, 2) += 0.006 * std::sin(40 * scene.V_t0(v, 0)) * std::cos(30 * scene.V_t0(v, 1));
+  }
+  return scene;
+}
+
+}  // namespace
+
+TEST(Untangle, WhatIsCleanIsReturnedAsItIs) {
+  StepScene scene;
+  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
+  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3(0, 0, 1e-9));
+  const UntangleResult result = untangle_scene(scene);
+  EXPECT_EQ(result.x, scene.V_t0);
+  EXPECT_EQ(result.report.rounds, 1);
+  EXPECT_EQ(defect_of(scene, result), "");
+}
+
+TEST(Untangle, LayersThatInterpenetrate) { expect_repaired(interpenetrating_layers(), 0.02); }
+
+TEST(Untangle, SameBitsWhateverRoundingTheCallerHas) {
+  constexpr unsigned kUpwards = 0x4000;  // of MXCSR
+  const StepScene scene = interpenetrating_layers();
+  const UntangleResult expected = untangle_scene(scene);
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | kUpwards);
+  const UntangleResult result = untangle_scene(scene);
+  _mm_setcsr(before);
+  EXPECT_EQ(result.x, expected.x);
+}
+
+TEST(Untangle, ASheetThatStandsInAnother) {
+  StepScene scene;
+  scene.add(make_sheet(13, 13, 0.3, 0.3), Vec3::Zero());
+  const StepScene::Part upper = scene.add(make_sheet(9, 9, 0.2, 0.2), Vec3::Zero());
+  for (VertexId v = upper.begin; v < upper.end; ++v) {  // it stands upright, with its lowest quarter below
+    scene.V_t0.row(v) = Eigen::RowVector3d(scene.V_t0(v, 0) + 0.004, 0.007, scene.V_t0(v, 1) + 0.05);
+  }
+  expect_repaired(scene, 0.08);
+}
+
+TEST(Untangle, SheetsThatLieInOnePlane) {
+  StepScene scene;
+  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
+  scene.add(make_sheet(4, 4, 0.1, 0.1), Vec3(0.01, 0.013, 0));
+  expect_repaired(scene, 0.002);
+}
+
+TEST(Untangle, ClothThatWasPulledPartlyThroughABall) {
+  StepScene scene;
+  scene.add(make_sheet(21, 21, 0.5, 0.5), Vec3(0.003, 0.002, 0.07));
+  scene.add(make_sphere(0.1, 2), Vec3::Zero(), 0);
+  expect_repaired(scene, 0.05);
+}
+
+TEST(Untangle, ClothThroughTheMiddleOfABall) {
+  StepScene scene;
+  scene.add(make_sheet(13, 13, 0.5, 0.5), Vec3(0.003, 0.002, 0.001));
+  scene.add(make_sphere(0.1, 1), Vec3::Zero(), 0);
+  expect_repaired(scene, 0.15);
+}
+
+TEST(Untangle, ASheetCrossedByItsOwnCorner) {
+  StepScene scene;
+  const StepScene::Part sheet = scene.add(make_sheet(17, 17, 0.4, 0.4), Vec3::Zero());
+  const Vec3 across = Vec3(1, 1, 0).normalized();
+  for (VertexId v = sheet.begin; v < sheet.end; ++v) {
+    const Vec3 x = scene.V_t0.row(v);
+    const double beyond = x.dot(across) - 0.09;  // of the line along which the corner is folded back
+    if (beyond > 0) scene.V_t0.row(v) = x - 2 * beyond * across + Vec3(0, 0, 1.5 * beyond * (0.12 - beyond));
+  }
+  expect_repaired(scene, 0.08);
+}
+
+TEST(Untangle, ClothThatIsPinnedInsideABodyIsLeftAsItIs) {
+  StepScene scene;
+  scene.add(make_sheet(9, 9, 0.3, 0.3), Vec3(0.003, 0.002, 0.02));
+  scene.inverse_mass[40] = 0;  // the middle vertex
+  scene.add(make_sphere(0.1, 1), Vec3::Zero(), 0);
+  const UntangleResult result = untangle_scene(scene);
+  EXPECT_FALSE(result.report.remaining.empty());
+  EXPECT_EQ(result.report.moved_vertices, 0);
+  EXPECT_EQ(defect_of(scene, result), "");
+}
+
+TEST(Untangle, WhatCouldBeRepairedIsNotWhereSomethingRemains) {
+  StepScene scene;
+  scene.add(make_sheet(9, 9, 0.3, 0.3), Vec3(0.003, 0.002, 0.02));
+  scene.inverse_mass[40] = 0;
+  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3(0.31, 0, 0.02));  // in the plane of the first, over its edge
+  scene.add(make_sphere(0.1, 1), Vec3::Zero(), 0);
+  scene.V_t0.middleRows(81, 25).col(0).array() -= 0.12;
+  const UntangleResult result = untangle_scene(scene);
+  EXPECT_FALSE(result.report.remaining.empty());
+  EXPECT_LT(result.report.remaining.size(), result.report.before.size()) << "the sheets alone could be";
+  EXPECT_EQ(defect_of(scene, result), "");
+}
+
+TEST(Untangle, Float32ResultsLieOnTheLattice) {
+  StepScene scene;
+  scene.add(make_sheet(9, 9, 0.3, 0.3), Vec3(0.003, 0.002, 0.07));
+  scene.add(make_sphere(0.1, 1), Vec3::Zero(), 0);
+  scene.options.precision = CollisionOptions::Precision::kFloat32;
+  scene.V_t0 = scene.V_t0.cast<float>().cast<double>().eval();
+  const UntangleResult result = untangle_scene(scene);
+  EXPECT_TRUE(result.report.remaining.empty());
+  EXPECT_EQ(result.x, result.x.cast<float>().cast<double>());
+}
+
+// Random small tangles of one to three sheets, crumpled, sometimes pinned, sometimes with a body.
+TEST(Untangle, EndsCleanOrSaysWhatRemains) {
+  int tangled = 0, repaired = 0;
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    std::mt19937 engine(seed);
+    const auto between = [&](double lower, double upper) {
+      return lower + (upper - lower) * (double(engine()) * 0x1p-32);
+    };
+    StepScene scene;
+    const double crumple_m = between(0, 0.02);
+    const int sheets = static_cast<int>(between(1, 4));
+    for (int n = 0; n < sheets; ++n) {
+      const int side = static_cast<int>(between(4, 9));
+      const StepScene::Part part = scene.add(make_sheet(side, side, 0.1, 0.1),
+                                             Vec3(between(-0.03, 0.03), between(-0.03, 0.03), between(-0.01, 0.01)));
+      for (VertexId v = part.begin; v < part.end; ++v) {
+        for (int axis = 0; axis < 3; ++axis) scene.V_t0(v, axis) += crumple_m * between(-1, 1);
+      }
+      if (engine() % 8 == 0) scene.inverse_mass[static_cast<std::size_t>(part.begin)] = 0;
+    }
+    if (engine() % 2 == 0) scene.add(make_sphere(between(0.01, 0.04), 1), Vec3(0.01, 0, between(-0.05, 0.05)), 0);
+    const bool is_tangled = !exact_defect(scene, scene.V_t0).empty();
+    const UntangleResult result = untangle_scene(scene);
+    ASSERT_EQ(defect_of(scene, result), "") << seed;
+    ASSERT_EQ(result.report.before.empty(), !is_tangled) << seed;
+    ASSERT_LE(result.report.rounds, kMaxUntangleRounds + 4) << seed;
+    tangled += is_tangled ? 1 : 0;
+    repaired += is_tangled && result.report.remaining.empty() ? 1 : 0;
+  }
+  EXPECT_GT(tangled, 20);
+  EXPECT_GE(repaired, tangled * 9 / 10) << "of " << tangled;
+}
+
+/// Thick cloth and a thick ball that overlap a little: left as near as thin ones, they would be thrown apart.
+TEST(Untangle, PartsKeepTheTolerancesThatTheyHave) {
+  for (const double tolerance_m : {1e-6, 0.008}) {
+    StepScene scene;
+    const StepScene::Part sheet = scene.add(make_sheet(12, 12, 0.3, 0.3), Vec3(0, 0, 0.099));
+    scene.add(make_sphere(0.1, 2), Vec3::Zero(), 0);
+    scene.surfaces.properties = {{.thickness_m = 0.01, .tolerance_m = tolerance_m}};
+    scene.surfaces.surface_of_vertex.assign(static_cast<std::size_t>(scene.V_t0.rows()), 0);
+    const UntangleResult result = untangle_scene(scene);
+    EXPECT_EQ(defect_of(scene, result), "");
+    EXPECT_TRUE(result.report.remaining.empty());
+    const Mesh mesh = scene.mesh();
+    BoxHierarchy hierarchy(mesh);
+    double nearest_m = 1;
+    for (const PairProximity& pair : find_proximities(mesh, hierarchy, result.x, 0.01)) {
+      const auto vertices = pair_vertices(mesh, pair.kind, pair.first, pair.second);
+      const bool is_between = std::ranges::any_of(vertices, [&](VertexId v) { return v < sheet.end; }) &&
+                              std::ranges::any_of(vertices, [&](VertexId v) { return v >= sheet.end; });
+      if (is_between) nearest_m = std::min(nearest_m, pair.proximity.distance);
+    }
+    if (tolerance_m > 1e-3) {
+      EXPECT_GE(nearest_m, tolerance_m);
+    } else {
+      EXPECT_LT(nearest_m, 0.008) << "the scene asks for something";
+    }
+  }
+}
+
+}  // namespace selvage::sim::testing

@@ -1,0 +1,113 @@
+#include "sim/response/step_limit.h"
+
+#include "tests/property.h"
+#include "tests/sim/mechanics.h"
+#include "tests/sim/step_scene.h"
+
+namespace selvage::sim::testing {
+namespace {
+
+Shape triangle(double size_m) {
+  Shape shape;
+  shape.x.resize(3, 3);
+  shape.x << 0, 0, 0, size_m, 0, 0, 0, size_m, 0;
+  shape.triangles = {{0, 1, 2}};
+  return shape;
+}
+
+}  // namespace
+
+TEST(Clearance, IsTheLeastDistanceToWhatAVertexMustNotMeet) {
+  StepScene scene;
+  scene.add(triangle(1), Vec3::Zero());
+  scene.add(triangle(0.1), Vec3(0.2, 0.2, 0.05));
+  const Mesh mesh = scene.mesh();
+  BoxHierarchy hierarchy(mesh);
+  const std::vector<std::uint8_t> all(6, 1);
+  const std::vector<double> near = clearance(mesh, hierarchy, scene.V_t0, 1, all);
+  for (const double distance : near) EXPECT_NEAR(distance, 0.05, 1e-12);  // the gap between the triangles
+  scene.V_t0.bottomRows(3).col(2).setConstant(0.5);
+  const std::vector<double> far = clearance(mesh, hierarchy, scene.V_t0, 1, all);
+  for (std::size_t v = 0; v < 3; ++v) EXPECT_NEAR(far[v], 0.5, 1e-12);
+  for (std::size_t v = 3; v < 6; ++v) EXPECT_NEAR(far[v], 0.1 / std::sqrt(2), 1e-12);  // its own triangle's altitude
+  for (const double distance : clearance(mesh, hierarchy, scene.V_t0, 0.01, all)) EXPECT_EQ(distance, 0.01);
+  const std::vector<std::uint8_t> one{1, 0, 0, 0, 0, 0};
+  const std::vector<double> flagged = clearance(mesh, hierarchy, scene.V_t0, 1, one);
+  EXPECT_NEAR(flagged[0], 0.5, 1e-12);
+  for (std::size_t v = 1; v < 6; ++v) EXPECT_EQ(flagged[v], 1);
+}
+
+TEST(Clearance, VerticesWithinABallOfHalfOfItNeverTouch) {
+  // The claim behind kLimited, played with the exact checker at almost the full half.
+  selvage::testing::check_property(60, 71, [] {
+    StepScene scene;
+    const double gap_m = std::exp2(number_between(-20, -3));
+    for (int layer = 0; layer < 2; ++layer) scene.add(make_sheet(3, 3, 0.1, 0.1), Vec3(0, 0, gap_m * layer));
+    for (Eigen::Index v = 0; v < scene.V_t0.rows(); ++v) scene.V_t0.row(v) += vector_within(0.4 * gap_m).transpose();
+    const Mesh mesh = scene.mesh();
+    BoxHierarchy hierarchy(mesh);
+    const std::vector<std::uint8_t> all(static_cast<std::size_t>(mesh.vertex_count), 1);
+    const std::vector<double> distance = clearance(mesh, hierarchy, scene.V_t0, 1, all);
+    CollisionStepResult moved;
+    moved.report.status = StepStatus::kSafe;
+    moved.x = scene.V_t0;
+    moved.velocity = Positions::Zero(mesh.vertex_count, 3);
+    for (Eigen::Index v = 0; v < scene.V_t0.rows(); ++v) {
+      const Vec3 direction = vector_within(1);
+      RC_PRE(direction.norm() > 0);
+      moved.x.row(v) += (0.499 * distance[static_cast<std::size_t>(v)] * direction.normalized()).transpose();
+    }
+    RC_ASSERT(exact_defect(scene, moved) == "");
+  });
+}
+
+TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
+  StepScene scene;
+  scene.add(triangle(1), Vec3::Zero());
+  const StepScene::Part above = scene.add(triangle(0.5), Vec3(0.1, 0.1, 0.05));
+  scene.push(above, Vec3(0.01, 0, -1));
+  const Mesh mesh = scene.mesh();
+  BoxHierarchy hierarchy(mesh);
+  const CollisionBodies bodies = scene.bodies();
+  ScriptedGroups groups(bodies);
+  StepMotion motion;
+  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+  groups.observe(motion);
+  const std::vector<std::uint8_t> all(6, 1);
+  const ContactTable contacts(mesh, {}, {});
+  CollisionTracker tracker(mesh, hierarchy, contacts, 4096, all);
+  tracker.start(motion);
+  ASSERT_TRUE(tracker.has_motion_collision());
+  std::vector<std::uint8_t> collides(6, 0);
+  for (const Collision& collision : tracker.collisions()) {
+    for (const VertexId v : tracker.vertices(collision)) collides[static_cast<std::size_t>(v)] = 1;
+  }
+
+  StepLimiter limiter(mesh, hierarchy, groups, 1);
+  ASSERT_FALSE(limiter.restrain(tracker, motion));
+  EXPECT_EQ(limiter.restrained_count(), std::ranges::count(collides, 1));
+  const std::vector<double> distance = clearance(mesh, hierarchy, scene.V_t0, 1, all);
+  for (std::size_t v = 0; v < collides.size(); ++v) {
+    if (collides[v] == 0) continue;
+    const auto row = static_cast<Eigen::Index>(v);
+    EXPECT_LE((motion.x().row(row) - scene.V_t0.row(row)).norm(), 1.001 * kBallShare * distance[v]) << v;
+  }
+}
+
+TEST(FailSafe, LimitsOnlyWhatCollides) {
+  // One vertex is thrown through the other sheet; without responses only the vertices it meets are held back.
+  StepScene scene;
+  scene.add(make_sheet(9, 9, 0.1, 0.1), Vec3::Zero());
+  scene.add(make_sheet(9, 9, 0.1, 0.1), Vec3(0.001, 0.002, 0.01));
+  scene.V_candidate(40, 2) += 0.02;
+  scene.options.repulsion = false;
+  scene.options.impulse_iterations = 0;
+  scene.options.zone_iterations = 0;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_GT(result.report.fail_safe_vertices, 0);
+  EXPECT_LT(result.report.fail_safe_vertices, 20);
+  EXPECT_LE(std::abs(result.x(40, 2) - scene.V_t0(40, 2)), kBallShare * scene.options.thickness_m);
+}
+
+}  // namespace selvage::sim::testing
