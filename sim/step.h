@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "kernel/fp_env.h"
@@ -10,11 +9,12 @@
 #include "sim/base/vertex_faces.h"
 #include "sim/collision_step.h"
 #include "sim/contact/repulsion_contact.h"
-#include "sim/contact/surface_parts.h"
 #include "sim/dynamics/contact_load.h"
 #include "sim/dynamics/dynamics.h"
 #include "sim/scene/scene.h"
+#include "sim/scripted_motion.h"
 #include "sim/springs/spring_strain.h"
+#include "sim/step_allowance.h"
 #include "sim/step_lengths.h"
 #include "sim/time_step.h"
 #include "sim/world.h"
@@ -63,33 +63,29 @@ class Simulation {
 
   struct Try {
     bool failed = false;             ///< to be tried with half the step
+    Positions candidate;             ///< #V by 3: of the dynamics and the scripts
     Motion end;                      ///< of the dynamics
     RepulsionCount held;             ///< in the dynamics
     std::vector<ContactLoad> loads;  ///< at its end
     CollisionStepResult safe;
   };
+  /// From the state, in the clock's step; adds its phases, and the dynamics' report.
   Try try_step(StepResult& result);
-  /// Whether anyone had to wait in the try who did not stand still anyway; notes who.
-  bool others_wait(const Try& tried);
-  /// Bodies and vertices, as in CollisionStepReport.
-  [[nodiscard]] std::pair<std::vector<std::int32_t>, std::vector<VertexId>> waiting() const;
-  Positions scripted_positions();
-  /// Writes where the collider goes in the step.
-  void follow_script(const Collider& collider, Positions& x) const;
-  [[nodiscard]] Positions in_free_flight(Positions x, double dt_s) const;
-  DynamicsReport advance_cloth(Positions& candidate, Motion& end, HeldContacts* contacts);
-  [[nodiscard]] CollisionBodies bodies() const { return bodies_of(world_, scripted_, scene_.squeeze); }
+  /// Contacts that the dynamics should hold from the beginning. `x`: scripted vertices at the end of the step.
+  [[nodiscard]] std::vector<RepulsionContact> likely_contacts(Positions x, StepPhases& phases);
+  /// From the state to the try's candidate. Gives back the contacts as they were held to the end.
+  std::vector<RepulsionContact> run_dynamics(const std::vector<RepulsionContact>& held, bool is_last, Try& tried,
+                                             StepResult& result);
+  /// From the state and the try's candidate to positions that are safe.
+  void resolve_collisions(const std::vector<RepulsionContact>& held, bool is_last, Try& tried, StepPhases& phases);
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
+  /// How fast the points of any of these contacts move against each other; m/s.
   [[nodiscard]] double fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const;
-  /// That the longest step bears in all tries, and that count as none.
-  [[nodiscard]] std::int64_t few_collisions() const;
-  /// How much more than the longest step this one bears.
-  [[nodiscard]] std::int64_t borne() const;
   /// Whether contact presses more springs than are borne.
-  [[nodiscard]] bool overstrains(const Try& tried, const Positions& candidate) const;
+  [[nodiscard]] bool overstrains(const Try& tried) const;
   /// Whether the collision step put more energy into the springs of a part than is borne.
   [[nodiscard]] bool energizes(const Try& tried) const;
-  void commit(const CollisionStepResult& safe, Motion end);
+  void commit(Try& tried);
 
   Scene scene_;
   World world_;
@@ -98,13 +94,11 @@ class Simulation {
   double shortest_s_ = 0;  ///< for what meets in this step
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
+  StepAllowance allowance_;
+  ScriptedMotion script_;
   VertexFaces vertex_faces_;
-  SurfaceParts parts_;
   Positions x_, v_;
   std::vector<ContactLoad> loads_;
-  Patience patience_;                ///< while the step can be halved
-  ScriptedVertices scripted_;        ///< now
-  std::vector<std::uint8_t> waits_;  ///< #V: stands still in this step
 };
 
 }  // namespace selvage::sim

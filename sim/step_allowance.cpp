@@ -1,0 +1,62 @@
+#include "sim/step_allowance.h"
+
+#include <algorithm>
+
+#include "sim/contact_energy.h"
+#include "sim/springs/spring_strain.h"
+
+namespace selvage::sim {
+namespace {
+
+// The paper halves the step for a single collision, which in folds at speed leaves none much longer than the dynamics'.
+// Impulses are good at few: up to one collision for 400 vertices that a few rounds resolve are borne, and an eighth of
+// that still counts as a good step, or steps in which something always collides would stay as short as they are.
+// docs/simulator-speed.md says what was measured. Small cloth (below 400 vertices) has the paper's rule.
+constexpr std::int64_t kVerticesACollision = 400;
+constexpr std::int64_t kImpulseRounds = 4;
+constexpr std::int64_t kGoodShare = 8;
+
+// Half the step bears twice as much, up to this: what an impulse or a contact moves is less by as much, and to halve
+// the step again spares little. At 3 m/s contact overstrains 121 springs in 2.1 ms, and 36 in each half of them
+// (sim/scenes/curtain.toml, 2.84 s). docs/simulator-speed.md says what it is worth.
+constexpr std::int64_t kMostBorne = 4;
+std::int64_t borne(std::int32_t halvings) { return std::min(std::int64_t{1} << halvings, kMostBorne); }
+
+// What a collision step may put into the springs of a part of the cloth, of the energy that this has: otherwise the
+// dynamics runs once more, and holds what was met. A step that is long beside the swing of stiff springs displaces
+// vertices by more than these would let it. docs/stability.md says what it is worth, and what it costs.
+constexpr double kEnergyBorne = 0.08;
+
+}  // namespace
+
+StepAllowance::StepAllowance(const Scene& scene, const World& world)
+    : scene_(scene),
+      world_(world),
+      parts_(world.mesh),
+      patience_{world.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
+
+Patience StepAllowance::patience_before_last(std::int32_t halvings) const {
+  return {borne(halvings) * few(), kImpulseRounds};
+}
+
+std::int64_t StepAllowance::few() const { return patience_.collisions / kGoodShare; }
+
+// Without, a sheet of 16 x 16 vertices that falls on its edge has springs of a sixtieth of their length, and
+// sim/scenes/table-legs.toml at full quality springs of 86 times their length.
+bool StepAllowance::overstrains(const Positions& x_t0, const Positions& candidate, const Positions& x,
+                                std::int32_t halvings) const {
+  return springs_overstrained(world_.springs, scene_.strain.strain, {x_t0, candidate, x}) >
+         borne(halvings) * patience_.collisions;
+}
+
+// Under the implicit solver nearly all contacts are held in the first run, and another costs as much as a step.
+bool StepAllowance::energizes(const Motion& end, const Positions& x, std::span<const double> inverse_mass,
+                              double dt_s) const {
+  if (scene_.solver != Solver::kExplicit) return false;
+  const double fall_m_s = dt_s * scene_.gravity_m_s2.norm();
+  return std::ranges::any_of(
+      contact_energies(world_.springs, parts_, inverse_mass, end, x, fall_m_s),
+      [](const ContactEnergy& energy) { return energy.gain_j > kEnergyBorne * energy.before_j; });
+}
+
+}  // namespace selvage::sim
