@@ -1,20 +1,29 @@
-# SELVAGE_EIGEN_LAYOUT: how Eigen aligns and allocates under these flags, for kernel/types.h to compare in users' code.
+# SELVAGE_EIGEN_LAYOUT: how Eigen aligns and allocates under these flags, for kernel/types.h to compare in every unit.
 include(CheckCXXSourceCompiles)
+
+# Options of this folder come beside CMAKE_CXX_FLAGS: those that a project around this one gives to all that it builds.
+get_directory_property(options COMPILE_OPTIONS)
+get_directory_property(definitions COMPILE_DEFINITIONS)
+add_library(selvage_folder_flags INTERFACE IMPORTED)
+set_target_properties(selvage_folder_flags PROPERTIES
+  INTERFACE_COMPILE_OPTIONS "${options}" INTERFACE_COMPILE_DEFINITIONS "${definitions}")
 
 string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
 set(CMAKE_REQUIRED_FLAGS "${CMAKE_CXX_FLAGS_${config}}")
-get_target_property(CMAKE_REQUIRED_INCLUDES Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+set(CMAKE_REQUIRED_LIBRARIES selvage_folder_flags Eigen3::Eigen)
+# CMake keeps answers for as long as the build folder lives: each is to the flags in its name.
+string(MD5 flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${config}} ${options} ${definitions}")
 foreach(layout 33 32 65 64 129 128)
   check_cxx_source_compiles("
     #include <Eigen/Core>
     static_assert(2 * EIGEN_DEFAULT_ALIGN_BYTES + EIGEN_MALLOC_ALREADY_ALIGNED == ${layout});
-    int main() {}" SELVAGE_EIGEN_LAYOUT_IS_${layout})
-  if(SELVAGE_EIGEN_LAYOUT_IS_${layout})
+    int main() {}" SELVAGE_EIGEN_LAYOUT_IS_${layout}_${flags})
+  if(SELVAGE_EIGEN_LAYOUT_IS_${layout}_${flags})
     set(SELVAGE_EIGEN_LAYOUT ${layout})
     break()
   endif()
 endforeach()
-unset(CMAKE_REQUIRED_INCLUDES)
+unset(CMAKE_REQUIRED_LIBRARIES)
 unset(CMAKE_REQUIRED_FLAGS)
 if(NOT SELVAGE_EIGEN_LAYOUT)
   message(FATAL_ERROR "Eigen aligns its matrices in a way that cmake/SelvageEigen.cmake does not know; add it there")

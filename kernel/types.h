@@ -10,7 +10,7 @@
 #endif
 
 // Eigen's matrices are allocated and aligned as the compiler's flags say (-march, -fsanitize): freed by code with other
-// flags they crash. Installed, Selvage knows how it was built.
+// flags they crash. The library's CMake target tells its users, and itself, how it is built.
 #ifdef SELVAGE_EIGEN_LAYOUT
 static_assert(2 * EIGEN_DEFAULT_ALIGN_BYTES + EIGEN_MALLOC_ALREADY_ALIGNED == SELVAGE_EIGEN_LAYOUT,
               "selvage: this is compiled with other -march, -mavx or -fsanitize flags than the library, and Eigen's "
