@@ -58,9 +58,12 @@ void bad_input_at_byte(std::string_view name, std::size_t offset, std::string_vi
 }
 
 void file_error(std::string_view name, std::string_view action, int errno_value) {
+  file_error(name, action, errno_value, remedy(errno_value));
+}
+
+void file_error(std::string_view name, std::string_view action, int errno_value, std::string_view remedy) {
   throw Error(ErrorKind::kFile, one_line(name) + ": cannot " + std::string(action) + ": " +
-                                    std::generic_category().message(errno_value) + "; " +
-                                    std::string(remedy(errno_value)));
+                                    std::generic_category().message(errno_value) + "; " + one_line(remedy));
 }
 
 }  // namespace selvage::io

@@ -20,5 +20,7 @@ namespace selvage::io {
 [[noreturn]] void bad_input_at_byte(std::string_view name, std::size_t offset, std::string_view what);
 /// Throws Error(kFile, "NAME: cannot ACTION: reason of errno_value; remedy").
 [[noreturn]] void file_error(std::string_view name, std::string_view action, int errno_value);
+/// The same with a remedy that the number alone does not give.
+[[noreturn]] void file_error(std::string_view name, std::string_view action, int errno_value, std::string_view remedy);
 
 }  // namespace selvage::io

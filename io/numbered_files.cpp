@@ -1,11 +1,15 @@
 #include "io/numbered_files.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "io/fail.h"
@@ -13,6 +17,45 @@
 namespace selvage::io {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+struct NumberedFile {
+  std::int64_t number;
+  std::string digits;  ///< of which some may be leading zeros
+  fs::path file;
+};
+
+/// `number` with as many digits as its neighbour below has.
+std::string digits_like(const std::string& neighbour, std::int64_t number) {
+  const std::string digits = std::to_string(number);
+  return std::string(neighbour.size() - std::min(neighbour.size(), digits.size()), '0') + digits;
+}
+
+/// Names the first that is missing where the numbers go up by the smallest step or a multiple of it.
+void require_one_step(const fs::path& pattern, std::string_view before, std::string_view after,
+                      std::span<const NumberedFile> found) {
+  std::int64_t step = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t i = 1; i < found.size(); ++i) step = std::min(step, found[i].number - found[i - 1].number);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    const NumberedFile &last = found[i - 1], &next = found[i];
+    const std::string from = last.file.filename().string(), to = next.file.filename().string();
+    if (last.number == next.number)
+      bad_input(pattern.string(), from + " and " + to + " have the same number; keep one");
+    if (step == 0 || next.number - last.number == step) continue;  // 0: two others have one number
+    if ((next.number - last.number) % step != 0) {
+      bad_input(pattern.string(), "after " + from + " comes " + to +
+                                      ", and the numbers do not go up by one step; move away what is no frame");
+    }
+    std::string missing(before);
+    missing += digits_like(last.digits, last.number + step);
+    missing += after;
+    file_error((pattern.parent_path() / missing).string(), "open", ENOENT,
+               "it is missing between " + from + " and " + to + ": add it, or move away what is no frame");
+  }
+}
+
+}  // namespace
 
 std::vector<fs::path> numbered_files(const fs::path& pattern) {
   const std::string name = pattern.filename().string();
@@ -23,7 +66,7 @@ std::vector<fs::path> numbered_files(const fs::path& pattern) {
   if (after.find('*') != std::string_view::npos) {
     bad_input(pattern.string(), "two * in one name; put one in the place of the frame's number");
   }
-  std::vector<std::pair<std::int64_t, fs::path>> found;
+  std::vector<NumberedFile> found;
   std::error_code status;
   const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
   for (fs::directory_iterator entry(folder, status), end; !status && entry != end; entry.increment(status)) {
@@ -32,22 +75,17 @@ std::vector<fs::path> numbered_files(const fs::path& pattern) {
     const char *begin = file.data() + before.size(), *stop = file.data() + file.size() - after.size();
     std::int64_t number = 0;
     const auto [behind, error] = std::from_chars(begin, stop, number);
-    if (error == std::errc() && behind == stop && number >= 0) found.emplace_back(number, pattern.parent_path() / file);
+    if (error != std::errc() || behind != stop || number < 0) continue;
+    found.push_back({number, std::string(begin, stop), pattern.parent_path() / file});
   }
   if (status) file_error(folder.string(), "list", status.value());
-  if (found.empty()) bad_input(pattern.string(), "no file has such a name with a number for *; check the path");
-  std::ranges::sort(found);
-  const std::int64_t step = found.size() > 1 ? found[1].first - found[0].first : 1;
-  std::vector<fs::path> files{found.front().second};
-  for (std::size_t i = 1; i < found.size(); ++i) {
-    if (step == 0 || found[i].first - found[i - 1].first != step) {
-      bad_input(pattern.string(), "after " + found[i - 1].second.filename().string() + " comes " +
-                                      found[i].second.filename().string() +
-                                      ", and the numbers do not go up by one step; add what is missing, or move away "
-                                      "what is none of them");
-    }
-    files.push_back(found[i].second);
+  if (found.empty()) {
+    file_error(pattern.string(), "open", ENOENT, "no file has such a name with a number for *; check the path");
   }
+  std::ranges::sort(found, {}, [](const NumberedFile& f) { return std::tie(f.number, f.file); });
+  require_one_step(pattern, before, after, found);
+  std::vector<fs::path> files;
+  for (NumberedFile& each : found) files.push_back(std::move(each.file));
   return files;
 }
 

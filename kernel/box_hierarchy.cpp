@@ -84,6 +84,8 @@ BoxHierarchy& BoxHierarchy::operator=(BoxHierarchy&&) noexcept = default;
 void BoxHierarchy::refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options) {
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(V_t0.rows() == impl_->mesh.vertex_count && V_t1.rows() == impl_->mesh.vertex_count);
+  SELVAGE_REQUIRE(options.active.empty() || std::ssize(options.active) == impl_->mesh.vertex_count);
+  SELVAGE_REQUIRE(options.reach >= 0);
   impl_->choose(V_t0, V_t1);
   impl_->boxes->refit(impl_->mesh, *impl_->chosen, V_t0, V_t1, options);
 }

@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "kernel/assert.h"
 #include "kernel/fp_env.h"
 
 namespace selvage {
@@ -46,9 +45,6 @@ FittedBoxes::FittedBoxes(const Mesh& mesh, const FaceClusters& clusters)
 
 void FittedBoxes::refit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_t0,
                         const PositionsRef& V_t1, const CandidateOptions& options) {
-  SELVAGE_ASSERT(V_t0.rows() == mesh.vertex_count && V_t1.rows() == mesh.vertex_count);
-  SELVAGE_ASSERT(options.active.empty() || options.active.size() == vertex_active_.size());
-  SELVAGE_ASSERT(options.reach >= 0);
   mark_active(mesh, clusters, options.active);
   // Whatever an exception leaves of these, what is read has its size.
   if (options.boxes == MotionBoxes::kMoving) t1_.resize(vertex_active_.size(), cluster_active_.size());

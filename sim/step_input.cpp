@@ -72,12 +72,15 @@ InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options
 
 InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> held) {
   const auto is_vertex = [&](VertexId v) { return v >= 0 && v < mesh.vertex_count; };
+  constexpr std::size_t kPairVertices = 4;  // of vf and ee pairs
   for (const RepulsionContact& contact : held) {
     const std::size_t count = contact.kind == PairKind::kVf ? mesh.faces.size() : mesh.edges.size();
     const auto is_second = [&](std::int32_t id) { return id >= 0 && static_cast<std::size_t>(id) < count; };
     const bool is_first = contact.kind == PairKind::kVf ? is_vertex(contact.first) : is_second(contact.first);
-    const bool fits = contact.kind != PairKind::kSelf && is_first && is_second(contact.second) &&
-                      is_second(contact.second_t0) && std::ranges::all_of(contact.interaction.vertices, is_vertex);
+    const bool is_pair = contact.kind == PairKind::kVf || contact.kind == PairKind::kEe;
+    const bool fits = is_pair && is_first && is_second(contact.second) && is_second(contact.second_t0) &&
+                      contact.interaction.vertex_count == kPairVertices &&
+                      contact.interaction.vertices == pair_vertices(mesh, contact.kind, contact.first, contact.second);
     if (!fits) return InputError::kSizeMismatch;
     const auto is_finite = [](double value) { return std::isfinite(value); };
     const auto& [vertices, weights, vertex_count, mobility, scale] = contact.interaction;

@@ -15,7 +15,8 @@ namespace selvage::sim {
                                              const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                              const CollisionBodies& bodies, double dt_s);
 
-/// Likewise of the contacts given to a step: kSizeMismatch or kNotFinite. O(#contacts).
+/// Likewise of the contacts given to a step: kSizeMismatch where one is no vf or ee pair of the mesh with the vertices
+/// of that, or kNotFinite. O(#contacts).
 [[nodiscard]] InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> held);
 
 }  // namespace selvage::sim

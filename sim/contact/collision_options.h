@@ -12,8 +12,8 @@ namespace selvage::sim {
 /// Defaults are the paper's numbers, except for `relaxation`. The first two and the friction are those of the whole
 /// mesh, unless ContactSurfaces says what its parts have.
 struct CollisionOptions {
-  double thickness_m = 1e-3;           ///< cloth thickness h: repulsions act below it (paper, 7.2); >= 0
-  double tolerance_m = 1e-6;           ///< distance kept at the end of every step (paper, section 6); >= 0
+  double thickness_m = 1e-3;           ///< cloth thickness h: repulsions act below it (paper, 7.2); in [0, kMaxCoordinate]
+  double tolerance_m = 1e-6;           ///< distance kept at the end of every step (paper, section 6); likewise
   double repulsion_stiffness_n_m = 0;  ///< spring constant k of the overlap repulsion; 0: the inelastic part alone
   double overlap_fraction = 0.1;       ///< of the overlap removed a step at most (paper, 7.2), in [0, 1]
   /// An impulse of section 7.4 gives at most this share of itself in one parallel round, in (0, 1]; never more than

@@ -10,8 +10,8 @@ namespace selvage::sim {
 
 /// Of one surface, or of a pair of them.
 struct ContactProperties {
-  double thickness_m = 1e-3;    ///< repulsions act below it (paper, 7.2); >= 0
-  double tolerance_m = 1e-6;    ///< distance kept at the end of every step (paper, section 6); >= 0
+  double thickness_m = 1e-3;    ///< repulsions act below it (paper, 7.2); in [0, kMaxCoordinate]
+  double tolerance_m = 1e-6;    ///< distance kept at the end of every step (paper, section 6); likewise
   double friction_static = 0;   ///< Coulomb coefficient, dimensionless, >= friction_kinetic
   double friction_kinetic = 0;  ///< Coulomb coefficient, dimensionless, >= 0
 

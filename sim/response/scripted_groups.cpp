@@ -48,6 +48,7 @@ void ScriptedGroups::wait(std::span<const GroupId> groups, std::span<const Verte
   }
   if (any) return;
   for (const GroupId id : groups) std::ranges::for_each(at(id).vertices, wait_one);
+  SELVAGE_ASSERT(any);
 }
 
 std::vector<std::int32_t> ScriptedGroups::waiting_bodies() const {

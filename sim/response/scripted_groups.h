@@ -30,7 +30,8 @@ class ScriptedGroups {
   [[nodiscard]] bool deforms(GroupId group) const { return at(group).deforms; }
 
   /// Makes vertices keep their start positions for this step: all of the rigid ones of `groups`, and those of
-  /// `vertices` that belong to any group that deforms; where these are none, all of `groups`.
+  /// `vertices` that belong to any group that deforms; where all of these wait, all of `groups`. Asserts that one at
+  /// least did not wait till now: what calls it until nothing is in the way ends.
   void wait(std::span<const GroupId> groups, std::span<const VertexId> vertices);
   [[nodiscard]] bool waits(VertexId vertex) const { return waits_[static_cast<std::size_t>(vertex)] != 0; }
   /// The caller's bodies of which a vertex waits, sorted.

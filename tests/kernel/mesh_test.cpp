@@ -44,6 +44,20 @@ TEST(Requirements, AreAskedBeforeAnythingIsProved) {
   EXPECT_DEATH(static_cast<void>(find_proximities(mesh, hierarchy, bad, 0.1)),
                "is called without what it requires: validate");
   EXPECT_DEATH(static_cast<void>(BoxHierarchy(mesh).candidates()), "candidates is called without");
+  for (const std::size_t flags : {1U, 5U, 7U}) {  // of 6 vertices
+    const std::vector<std::uint8_t> active(flags, 1);
+    EXPECT_DEATH(static_cast<void>(find_collisions(mesh, hierarchy, V, V, {}, active)),
+                 "is called without what it requires: .*active");
+    EXPECT_DEATH(static_cast<void>(find_proximities(mesh, hierarchy, V, 0.1, active)),
+                 "is called without what it requires: .*active");
+    EXPECT_DEATH(static_cast<void>(find_near_candidates(mesh, hierarchy, V, 0.1, active)),
+                 "is called without what it requires: .*active");
+    EXPECT_DEATH(static_cast<void>(find_candidates_brute_force(mesh, V, V, {0, active})),
+                 "is called without what it requires: .*active");
+  }
+  for (const double reach : {-1.0, kNan}) {
+    EXPECT_DEATH(hierarchy.refit(V, V, {reach, {}}), "refit is called without what it requires: .*reach");
+  }
 }
 
 TEST(InputErrorText, EveryErrorSaysWhatToDo) {

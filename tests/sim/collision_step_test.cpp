@@ -361,6 +361,15 @@ TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
             InputError::kSizeMismatch);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.interaction.vertices[0] = -1; }), InputError::kSizeMismatch);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.second = 1'000; }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.second_t0 = -1; }), InputError::kSizeMismatch);
+  for (const std::size_t count : {0, 3, 5, 1'000'000'000}) {  // 3 is of self pairs alone
+    EXPECT_EQ(error_with([=](RepulsionContact& c) { c.interaction.vertex_count = count; }), InputError::kSizeMismatch)
+        << count;
+  }
+  EXPECT_EQ(error_with([](RepulsionContact& c) { std::swap(c.interaction.vertices[0], c.interaction.vertices[3]); }),
+            InputError::kSizeMismatch)
+      << "vertices of another pair";
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = static_cast<PairKind>(7); }), InputError::kSizeMismatch);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = PairKind::kSelf; }), InputError::kSizeMismatch);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.normal[1] = std::numeric_limits<double>::quiet_NaN(); }),
             InputError::kNotFinite);

@@ -84,6 +84,10 @@ TEST(StepInput, OptionsOutsideTheirRangesAreRefused) {
     EXPECT_EQ(error_after([=](CollisionOptions& o) { o.friction_static = bad; }), InputError::kBadOption);
     EXPECT_EQ(error_after([=](CollisionOptions& o) { o.friction_kinetic = bad; }), InputError::kBadOption);
   }
+  for (double CollisionOptions::*length : {&CollisionOptions::thickness_m, &CollisionOptions::tolerance_m}) {
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.*length = kMaxCoordinate; }), InputError::kNone);
+    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.*length = 1.5 * kMaxCoordinate; }), InputError::kBadOption);
+  }
   EXPECT_EQ(error_after([](CollisionOptions& o) { o.relaxation = 0; }), InputError::kBadOption);
   EXPECT_EQ(error_after([](CollisionOptions& o) { o.friction_kinetic = 0.1; }), InputError::kBadOption);  // > static
   EXPECT_EQ(error_after([](CollisionOptions& o) { o.impulse_iterations = -1; }), InputError::kBadOption);
