@@ -1,13 +1,12 @@
 #include "cli/start_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/start_remedy.h"
 #include "io/error.h"
 #include "sim/base/points.h"
 #include "sim/repair/start_repair.h"
@@ -56,51 +55,11 @@ void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pair
   if (pairs.size() > kNamedPairs) fmt::print(stderr, "  and {} pairs more\n", pairs.size() - kNamedPairs);
 }
 
-std::array<VertexId, 3> corners(const sim::World& world, FaceId face) {
-  return world.triangles[static_cast<std::size_t>(face)];
-}
-
-bool is_without_area(const sim::FacePair& pair) { return pair[0] == pair[1]; }
-
-bool is_twice(const sim::World& world, const sim::FacePair& pair) {
-  const auto f = corners(world, pair[0]), g = corners(world, pair[1]);
-  return !is_without_area(pair) && std::ranges::is_permutation(f, g);
-}
-
-/// Corners of these faces that lie, to the bit, where another one lies.
-std::size_t count_coincident(const sim::World& world, const Positions& x, const std::vector<sim::FacePair>& pairs) {
-  std::set<VertexId> coincident;
-  for (const auto& [f, g] : pairs) {
-    for (const VertexId a : corners(world, f)) {
-      for (const VertexId b : corners(world, g)) {
-        if (a != b && x.row(a) == x.row(b)) coincident.insert({a, b});
-      }
-    }
-  }
-  return coincident.size();
-}
-
 /// Strain has no meaning there, whatever a repair does to the corners.
 bool has_edge_without_length(const sim::World& world) {
   return std::ranges::any_of(world.springs.springs(), [](const sim::Spring& spring) {
     return spring.kind == sim::SpringKind::kStructural && !(spring.rest_length_m > 0);
   });
-}
-
-/// What no repair can free is named first.
-std::string remedy(const sim::World& world, const Positions& x, const std::vector<sim::FacePair>& pairs) {
-  const auto twice = [&](const sim::FacePair& pair) { return is_twice(world, pair); };
-  if (std::ranges::any_of(pairs, is_without_area)) return "take the faces without area out of the mesh";
-  if (const auto pair = std::ranges::find_if(pairs, twice); pair != pairs.end()) {
-    return fmt::format("faces {} and {} have the same corners: take one of them out of the mesh", (*pair)[0],
-                       (*pair)[1]);
-  }
-  const std::size_t count = count_coincident(world, x, pairs);
-  if (count == 0) return "move them apart, or let --repair do it";
-  return fmt::format(
-      "move them apart, or let --repair do it; {} of their vertices lie where another one lies: along a seam, export "
-      "one for both",
-      count);
 }
 
 [[noreturn]] void refuse(const sim::Simulation& simulation, const std::vector<sim::FacePair>& pairs,
@@ -138,20 +97,20 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   if (!repair) {
     const bool is_rounded = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
     refuse(simulation, pairs,
-           remedy(simulation.world(), simulation.x(), pairs) +
+           start_remedy(simulation.world(), simulation.x(), pairs, false) +
                (is_rounded ? "; coordinates are rounded to float32, so far from the origin precision = \"float64\" may "
                              "be all it needs"
                            : ""));
   }
   const sim::World& world = simulation.world();
-  if (has_edge_without_length(world)) refuse(simulation, pairs, remedy(world, simulation.x(), pairs));
+  if (has_edge_without_length(world)) refuse(simulation, pairs, start_remedy(world, simulation.x(), pairs, false));
   sim::RepairedStart repaired = sim::repair_start(simulation, judge);
   if (!repaired.remaining.empty()) {
-    const bool none_can = std::ranges::all_of(
-        repaired.remaining, [&](const sim::FacePair& pair) { return is_without_area(pair) || is_twice(world, pair); });
+    std::vector<sim::FacePair> since_start = repaired.remaining;  // what the repair has made says nothing of a mesh
+    std::erase_if(since_start, [&](const sim::FacePair& pair) { return !std::ranges::binary_search(pairs, pair); });
     refuse(simulation, repaired.remaining,
            fmt::format("--repair found no way out for them, of {} pairs before; {}", pairs.size(),
-                       none_can ? remedy(world, simulation.x(), repaired.remaining) : "move them apart"));
+                       start_remedy(world, simulation.x(), since_start, true)));
   }
   const sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), repaired.x);
   sim::SimulationState state = simulation.state();

@@ -8,11 +8,15 @@
 namespace selvage::sim {
 namespace {
 
-constexpr std::array<std::string_view, 4> kKeys{"tolerance_m", "thickness_m", "friction_kinetic", "friction_static"};
+constexpr std::array<std::string_view, 4> kKeys{"thickness_m", "tolerance_m", "friction_static", "friction_kinetic"};
 
 }  // namespace
 
 ContactReader::ContactReader(const CollisionOptions& scene) : scene_(contact_of(scene)) {}
+
+void ContactReader::know(TomlTable& table) {
+  for (const std::string_view key : kKeys) table.know({key});
+}
 
 std::optional<ContactProperties> ContactReader::read(TomlTable& table, bool cloth) {
   ContactProperties own = scene_;

@@ -12,6 +12,9 @@ class ContactReader {
  public:
   explicit ContactReader(const CollisionOptions& scene);
 
+  /// The keys of read().
+  static void know(TomlTable& table);
+
   /// The part's own properties, where it has a key for one of them; the others are the scene's. Throws io::Error where
   /// the tolerance does not stay below the thickness, with the part itself and with every part read before that it can
   /// meet: two bodies never do.

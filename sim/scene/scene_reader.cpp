@@ -32,6 +32,9 @@ Pose read_pose(TomlTable& table) {
   return {table.vector("position_m", kCoordinate, Vec3::Zero()), table.vector("rotation_deg", kDegrees, Vec3::Zero())};
 }
 
+/// The keys of read_script().
+void know_script(TomlTable& owner) { owner.know({"position_m", "rotation_deg", "key", "interpolation", "repeat"}); }
+
 // The keys once more after themselves, `count` times in all.
 void repeat_keys(std::size_t count, std::vector<PoseKey>& keys) {
   const std::size_t cycle = keys.size() - 1;
@@ -49,6 +52,7 @@ ScriptSpec read_script(TomlTable& owner) {
   constexpr std::array kInterpolations = {Interpolation::kLinear, Interpolation::kSmooth, Interpolation::kSpline};
   script.interpolation = kInterpolations[owner.choice("interpolation", {"linear", "smooth", "spline"})];
   for (TomlTable& key : keys) {
+    key.know_only({"time_s", "position_m", "rotation_deg"});
     PoseKey read;
     read.time_s = key.number("time_s", kNotNegative);
     read.pose = read_pose(key);
@@ -118,6 +122,9 @@ void read_pin_motion(TomlTable& table, std::span<const std::string> bodies, PinS
 }
 
 PinSpec read_pin(TomlTable table, const Surface& surface, std::span<const std::string> bodies) {
+  table.know({"edge", "vertices", "body"});
+  know_script(table);
+  table.know_only({"release_s"});
   PinSpec pin;
   const auto* sheet = std::get_if<SheetSpec>(&surface);
   if (table.has("edge")) {
@@ -164,6 +171,11 @@ void note_stiffest(const TomlTable& table, ClothSpec& cloth) {
 /// The cloth and its copies, each further along by `copy_offset_m`: stacks, and rows of hanging sheets.
 std::vector<ClothSpec> read_cloth(TomlTable table, std::span<const std::string> bodies, std::set<std::string>& names,
                                   ContactReader& contacts) {
+  table.know({"name", "copies", "copy_offset_m", "sheet", "garment", "mesh", "position_m", "rotation_deg",
+              "velocity_m_s", "density_kg_m2", "masses", "stretch_n_m", "shear_n_m", "bend_n_m", "stabilize_n_m",
+              "damping_ratio", "pin"});
+  ContactReader::know(table);
+  table.know_only({});
   ClothSpec cloth;
   cloth.name = read_name(table, "cloth", names);
   const std::int64_t copies = table.integer("copies", 1, kMaxCopies, 1);
@@ -209,6 +221,14 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::span<const std::string> 
   return all;
 }
 
+/// What is known of a body: before any cloth asks for its name.
+void know_body(TomlTable& table) {
+  table.know({"name", "sheet", "mesh", "sequence", "sphere", "ellipsoid", "capsule", "box", "parent"});
+  know_script(table);
+  ContactReader::know(table);
+  table.know_only({});
+}
+
 // `earlier`: the bodies that the table may name as its parent; so there are no cycles.
 BodySpec read_body(TomlTable table, std::span<const std::string> earlier, std::set<std::string>& names,
                    ContactReader& contacts) {
@@ -225,6 +245,7 @@ BodySpec read_body(TomlTable table, std::span<const std::string> earlier, std::s
 }
 
 TimeSpec read_time(TomlTable table) {
+  table.know_only({"frames_per_s", "frames", "duration_s", "dynamics_step_s", "max_step_s", "min_step_s"});
   TimeSpec time;
   time.frames_per_s = table.number("frames_per_s", {1e-6, 1e6}, time.frames_per_s);
   if (table.has("frames") && table.has("duration_s")) table.fail("give frames or duration_s, and not both");
@@ -276,6 +297,8 @@ CollisionOptions read_collision(TomlTable table) {
 }
 
 Scene read_root(TomlTable root) {
+  root.know_only({"time", "gravity_m_s2", "drag_1_s", "quadratic_drag_1_m", "strain_limit", "strain_rate_limit",
+                  "squeeze", "solver", "collision", "cloth", "body"});
   Scene scene;
   std::optional<TomlTable> time = root.table("time");
   if (!time) root.fail("the table [time] is missing; add it with frames = ...");
@@ -294,6 +317,11 @@ Scene read_root(TomlTable root) {
     scene.strain.strain_rate = 0;
   }
   std::optional<TomlTable> collision = root.table("collision");
+  if (collision) {
+    collision->know_only({"repulsion_stiffness_n_m", "contact_sweeps", "thickness_m", "tolerance_m", "repulsion",
+                          "overlap_fraction", "relaxation", "friction_static", "friction_kinetic", "impulse_rounds",
+                          "zone_rounds", "precision"});
+  }
   const bool stiffness_given = collision && collision->has("repulsion_stiffness_n_m");
   if (collision) {
     if (scene.solver != Solver::kExplicit && collision->has("contact_sweeps")) {
@@ -307,7 +335,10 @@ Scene read_root(TomlTable root) {
   std::vector<TomlTable> bodies = root.tables("body");
   std::vector<std::string> body_names;
   body_names.reserve(bodies.size());
-  for (TomlTable& body : bodies) body_names.push_back(body.text("name", kBodyName));
+  for (TomlTable& body : bodies) {
+    know_body(body);
+    body_names.push_back(body.text("name", kBodyName));
+  }
   for (TomlTable& table : root.tables("cloth")) {
     for (ClothSpec& cloth : read_cloth(table, body_names, names, contacts)) scene.cloths.push_back(std::move(cloth));
   }

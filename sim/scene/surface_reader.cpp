@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kMaxSide = 10'000;  // 10^8 vertices: more than memory holds
 
-/// What `read` makes of the table, which must then hold nothing else.
+/// What `read` makes of the whole table.
 template <class Read>
 auto read_whole(TomlTable& table, Read read) {
   auto result = read(table);
@@ -20,6 +20,7 @@ auto read_whole(TomlTable& table, Read read) {
 }
 
 SheetSpec read_sheet(TomlTable& table) {
+  table.know_only({"nx", "ny", "width_m", "height_m"});
   SheetSpec sheet;
   sheet.nx = static_cast<std::int32_t>(table.integer("nx", 2, kMaxSide));
   sheet.ny = static_cast<std::int32_t>(table.integer("ny", 2, kMaxSide));
@@ -29,6 +30,7 @@ SheetSpec read_sheet(TomlTable& table) {
 }
 
 SphereSpec read_sphere(TomlTable& table) {
+  table.know_only({"radius_m", "subdivisions"});
   SphereSpec sphere;
   sphere.radius_m = table.number("radius_m", kLength);
   sphere.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, sphere.subdivisions));
@@ -36,6 +38,7 @@ SphereSpec read_sphere(TomlTable& table) {
 }
 
 EllipsoidSpec read_ellipsoid(TomlTable& table) {
+  table.know_only({"size_m", "subdivisions"});
   EllipsoidSpec ellipsoid;
   ellipsoid.size_m = table.vector("size_m", kLength);
   ellipsoid.subdivisions = static_cast<std::int32_t>(table.integer("subdivisions", 0, 8, ellipsoid.subdivisions));
@@ -43,6 +46,7 @@ EllipsoidSpec read_ellipsoid(TomlTable& table) {
 }
 
 CapsuleSpec read_capsule(TomlTable& table) {
+  table.know_only({"end_m", "radius_m", "end_radius_m", "segments"});
   CapsuleSpec capsule;
   capsule.end_m = table.vector("end_m", kCoordinate);
   capsule.radius_m = table.number("radius_m", kLength);
@@ -55,6 +59,7 @@ CapsuleSpec read_capsule(TomlTable& table) {
 }
 
 BoxSpec read_box(TomlTable& table) {
+  table.know_only({"size_m", "cells"});
   BoxSpec box;
   box.size_m = table.vector("size_m", kLength);
   box.cells = static_cast<std::int32_t>(table.integer("cells", 1, 1000, box.cells));
@@ -62,6 +67,7 @@ BoxSpec read_box(TomlTable& table) {
 }
 
 GarmentSpec::Sleeves read_sleeves(TomlTable& table) {
+  table.know_only({"top_m", "bottom_m", "depth_m", "length_m", "cuff_radius_m", "down_deg"});
   GarmentSpec::Sleeves sleeves;
   sleeves.top_m = table.number("top_m", kCoordinate);
   sleeves.bottom_m = table.number("bottom_m", kCoordinate);
@@ -73,6 +79,7 @@ GarmentSpec::Sleeves read_sleeves(TomlTable& table) {
 }
 
 GarmentSpec::Ring read_ring(TomlTable& table) {
+  table.know_only({"height_m", "depth_m", "width_m"});
   GarmentSpec::Ring ring;
   ring.height_m = table.number("height_m", kCoordinate);
   ring.depth_m = table.number("depth_m", kLength);
@@ -81,6 +88,7 @@ GarmentSpec::Ring read_ring(TomlTable& table) {
 }
 
 GarmentSpec read_garment(TomlTable& table) {
+  table.know_only({"ring", "sleeves", "cell_m"});
   GarmentSpec garment;
   for (TomlTable& entry : table.tables("ring")) {
     const GarmentSpec::Ring ring = read_whole(entry, read_ring);
@@ -101,17 +109,25 @@ GarmentSpec read_garment(TomlTable& table) {
   return garment;
 }
 
+std::string read_file_name(TomlTable& table) {
+  std::string file = table.text("file");
+  if (file.empty()) table.fail("file", "file is empty; name one, relative to the scene file");
+  return file;
+}
+
 MeshSpec read_mesh_spec(TomlTable& table) {
+  table.know_only({"file", "scale"});
   MeshSpec mesh;
-  mesh.file = table.text("file");
+  mesh.file = read_file_name(table);
   mesh.line = table.line("file");
   mesh.scale = table.number("scale", kPositive, mesh.scale);
   return mesh;
 }
 
 SequenceSpec read_sequence_spec(TomlTable& table) {
+  table.know_only({"file", "base", "scale", "frames_per_s", "start_s"});
   SequenceSpec sequence;
-  sequence.file = table.text("file");
+  sequence.file = read_file_name(table);
   sequence.line = table.line("file");
   sequence.base = table.text("base", "");
   sequence.scale = table.number("scale", kPositive, sequence.scale);

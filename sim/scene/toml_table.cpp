@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/fail.h"
+#include "kernel/assert.h"
 
 namespace selvage::sim {
 namespace {
@@ -35,8 +36,9 @@ std::optional<double> as_number(const toml::node& node) {
   return node.is_number() ? node.value<double>() : std::nullopt;
 }
 
-/// Whether at most two letters differ, are missing or too many: Levenshtein's distance, row by row.
-bool is_misspelt(std::string_view key, std::string_view written) {
+/// How far what is written is from a key, in letters that differ, are missing or too many (Levenshtein's distance, row
+/// by row); nothing where it is too far for a slip: more than a third of the letters, also with units or more left out.
+std::optional<std::size_t> misspelling(std::string_view key, std::string_view written) {
   std::vector<std::size_t> row(key.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < written.size(); ++i) {
@@ -46,7 +48,11 @@ bool is_misspelt(std::string_view key, std::string_view written) {
       before = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
     }
   }
-  return row.back() <= 2;
+  for (std::size_t length = 1; length <= key.size(); ++length) {
+    const bool is_whole_words = length == key.size() || key[length] == '_';
+    if (is_whole_words && 3 * row[length] <= written.size()) return row.back();
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -77,8 +83,40 @@ std::optional<TomlTable::TwoNodes> TomlTable::by_quality(const toml::node& node)
   return TwoNodes(draft, full);
 }
 
+void TomlTable::know(std::initializer_list<std::string_view> keys) {
+  known_.insert(known_.end(), keys.begin(), keys.end());
+}
+
+void TomlTable::know_only(std::initializer_list<std::string_view> keys) {
+  know(keys);
+  for (const auto& [key, node] : table_) {
+    if (std::ranges::find(known_, key.str()) != known_.end()) continue;
+    const std::string_view meant = meant_by(key.str());
+    const std::string hint = meant.empty() ? ""
+                                           : fmt::format(" it may be meant for {}{};", meant,
+                                                         table_.contains(meant) ? ", which is there too" : "");
+    fail_at(node,
+            fmt::format("{}: unknown key \"{}\";{} known here: {}", name_, key.str(), hint, fmt::join(known_, ", ")));
+  }
+}
+
+/// The nearest known key, the first of several; empty where none is near.
+std::string_view TomlTable::meant_by(std::string_view written) const {
+  std::string_view nearest;
+  std::optional<std::size_t> least;
+  for (const std::string_view key : known_) {
+    const std::optional<std::size_t> distance = misspelling(key, written);
+    if (!distance || (least && *least <= *distance)) continue;
+    nearest = key;
+    least = distance;
+  }
+  return nearest;
+}
+
 void TomlTable::note_asked(std::string_view key) const {
-  if (std::ranges::find(asked_, key) == asked_.end()) asked_.emplace_back(key);
+  const auto known = std::ranges::find(known_, key);
+  SELVAGE_REQUIRE(known != known_.end());
+  asked_.push_back(*known);
 }
 
 bool TomlTable::has(std::string_view key) const {
@@ -90,12 +128,6 @@ const toml::node* TomlTable::find(std::string_view key, bool required, std::stri
   note_asked(key);
   const toml::node* node = table_.get(key);
   if (node != nullptr || !required) return node;
-  for (const auto& [other, other_node] : table_) {
-    if (is_misspelt(key, other.str()) && std::ranges::find(asked_, other.str()) == asked_.end()) {
-      fail_at(other_node,
-              fmt::format("{}: unknown key \"{}\"; it may be meant for {}, which is missing", name_, other.str(), key));
-    }
-  }
   fail(fmt::format("{} is missing; add {} = {}", key, key, what));
 }
 
@@ -231,10 +263,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
 }
 
 void TomlTable::finish() const {
-  for (const auto& [key, node] : table_) {
-    if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
-    fail_at(node, fmt::format("{}: unknown key \"{}\"; known here: {}", name_, key.str(), fmt::join(asked_, ", ")));
-  }
+  for (const auto& [key, node] : table_) SELVAGE_REQUIRE(std::ranges::find(asked_, key.str()) != asked_.end());
 }
 
 }  // namespace selvage::sim

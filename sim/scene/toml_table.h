@@ -1,7 +1,9 @@
-// One table of a TOML file that is read key by key; what was not asked for is an unknown key. Every error names file
-// and line. Internal to the scene reader: keeps toml++ out of the public headers.
+// One table of a TOML file that is read key by key. A reader says first which keys the table may hold, so that what is
+// misspelt is not reported as what is missing. Every error names file and line. Internal to the scene reader: keeps
+// toml++ out of the public headers.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,7 +31,12 @@ class TomlTable {
   TomlTable(const toml::table& table, std::string name, const TomlSource& source)
       : table_(table), name_(std::move(name)), source_(source) {}
 
-  /// Asks for the key like the functions below: from here on it is known, and errors list it.
+  /// Before all below: the table may hold these keys, and those of earlier calls.
+  void know(std::initializer_list<std::string_view> keys);
+  /// And no others: throws at the first of them, with the known key that it may be meant for.
+  void know_only(std::initializer_list<std::string_view> keys);
+
+  /// All below REQUIRE a known key.
   [[nodiscard]] bool has(std::string_view key) const;
   /// The functions below throw io::Error(kBadInput) if the key is absent, of another type, or outside its range; with
   /// `fallback` an absent key is that.
@@ -50,7 +57,7 @@ class TomlTable {
   [[nodiscard]] std::size_t line(std::string_view key) const;
 
   void rename(std::string name) { name_ = std::move(name); }
-  /// Throws at the first key that nothing above asked for.
+  /// REQUIRES that the reader has asked for every key that is there: none is known and ignored.
   void finish() const;
   /// Throws "FILE:LINE: NAME: message" with the line of `key`, or of the table.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
@@ -61,6 +68,7 @@ class TomlTable {
 
   [[nodiscard]] const toml::node& node_or_table(std::string_view key) const;
   void note_asked(std::string_view key) const;
+  [[nodiscard]] std::string_view meant_by(std::string_view written) const;
   const toml::node* find(std::string_view key, bool required, std::string_view what);
   const toml::node* find_for_quality(std::string_view key);
   [[nodiscard]] static std::optional<TwoNodes> by_quality(const toml::node& node);
@@ -72,7 +80,8 @@ class TomlTable {
   const toml::table& table_;
   std::string name_;
   const TomlSource& source_;
-  mutable std::vector<std::string> asked_;  ///< what errors list as known; the table itself is the file's
+  std::vector<std::string_view> known_;
+  mutable std::vector<std::string_view> asked_;
 };
 
 }  // namespace selvage::sim

@@ -102,24 +102,50 @@ TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
 TEST_F(SimCommand, AMeshThatNoRepairCanFreeSaysWhatIsWrongWithIt) {
   struct Case {
     const char* faces;
-    const char* message;
+    std::string message;
     bool is_asked_to_repair = false;
   };
-  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::string seams = "the mesh of \"cloth\" is split at seams, where 4 of these vertices lie at the place of ";
+  const std::string fan = "faces 0 and 1 go around one corner, as those of a polygon do";
+  const std::string vertices =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 0 0\nv 1 0 0\nv 0 1 0\n"
+      "v 0.2 0.2 0\n"
+      "v 0.2 0.2 -1\nv 0.3 0.2 1\nv 0.2 0.3 1\n";
   for (const auto& [faces, message, is_asked_to_repair] :
        {Case{"f 1 2 3\nf 1 2 5\n", "take the faces without area out of the mesh"},
         {"f 1 2 3\nf 2 4 6\n", "take the faces without area out of the mesh"},
         {"f 1 2 3\nf 2 4 6\n", "take the faces without area out of the mesh", true},
         {"f 1 2 3\nf 2 4 3\nf 3 1 2\n", "faces 0 and 2 have the same corners: take one of them out of the mesh"},
-        {"f 1 2 3\nf 6 4 7\n",
-         "; 4 of their vertices lie where another one lies: along a seam, export one for both"}}) {
+        {"f 1 2 3\nf 6 4 7\n", seams +
+                                   "another: weld them to one (merge by distance 0) in the program that wrote it, or "
+                                   "have --repair open them"},
+        {"f 2 8 3 1\n", fan},
+        {"f 2 8 3 1\n", fan, true},
+        {"f 1 2 3\nf 6 4 7\nf 9 10 11\n", seams},
+        {"f 1 2 3\nf 6 4 7\nf 9 10 11\n", "wrote it; the others: move them apart, or let --repair do it"}}) {
     spit(path("cloth.obj"), vertices + faces);
     const auto run =
         sim("[time]\nframes = 1\n[[cloth]]\nmesh = {file = \"cloth.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n",
             is_asked_to_repair ? std::vector<std::string>{"--repair"} : std::vector<std::string>{});
     EXPECT_EQ(run.exit_code, 3) << run.err;
     EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
   }
+}
+
+TEST_F(SimCommand, TwoClothsThatTouchAtTheirVerticesAreNoSplitMesh) {
+  spit(path("left.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  spit(path("right.obj"), "v 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n");
+  std::string text = "[time]\nframes = 1\n";
+  for (const char* name : {"left", "right"}) {
+    text += fmt::format(
+        "[[cloth]]\nname = \"{0}\"\nmesh = {{file = \"{0}.obj\"}}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n", name);
+  }
+  const auto run = sim(text);
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_NE(run.err.find("the first of \"left\" and \"right\"; move them apart, or let --repair do it\n"),
+            std::string::npos)
+      << run.err;
 }
 
 TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {
