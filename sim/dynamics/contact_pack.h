@@ -26,6 +26,7 @@ struct alignas(64) ContactPack {
   LaneColumn3 friction_m_s2{};
   LaneColumn<double> pressed{};  ///< in this step of the dynamics, as in FrictionLoad; so is what rubbed
   LaneColumn3 rubbed{};
+  LaneColumn<std::int32_t> sweeps{};  ///< where not all take as many
   Lanes ever_repelled = 0, ever_rubbed = 0;
 };
 

@@ -47,7 +47,8 @@ class HeldContacts {
   /// that is borne, and have it pull on what bears it (docs/numerics.md).
   void bear(const MidstepMotion& step);
 
-  /// After bear(): sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3).
+  /// After bear(): sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike
+  /// masses, and those beside them, take more than others, the first ones (contact_sweeps.h).
   /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
   /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
   /// friction that it began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it.
@@ -100,6 +101,7 @@ class HeldContacts {
 
   void add_kind(Kind& kind, const std::vector<RepulsionContact>& contacts);
   void set_lane(std::size_t place);
+  void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const std::vector<ContactLoad>& loads);
   [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact,
                                            const std::vector<ContactLoad>& loads) const;
@@ -107,7 +109,7 @@ class HeldContacts {
 
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
-  [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, bool is_last,
+  [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
                              const MidstepMotion& step);
   /// Looks where the contacts are now; leaves in `lanes` those that can act.
   [[nodiscard]] Refused look_again(Kind& kind, std::size_t pack, const Reach& reach, const MidstepMotion& step,
@@ -130,7 +132,7 @@ class HeldContacts {
   const Positions& V_t0_;
   const Positions& V_t1_;
   double dt_s_;
-  int sweeps_;
+  std::int32_t least_sweeps_, most_sweeps_;
   LaneVectors scripted_t0_, scripted_way_;  ///< of the vertices that are not cloth
   Kind vf_{PairKind::kVf, {}}, ee_{PairKind::kEe, {}};
   std::vector<ContactPack> packs_;          ///< of vf, then ee
