@@ -68,22 +68,25 @@ void spike_press(Trial& trial) {
 }
 
 void rollers(Trial& trial) {
+  // Nothing but their friction moves the strip: each side presses on it where it is nearer than the thickness, 1 mm.
   StageSetup setup;
   setup.collision.friction_static = setup.collision.friction_kinetic = 0.6;
-  setup.gravity_m_s2 = Vec3(0, 0, -9.81);
+  setup.collision.repulsion_stiffness_n_m = 200;
   setup.dt_s = 4e-3;
   const int side = trial.pick(5, 9, 15);
-  const Part strip = setup.add_cloth(turned(sim::make_sheet(side, side, 0.3, 0.6), Vec3(90, 0, 0)), Vec3(0, 0, 0.31),
+  const Part strip = setup.add_cloth(turned(sim::make_sheet(side, side, 0.3, 0.6), Vec3(90, 0, 0)), Vec3(0, 0, 0.25),
                                      {1e-3, 200, 0.1, 0.3});
   const sim::Shape roller = sim::make_sphere(0.3, trial.pick(1, 2, 3));
-  const double apart = 0.3 + 3e-3;
+  const double apart = 0.3 + 0.4e-3;
   setup.add_body(roller, {{0, {Vec3(0, apart, 0), Vec3(0, 0, 0)}}, {2, {Vec3(0, apart, 0), Vec3(720, 0, 0)}}});
   setup.add_body(roller, {{0, {Vec3(0, -apart, 0), Vec3(0, 0, 0)}}, {2, {Vec3(0, -apart, 0), Vec3(-720, 0, 0)}}});
   setup.policy = sim::SqueezePolicy::kYield;
   Stage stage(trial, setup);
   const double before = stage.centre(strip).z();
-  for (int step = 0; step < trial.steps(150, 12); ++step) stage.step();
-  trial.at_most("way of the strip upwards, m", stage.centre(strip).z() - before, 0);
+  for (int step = 0; step < trial.steps(150, 50); ++step) stage.step();
+  // 0.17 m and more, 0.007 in the short form. Without friction the faces that come by push it up to 0.114 m, and 3e-7.
+  trial.at_least("way of the strip downwards, m", before - stage.centre(strip).z(),
+                 trial.variant().quick ? 1e-3 : 0.15);
 }
 
 void pins_cross(Trial& trial) {
@@ -111,7 +114,7 @@ std::vector<StabilityCase> squeeze_cases() {
       {"pressed-on-rest", "a body presses cloth onto one that rests", "a body waits", pressed_on_rest},
       {"pinched-three", "three bodies close in", "a body waits", pinched_three},
       {"spike-press", "a tip presses a vertex of the cloth onto the ground", "a body waits", spike_press},
-      {"rollers", "cloth is drawn between two rollers 6 mm apart", "the strip does not rise", rollers},
+      {"rollers", "cloth is drawn between two rollers, narrower than it is thick", "they draw it", rollers},
       {"pins-cross", "the held ends of a sheet are asked to change places through it", "they wait", pins_cross},
   };
 }

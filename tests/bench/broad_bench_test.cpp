@@ -75,7 +75,8 @@ TEST(BroadBench, TheRivalsThatAreBuiltFindEveryPair) {
   for (const BroadMethodReport& method : report.methods) {
     EXPECT_EQ(method.missing, 0) << method.name;
     if (method.name == "embree") {
-      EXPECT_GE(method.extra, 0);
+      // 0.6 to 3.4 times the candidates in bench/results; all pairs, which miss none either, are hundreds of times.
+      EXPECT_LT(method.extra, 10 * (report.vf + report.ee));
     } else {
       EXPECT_EQ(method.extra, 0) << method.name;
     }
@@ -97,7 +98,9 @@ TEST(BroadBench, WorkFallsWithTheShareOfMovedVertices) {
 }
 
 TEST(BroadBench, ARivalThatIsNotHereSaysWhy) {
-  for (const LoadedRival& rival : load_rivals("no/such/folder")) {
+  const auto absent = load_rivals("no/such/folder");
+  EXPECT_EQ(absent.size(), 2U);
+  for (const LoadedRival& rival : absent) {
     EXPECT_FALSE(rival.create);
     EXPECT_NE(rival.absent.find(rival.name), std::string::npos);
   }

@@ -133,6 +133,7 @@ TEST(ContactSurfaces, ThatDoNotFitTheMeshAreCalledInvalid) {
 }
 
 TEST(ContactSurfaces, ThatAreAllAlikeGiveTheBitsOfTheOptions) {
+  std::int64_t proximities = 0;
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     StepScene scene = random_stack(seed);
     const ContactProperties same = scene.surfaces.properties.front();
@@ -147,7 +148,9 @@ TEST(ContactSurfaces, ThatAreAllAlikeGiveTheBitsOfTheOptions) {
     ASSERT_EQ(by_surfaces.x, by_options.x) << seed;
     ASSERT_EQ(by_surfaces.velocity, by_options.velocity) << seed;
     ASSERT_EQ(by_surfaces.report.proximities, by_options.report.proximities) << seed;
+    proximities += by_options.report.proximities;
   }
+  EXPECT_GT(proximities, 1000) << "too few to tell";
 }
 
 // S1 and S2 against the exact checker: what ends nearer than the tolerance of its own pair is named, and nothing else.
