@@ -8,6 +8,7 @@
 #include "bench/stability/suite.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/output_check.h"
 #include "cli/terminal.h"
 #include "io/atomic_file.h"
 
@@ -39,6 +40,7 @@ ExitCode bench_stability(const StabilityArguments& arguments) {
       fmt::print("{:<22} {}\n{:<22} asked: {}\n", c.name, c.difficulty, "", c.criterion);
     return ExitCode::kClean;
   }
+  require_separate_outputs({}, {arguments.json});
   catch_interrupts();
   ProgressBar bar("hard cases");
   bench::StabilityOptions options;

@@ -7,6 +7,7 @@
 
 #include "bench/verify_bench.h"
 #include "cli/command.h"
+#include "cli/output_check.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {
@@ -39,6 +40,7 @@ std::string table(const bench::VerifySheetReport& report) {
 }
 
 ExitCode bench_verify(const VerifyBenchArguments& arguments) {
+  require_separate_outputs({}, {arguments.json});
   const bench::LoadedFrameRival rival = bench::load_frame_rival(bench::rivals_beside_program());
   if (!rival.create) fmt::print(stderr, "selvage: without CGAL: {}\n", rival.absent);
   const std::vector<bench::VerifySheetReport> reports = bench::run_verify_bench(rival, arguments.options);

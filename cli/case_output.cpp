@@ -7,6 +7,7 @@
 #include "fuzz/case_file.h"
 #include "fuzz/overlap_case.h"
 #include "io/atomic_file.h"
+#include "io/fail.h"
 #include "verify/report.h"
 
 namespace selvage::cli {
@@ -60,7 +61,7 @@ std::string case_text(const verify::Violation& violation, double min_distance) {
 void create_case_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw io::Error(io::ErrorKind::kFile, folder.string() + ": " + error.message());
+  if (error) io::file_error(folder.string(), "create", error.value());
 }
 
 void require_no_cases(const std::filesystem::path& folder) {

@@ -116,9 +116,10 @@ void print_bodies(const std::vector<io::Group>& groups) {
 
 void print_conversion(const io::SequenceReader& input, FrameRange range, const io::OutputTraits& format,
                       const Conversion& conversion) {
-  fmt::print("written:   {}{}, {} frames as {}\n", conversion.sources.front().string(),
-             conversion.sources.size() > 1 ? fmt::format(" ... {}", conversion.sources.back().string()) : "",
-             range.end - range.begin, format.name);
+  const auto name_of = [](const std::filesystem::path& file) { return io::printable(file.string()); };
+  fmt::print("written:   {}{}, {} frames as {}\n", name_of(conversion.sources.front()),
+             conversion.sources.size() > 1 ? " ... " + name_of(conversion.sources.back()) : "", range.end - range.begin,
+             format.name);
   const char* from = input.precision() == io::Precision::kFloat32 ? "float32" : "float64";
   if (!format.is_float32) {
     fmt::print("precision: {}, every value kept\n", from);

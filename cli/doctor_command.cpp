@@ -16,6 +16,7 @@
 
 #include "cli/fp_state.h"
 #include "cli/hostile_fp.h"
+#include "cli/output_check.h"
 #include "cli/self_check.h"
 #include "cli/version.h"
 #include "io/atomic_file.h"
@@ -129,6 +130,7 @@ std::string json_of(const Diagnosis& diagnosis) {
 }
 
 ExitCode run(unsigned fp_as_found, const std::string& json) {
+  require_separate_outputs({}, {json});
   const Diagnosis diagnosis = examine(fp_as_found);
   if (!json.empty()) io::write_atomically(json, json_of(diagnosis));
   print(diagnosis);

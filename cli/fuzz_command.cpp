@@ -156,6 +156,9 @@ fuzz::DriverOptions driver_options(const Arguments& arguments) {
       arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.folder = arguments.artifacts;
   const Shard shard = parse_shard(arguments.shard);
+  if (shard.count > fuzz::kMostShards) {
+    throw UsageError(fmt::format("--shard {}: a campaign has at most {} shards", arguments.shard, fuzz::kMostShards));
+  }
   options.shard = static_cast<std::int64_t>(shard.index);
   options.shards = static_cast<std::int64_t>(shard.count);
   options.resume = arguments.resume;
@@ -177,12 +180,14 @@ ExitCode run_plugin(const Arguments& arguments) {
   const std::filesystem::path json = folder / "conformance.json", plain = folder / "conformance.txt",
                               html = folder / "conformance.html";
   require_separate_outputs({arguments.plugin}, {json, plain, html});
-  const fuzz::PluginInfo info = fuzz::probe_plugin(arguments.plugin);
+  const std::uint32_t crc32 = fuzz::crc32_of_plugin(arguments.plugin);
+  const fuzz::PluginInfo info = fuzz::probe_plugin(arguments.plugin, arguments.case_time_s);
   fuzz::Properties properties;
-  properties.push_back(fuzz::make_conformance(arguments.plugin));
+  properties.push_back(fuzz::make_conformance(arguments.plugin, crc32));
   if (!arguments.only.empty()) return run_only(arguments, properties);
   fuzz::DriverOptions options = driver_options(arguments);
   options.target = std::string("plugin ") + info.name;
+  options.plugin_crc32 = crc32;
   fuzz::Driver driver(properties, options);
   catch_interrupts();
   bool finished = false;
@@ -235,7 +240,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
   fuzz.add_option("PROPERTY", arguments->properties,
                   "Which promises to attack, as --list names them; all if none is named");
   auto* cases = fuzz.add_option("--cases", arguments->cases, "Cases of each property, rounded up to whole work units")
-                    ->check(number_from(1));
+                    ->check(number_between(1, fuzz::kMostCases));
   fuzz.add_option("--time", arguments->time, "Or run this long in all, as in 60s (the default), 10m, 2h, 7d")
       ->excludes(cases);
   fuzz.add_option("--seed", arguments->seed, "Cases depend on it alone")->check(whole_number())->capture_default_str();
@@ -247,7 +252,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
   fuzz.add_option("--shard", arguments->shard, "A part of the campaign, i/N or auto (Slurm); selvage merge joins them")
       ->capture_default_str();
   fuzz.add_option("--case-time", arguments->case_time_s,
-                  "Seconds that a case may compute and sleep in all before it is a hang")
+                  "Seconds that a case, or loading the plugin, may compute and sleep in all before it is a hang")
       ->check(number_above(0))
       ->capture_default_str();
   fuzz.add_option("--only", arguments->only, "Run one case again, STREAM:NUMBER as the table prints it");

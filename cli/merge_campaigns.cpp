@@ -27,6 +27,15 @@ void require_all_units(const fuzz::Ledger& ledger, const fuzz::Properties& prope
   }
 }
 
+/// What it declares, and what its report needs, is in the library, not in its campaign.
+void require_no_plugin(const fuzz::Ledger& ledger, const fs::path& file) {
+  if (!ledger.plugin_crc32) return;
+  throw io::Error(io::ErrorKind::kBadInput,
+                  fmt::format("{}: is a campaign of collision code under --plugin ({}), and those are not joined; "
+                              "read the report of each shard, conformance.txt beside it",
+                              file.string(), ledger.target));
+}
+
 /// Those that the ledger names, as the table describes them.
 fuzz::Properties properties_of(const fuzz::Ledger& ledger) {
   fuzz::Properties chosen;
@@ -58,6 +67,7 @@ ExitCode merge_campaigns(const std::vector<fs::path>& sources, const fs::path& o
   std::vector<fuzz::Ledger> parts;
   for (const fs::path& file : files) {
     parts.push_back(fuzz::parse_ledger(io::read_file(file), file.string()));
+    require_no_plugin(parts.back(), file);
   }
   const fuzz::Ledger merged = fuzz::merge(parts);
   const fuzz::Properties properties = properties_of(merged);

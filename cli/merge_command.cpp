@@ -26,19 +26,34 @@ struct Arguments {
   std::string output, html;
 };
 
-/// The reports of a folder: all its .json files but the output, which an earlier merge may have left there.
+/// Whether it is a report on some of the frames.
+bool is_part(const fs::path& file) {
+  const verify::SequenceReport report = verify::parse_report(io::read_file(file), file.string()).report;
+  return report.first_frame > 0 || report.end_frame < report.frame_count;
+}
+
+/// The reports of a folder: all its .json files but the output, which an earlier merge may have left there. One of the
+/// parts is none, nor what is alone there: it would be overwritten, and the frames of it missed.
 std::vector<fs::path> reports_in(const fs::path& folder, const fs::path& output) {
   std::vector<fs::path> files;
+  bool holds_output = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
     std::error_code absent;
-    if (entry.path().extension() == ".json" && !fs::equivalent(entry.path(), output, absent)) {
+    if (fs::equivalent(entry.path(), output, absent)) {
+      holds_output = true;
+    } else {
       files.push_back(entry.path());
     }
   }
+  if (holds_output && (files.empty() || is_part(output))) {
+    throw UsageError(output.string() + " is a report of " + folder.string() +
+                     " that is read, and would be overwritten; name another file");
+  }
   if (files.empty()) {
-    throw io::Error(io::ErrorKind::kBadInput, folder.string() +
-                                                  ": holds no report (*.json); name the folder where "
-                                                  "selvage verify --shard i/N --json FILE wrote them");
+    throw io::Error(io::ErrorKind::kBadInput,
+                    folder.string() + ": holds no report (*.json); name the folder where selvage verify --shard i/N "
+                                      "--json FILE wrote them, or each folder of selvage fuzz --shard i/N");
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -57,6 +57,7 @@ void require_replaceable(const fs::path& output) {
 
 void require_folder_name(const fs::path& output) {
   require_no_dash(output);
+  io::require_nameable(output);
   if (!output.has_filename() || !is_named(output, kSequenceFiles)) return;
   throw UsageError(output.string() + " would be a folder; name one without that extension, and write the file with " +
                    "`selvage convert FOLDER -o FILE`");
@@ -67,6 +68,7 @@ void require_separate_outputs(const std::vector<fs::path>& inputs, const std::ve
     const fs::path& output = outputs[i];
     if (output.empty()) continue;
     require_no_dash(output);
+    io::require_nameable(output);
     const auto is_output = [&](const fs::path& other) { return is_one_file(other, output); };
     std::error_code absent;
     // What is not there is not read, however many frames there are to compare with.

@@ -10,11 +10,12 @@ namespace selvage::cli {
 /// Throws UsageError where an output is one of the inputs, or two outputs are one file, whatever their names: links are
 /// followed; or where an output is a mesh, scene or query file that is there, or a part of a sequence. Empty outputs
 /// were not asked for. Devices and pipes hold nothing that could be lost. Nor is one "-", which elsewhere is standard
-/// output.
+/// output. Throws io::Error where a name is longer than any file's.
 void require_separate_outputs(const std::vector<std::filesystem::path>& inputs,
                               const std::vector<std::filesystem::path>& outputs);
 
-/// Throws UsageError where `output` is the name of what is no folder: "-", or a file of a sequence.
+/// Throws UsageError where `output` is the name of what is no folder: "-", or a file of a sequence; io::Error where a
+/// name is longer than any file's.
 void require_folder_name(const std::filesystem::path& output);
 
 /// Throws io::Error where one of them could not be written now: better before long work than after it. Leaves nothing.

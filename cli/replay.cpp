@@ -10,23 +10,33 @@ namespace {
 
 std::array<verify::Point, 3> first_three(const std::array<verify::Point, 4>& x) { return {x[0], x[1], x[2]}; }
 
+/// Of the property that the case is about.
+std::string failure_of_property(const fuzz::Case& kept) {
+  fuzz::ChoiceSource source = fuzz::ChoiceSource::from_words(kept.choices);
+  const auto& properties = fuzz::query_properties();
+  const auto property = std::ranges::find(properties, kept.property, &fuzz::QueryProperty::name);
+  SELVAGE_ASSERT(property != properties.end());
+  return std::string(property->check(kept.query, fuzz::selvage_kernel, source).failure);
+}
+
 }  // namespace
 
 MotionReplay replay_motion(const fuzz::Case& kept, const std::optional<PluginToAsk>& asked) {
-  MotionReplay replay{kept, fuzz::selvage_kernel(kept.query), {}, {}, {}, {}, {}, {}, {}};
+  MotionReplay replay;
+  replay.kept = kept;
+  replay.kernel = fuzz::selvage_kernel(kept.query);
   const fuzz::MotionQuery& query = kept.query;
-  if (asked && is_for_plugins(std::string(fuzz::name_of(query.kind)))) {
+  replay.is_in_domain = fuzz::is_in_domain(query);
+  if (asked && replay.is_in_domain && is_for_plugins(std::string(fuzz::name_of(query.kind)))) {
     const bool in_batch = !kept.plugin || kept.plugin->in_batch;  // which asks it alone first
     replay.plugin = fuzz::try_plugin(asked->library, query, in_batch, asked->case_seconds);
   }
   const auto x_t0 = fuzz::raw(query.x_t0), x_t1 = fuzz::raw(query.x_t1);
   replay.exact = fuzz::exact_motion(query, verify::Detail::kFirstTime);
-  replay.judgement = fuzz::judge(query, replay.kernel);
-  fuzz::ChoiceSource source = fuzz::ChoiceSource::from_words(kept.choices);
-  const auto& properties = fuzz::query_properties();
-  const auto property = std::ranges::find(properties, kept.property, &fuzz::QueryProperty::name);
-  SELVAGE_ASSERT(property != properties.end());
-  replay.failure = property->check(query, fuzz::selvage_kernel, source).failure;
+  if (replay.is_in_domain) {
+    replay.judgement = fuzz::judge(query, replay.kernel);
+    replay.failure = failure_of_property(kept);
+  }
   switch (query.kind) {
     case PairKind::kVf:
       replay.second = verify::second_opinion_vf(x_t0, x_t1);
@@ -49,6 +59,7 @@ MotionReplay replay_motion(const fuzz::Case& kept, const std::optional<PluginToA
 ReplayOutcome MotionReplay::outcome() const {
   if (exact.touches != second.touches) return ReplayOutcome::kDivided;
   if (exact.touches != kept.touches) return ReplayOutcome::kContradicted;
+  if (!is_in_domain) return ReplayOutcome::kOutside;
   const bool agrees =
       judgement.disagreement == fuzz::Disagreement::kNone && failure.empty() && (!plugin || plugin->failure.empty());
   return agrees ? ReplayOutcome::kAgree : ReplayOutcome::kBroken;

@@ -21,6 +21,7 @@ namespace selvage::cli {
 enum class ReplayOutcome {
   kAgree,         ///< no promise is broken (an unresolved answer breaks none)
   kBroken,        ///< a promise is broken
+  kOutside,       ///< a query outside the kernel's domain, about which nothing is promised
   kContradicted,  ///< the exact answer is not the one that the file expects
   kDivided,       ///< the two exact deciders disagree
 };
@@ -37,6 +38,7 @@ struct MotionReplay {
   verify::MotionAnswer exact;
   verify::SecondOpinion second;
   std::optional<bench::TextbookAnswer> textbook;  ///< it has no answer for a vertex and its own face
+  bool is_in_domain = true;  ///< of the kernel: outside it nothing is judged, and no plugin is asked
   fuzz::Judgement judgement;
   std::string failure;  ///< of the property that the case is about, or empty
   std::vector<verify::ExplainedPolynomial> polynomials;

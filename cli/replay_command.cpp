@@ -36,6 +36,7 @@ ExitCode exit_code(const std::vector<Explanation>& explanations) {
       case ReplayOutcome::kBroken:
         if (code == ExitCode::kClean) code = ExitCode::kViolation;
         break;
+      case ReplayOutcome::kOutside:
       case ReplayOutcome::kContradicted:
         if (code != ExitCode::kInternal) code = ExitCode::kBadInput;
         break;
@@ -92,7 +93,8 @@ void add_replay_command(CLI::App& program, Job& job) {
                   "Explain kept cases: of a query the kernel's answer, the exact one and the textbook's, "
                   "and where they differ; of a step, a mesh, a scene or a file what happens when it is "
                   "run again, and which promise breaks. Exit code 1 if a promise is broken, 3 if a case "
-                  "expects another answer than the exact one, 7 if two exact deciders differ",
+                  "expects another answer than the exact one, or a coordinate is beyond the domain (2^1000), 7 if "
+                  "two exact deciders differ",
                   "selvage replay failure.case");
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("CASE", arguments->cases, "Case files, or folders of them")->required();
@@ -102,7 +104,7 @@ void add_replay_command(CLI::App& program, Job& job) {
       ->type_name("LIB.so");
   command
       .add_option("--case-time", arguments->case_time_s,
-                  "Seconds that the plugin may compute and sleep over a case before that is a hang")
+                  "Seconds that the plugin may compute and sleep over a case, or being loaded, before that is a hang")
       ->check(number_above(0))
       ->capture_default_str();
   command.add_option("--json", arguments->json, "Write the explanations as JSON")->type_name("FILE");

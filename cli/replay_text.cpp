@@ -20,6 +20,8 @@ const char* sentence(ReplayOutcome outcome) {
       return "no promise is broken";
     case ReplayOutcome::kBroken:
       return "A PROMISE IS BROKEN";
+    case ReplayOutcome::kOutside:
+      return "OUTSIDE THE DOMAIN: nothing is promised";
     case ReplayOutcome::kContradicted:
       return "THE FILE EXPECTS ANOTHER ANSWER";
     case ReplayOutcome::kDivided:
@@ -34,6 +36,8 @@ const char* name_of(ReplayOutcome outcome) {
       return "agree";
     case ReplayOutcome::kBroken:
       return "broken";
+    case ReplayOutcome::kOutside:
+      return "outside";
     case ReplayOutcome::kContradicted:
       return "contradicted";
     case ReplayOutcome::kDivided:
@@ -193,11 +197,16 @@ std::string textbook_text(const MotionReplay& replay) {
   return text + (replay.exact.touches ? ": A MISS" : ": a false alarm");
 }
 
+std::string property_text(const MotionReplay& replay) {
+  if (!replay.is_in_domain) return "not judged, and no plugin asked: a coordinate is beyond 2^1000";
+  return replay.failure.empty() ? "holds" : replay.failure;
+}
+
 }  // namespace
 
 Explanation explain(const std::string& name, const MotionReplay& replay) {
   Explanation result{name, {}, {}, replay.outcome()};
-  result.text = fmt::format("{}: {} (from {})\n", name, title(replay.kept.query.kind), replay.kept.seed);
+  result.text = fmt::format("{}: {} (from {})\n", io::printable(name), title(replay.kept.query.kind), replay.kept.seed);
   result.text += fmt::format("  exact:    {}\n", exact_text(replay.exact));
   result.text += fmt::format("  second:   {}\n", replay.second.touches
                                                      ? fmt::format("touches first at t in [{:.17g}, {:.17g}]",
@@ -207,8 +216,7 @@ Explanation explain(const std::string& name, const MotionReplay& replay) {
   result.text += fmt::format("  textbook: {}\n", textbook_text(replay));
   if (replay.plugin) result.text += plugin_text(*replay.plugin, replay);
   for (const auto& polynomial : replay.polynomials) result.text += text_of(polynomial);
-  result.text +=
-      fmt::format("  property: {}: {}\n", replay.kept.property, replay.failure.empty() ? "holds" : replay.failure);
+  result.text += fmt::format("  property: {}: {}\n", replay.kept.property, property_text(replay));
   const fuzz::Disagreement disagreement = replay.judgement.disagreement;
   if (replay.kept.plugin && !replay.plugin) result.text += unasked_text(*replay.kept.plugin, name);
   result.text += fmt::format("  {}", sentence(result.outcome));
@@ -249,7 +257,7 @@ Explanation explain(const std::string& name, const MotionReplay& replay) {
 Explanation explain(const std::string& name, const OverlapReplay& replay) {
   Explanation result{name, {}, {}, replay.outcome()};
   const char* exact = verify::name_of(replay.exact);
-  result.text = fmt::format("{}: two triangles at one instant (from {})\n", name, replay.kept.seed);
+  result.text = fmt::format("{}: two triangles at one instant (from {})\n", io::printable(name), replay.kept.seed);
   result.text += fmt::format("  exact:    {}\n", exact);
   result.text += fmt::format("  second:   {}\n", replay.second ? "they meet beyond what they share"
                                                                : "they share no more than their common vertices");
@@ -270,7 +278,7 @@ Explanation explain(const std::string& name, const OverlapReplay& replay) {
 Explanation explain(const std::string& name, const KeptReplay& replay) {
   const auto& [parsed, retrial] = replay;
   Explanation result{name, {}, {}, replay.outcome()};
-  result.text = fmt::format("{}: {} (from {})\n", name, parsed.kept->kind(), parsed.origin);
+  result.text = fmt::format("{}: {} (from {})\n", io::printable(name), parsed.kept->kind(), parsed.origin);
   result.text += fmt::format("  promise:  {}\n  kept for: {}\n", parsed.kept->promise(), parsed.failure);
   for (const std::string& fact : retrial.facts) result.text += fmt::format("  {}\n", fact);
   result.text += fmt::format("  {}", sentence(result.outcome));

@@ -8,6 +8,7 @@
 
 #include "cli/start_remedy.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "sim/base/points.h"
 #include "sim/repair/start_repair.h"
 #include "verify/check.h"
@@ -20,7 +21,7 @@ constexpr std::size_t kMostPairs = 10'000'000;  // of one frame; more are all pa
 
 std::string part_of_face(const sim::World& world, FaceId face) {
   for (const io::Group& group : world.groups) {
-    if (face >= group.face_begin && face < group.face_end) return group.name;
+    if (face >= group.face_begin && face < group.face_end) return io::printable(group.name);
   }
   return "?";
 }

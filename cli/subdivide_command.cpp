@@ -21,6 +21,7 @@
 #include "cli/terminal.h"
 #include "cli/thread_limit.h"
 #include "io/sequence_outputs.h"
+#include "io/text.h"
 #include "kernel/types.h"
 #include "sim/base/points.h"
 #include "sim/subdivision/subdivision.h"
@@ -185,7 +186,8 @@ ExitCode run(const SubdivideArguments& arguments) {
     }
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before.count + fine[k].after.count > 0) {
-        fmt::print(stderr, "selvage: {}: {}\n", input->frame_name(frame + k), describe(fine[k], arguments.levels));
+        const std::string name = io::printable(input->frame_name(frame + k));
+      fmt::print(stderr, "selvage: {}: {}\n", name, describe(fine[k], arguments.levels));
         return ExitCode::kViolation;
       }
       written.points = std::move(fine[k].points);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "io/text.h"
+
 namespace selvage::cli {
 namespace {
 
@@ -25,7 +27,7 @@ bool is_terminal(int descriptor) { return isatty(descriptor) == 1 && environment
 bool use_colour(int descriptor) { return is_terminal(descriptor) && environment("NO_COLOR").empty(); }
 
 void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "selvage: note: {}\n", note);
+  for (const std::string& note : notes) fmt::print(stderr, "selvage: note: {}\n", io::printable(note));
 }
 
 ProgressBar::ProgressBar(std::string label) : label_(std::move(label)), enabled_(is_terminal(STDERR_FILENO)) {}

@@ -13,7 +13,7 @@ namespace selvage::cli {
 /// Whether to colour text on `descriptor`: a terminal, and NO_COLOR is unset or empty.
 [[nodiscard]] bool use_colour(int descriptor);
 
-/// On stderr, a line each: what a user should know and what is no error.
+/// On stderr, a line each, whatever names of files are in them: what a user should know and what is no error.
 void print_notes(const std::vector<std::string>& notes);
 
 /// One line on stderr that overwrites itself, at most ten times a second; nothing at all if stderr is no terminal.

@@ -1,5 +1,6 @@
 #include "cli/verify_arguments.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -67,7 +68,8 @@ CLI::Option* add_repeatable(CLI::App& command, const char* name, std::vector<std
 
 void add_what_may_touch(CLI::App& command, VerifyArguments& arguments) {
   add_repeatable(command, "--group", arguments.groups,
-                 "A group of faces by their numbers, half-open, besides those of the sequence; may be repeated")
+                 "A group of faces by their numbers, half-open; joined with the sequence's group of that name, if "
+                 "there is one; may be repeated")
       ->type_name("NAME=BEGIN:END");
   add_repeatable(command, "--body", arguments.body,
                  "A is a body, where the format cannot say so: not checked against bodies and itself, unless --bodies; "
@@ -144,6 +146,16 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
 
 std::unique_ptr<io::SequenceReader> open_sequence(const VerifyArguments& arguments) {
   return with_bodies(open_sequence(arguments.sequence), arguments.body, parse_groups(arguments.groups));
+}
+
+std::vector<std::string> notes_on_groups(const VerifyArguments& arguments, const io::SequenceReader& sequence) {
+  std::vector<std::string> notes;
+  for (const io::Group& group : parse_groups(arguments.groups)) {
+    if (std::ranges::find(sequence.groups(), group.name, &io::Group::name) == sequence.groups().end()) continue;
+    notes.push_back(fmt::format("--group: the sequence has a group \"{}\" of its own; faces {}:{} are added to it",
+                                group.name, group.face_begin, group.face_end));
+  }
+  return notes;
 }
 
 verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const io::SequenceReader& sequence) {

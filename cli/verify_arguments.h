@@ -41,6 +41,9 @@ inline constexpr std::int64_t kViolationsInText = 10;
 [[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const VerifyArguments& arguments);
 
 /// Throws UsageError where they make no sense for the sequence.
+/// Of each --group that has the name of a group of the sequence: that the two are one.
+[[nodiscard]] std::vector<std::string> notes_on_groups(const VerifyArguments& arguments,
+                                                       const io::SequenceReader& sequence);
 [[nodiscard]] verify::SequenceOptions sequence_options(const VerifyArguments& arguments,
                                                        const io::SequenceReader& sequence);
 /// What decides on the verdict, by name and in a fixed order: reports on parts are joined only where it is the same.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/case_output.h"
 #include "cli/command.h"
@@ -28,6 +29,8 @@ verify::ReportContext report_context(const VerifyArguments& arguments, const io:
   for (const std::filesystem::path& source : arguments.sequence.sources) context.sources.push_back(source.string());
   for (std::size_t i = 0; i < sequence.frame_count(); ++i) context.frame_names.emplace(i, sequence.frame_name(i));
   context.notes = notes_on(arguments.sequence, sequence);
+  const std::vector<std::string> on_groups = notes_on_groups(arguments, sequence);
+  context.notes.insert(context.notes.end(), on_groups.begin(), on_groups.end());
   return context;
 }
 
@@ -91,9 +94,11 @@ ExitCode run(const VerifyArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
   require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
+  if (!arguments.json.empty()) io::require_nameable(VerifyProgress::file_of(arguments.json));
   const auto sequence = open_sequence(arguments);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
   const verify::ReportContext context = report_context(arguments, *sequence, options);
+  print_notes(notes_on_groups(arguments, *sequence));
   require_outputs(arguments);
   verify::SequenceReport report = check(arguments, *sequence, options, context);
   const auto print = [&] {

@@ -9,10 +9,10 @@
 namespace selvage::cli {
 
 VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
-    : report_file_(std::move(report)), context_(context), written_(std::chrono::steady_clock::now()) {
-  file_ = report_file_;
-  file_ += ".progress";
-}
+    : report_file_(std::move(report)),
+      file_(file_of(report_file_)),
+      context_(context),
+      written_(std::chrono::steady_clock::now()) {}
 
 std::optional<verify::SequenceReport> VerifyProgress::load() const {
   for (const std::filesystem::path& file : {file_, report_file_}) {

@@ -11,7 +11,9 @@ namespace selvage::cli {
 
 class VerifyProgress {
  public:
-  /// Beside the report, as FILE.progress: the report on the frames that are done. `context` must outlive it.
+  /// FILE.progress, beside the report.
+  [[nodiscard]] static std::filesystem::path file_of(std::filesystem::path report) { return report += ".progress"; }
+  /// Keeps there the report on the frames that are done. `context` must outlive it.
   VerifyProgress(std::filesystem::path report, const verify::ReportContext& context);
 
   /// The report to continue from: progress, or a finished report; nothing where there is neither. Throws UsageError

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "io/text.h"
+
 namespace selvage::cli {
 
 void WaitingSummary::add(const sim::Simulation& simulation, const sim::StepResult& step) {
@@ -24,8 +26,8 @@ void WaitingSummary::add(const sim::Simulation& simulation, const sim::StepResul
 void WaitingSummary::print(const sim::World& world) const {
   for (const auto& [id, wait] : waits_) {
     fmt::print("\"{}\" waited in {} steps from {:.4g} to {:.4g} s, up to {:.3g} m behind its script\n",
-               world.colliders[static_cast<std::size_t>(id)].name(), wait.steps, wait.begin_s, wait.end_s,
-               wait.largest_lag_m);
+               io::printable(world.colliders[static_cast<std::size_t>(id)].name()), wait.steps, wait.begin_s,
+               wait.end_s, wait.largest_lag_m);
   }
 }
 

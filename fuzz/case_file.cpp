@@ -79,6 +79,13 @@ PluginRecord parse_plugin(CaseLines& lines, PairKind kind) {
   return plugin;
 }
 
+double parse_tolerance(CaseLines& lines) {
+  const std::string_view word = option_value(lines, "tolerance");
+  const double tolerance = lines.number(word);
+  if (!(tolerance >= 0)) lines.fail("tolerance: " + std::string(word) + " is negative; it is a distance, from 0 up");
+  return tolerance;
+}
+
 Vec3 parse_point(CaseLines& lines) {
   Vec3 point;
   for (double& coordinate : point) coordinate = lines.number(lines.word());
@@ -124,7 +131,7 @@ Case parse_case(std::string_view text, const std::string& name) {
   lines.expect_end_of_line();
   lines.advance();
   lines.expect_word("options");
-  kept.query.options.tolerance = lines.number(option_value(lines, "tolerance"));
+  kept.query.options.tolerance = parse_tolerance(lines);
   kept.query.options.max_intervals = parse_count(lines, option_value(lines, "max_intervals"));
   if (!lines.is_at_end_of_line()) kept.property = parse_property(lines, option_value(lines, "property"));
   if (!lines.is_at_end_of_line()) kept.choices = parse_choices(lines, option_value(lines, "choices"));

@@ -15,15 +15,19 @@ constexpr std::array<PairKind, 2> kKinds{PairKind::kVf, PairKind::kEe};
 
 class Conformance final : public Property {
  public:
-  explicit Conformance(std::filesystem::path library)
+  Conformance(std::filesystem::path library, std::uint32_t crc32)
       : Property("conformance", "the plugin misses no contact, is never late, and no alarm is beyond its declared gap"),
-        library_(std::move(library)) {
+        library_(std::move(library)),
+        crc32_(crc32) {
     streams_ = query_streams(kKinds, 1);
     counters_ = {"touches", "alarms", "missed", "late", "too far", "nanoseconds"};
   }
 
   void prepare() override { prepare_queries(); }
   void start() override {
+    if (crc32_of_plugin(library_) != crc32_) {
+      throw io::Error(io::ErrorKind::kBadInput, library_.string() + ": has changed since this began; start anew");
+    }
     plugin_.emplace(library_);
     has_loaded_cleanly_ = plugin_->load_misdeed().empty();
   }
@@ -76,14 +80,15 @@ class Conformance final : public Property {
   }
 
   std::filesystem::path library_;
+  std::uint32_t crc32_;
   std::optional<Plugin> plugin_;
   bool has_loaded_cleanly_ = true;
 };
 
 }  // namespace
 
-std::unique_ptr<Property> make_conformance(const std::filesystem::path& library) {
-  return std::make_unique<Conformance>(library);
+std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32) {
+  return std::make_unique<Conformance>(library, crc32);
 }
 
 }  // namespace selvage::fuzz

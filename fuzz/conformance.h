@@ -1,6 +1,7 @@
 // The query level as a conformance test for anyone's collision code: a plugin against exact arithmetic.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,7 +13,8 @@
 namespace selvage::fuzz {
 
 /// Streams for all classes, vf and ee. Failures: missed, late-time, alarm-too-far, and the misdeeds of Plugin::Answer.
-[[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library);
+/// A process that finds another CRC-32 than `crc32` of the library does not start.
+[[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32);
 
 /// What the property above counts in a stream.
 struct ConformanceRow {

@@ -84,6 +84,7 @@ std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
   nlohmann::ordered_json json;
   json["schema"] = "selvage.conformance/1";
   json["plugin"] = {{"name", info.name},
+                    {"crc32", ledger.plugin_crc32.value()},
                     {"tolerance", info.tolerance},
                     {"relative_tolerance", info.relative_tolerance},
                     {"has_toi", info.has_toi},

@@ -56,6 +56,18 @@ bool is_sound(const Event& event, const Job& job, const Progress& progress, cons
   return event.number / per_unit == job.number && event.failure[0] != '\0';
 }
 
+/// A library that was built anew has the name of the one before: what both of them did would be one campaign.
+void require_same_plugin(const Ledger& known, const Ledger& now, const std::string& file) {
+  if (known.target != now.target || known.plugin_crc32 == now.plugin_crc32) return;
+  const auto words = [](const std::optional<std::uint32_t>& crc32) {
+    return crc32 ? "CRC-32 " + std::to_string(*crc32) : std::string("no CRC-32");
+  };
+  throw io::Error(io::ErrorKind::kBadInput,
+                  file + ": is of another library with the name '" + now.target + "': there it has " +
+                      words(known.plugin_crc32) + ", now " + words(now.plugin_crc32) +
+                      "; it may have been rebuilt: name another folder, or go on with the library of then");
+}
+
 }  // namespace
 
 struct Driver::Team {
@@ -82,6 +94,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
       setting_{properties, options_.seed, std::filesystem::absolute(options_.folder)} {
   ledger_.version = options_.version;
   ledger_.target = options_.target;
+  ledger_.plugin_crc32 = options_.plugin_crc32;
   ledger_.seed = options_.seed;
   ledger_.cases = options_.cases;
   ledger_.shard = options_.shard;
@@ -94,6 +107,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
           file.string() + ": there is a campaign already; continue it with --resume or name another folder");
     }
     Ledger known = parse_ledger(io::read_file(file), file.string());
+    require_same_plugin(known, ledger_, file.string());
     known.cases = ledger_.cases;  // more may be asked for than the last time
     Ledger blank = known;
     for (PropertyLedger& property : blank.properties) {
@@ -183,6 +197,8 @@ void Driver::look_after(Team& team, Pace pace, short heard) {
   team.worker->watch(options_.case_seconds);
   const Job& job = *team.worker->job();  // where nothing but a case as it is remains to be written, that is waited for
   if (pace == Pace::kLate && (job.kind == Job::Kind::kUnit || job.shrunk != 0)) team.worker->abandon();
+  // Nothing is lost with a worker that still loads what it tests.
+  if (pace == Pace::kStopping && job.kind == Job::Kind::kUnit && !team.worker->has_started()) team.worker->abandon();
 }
 
 std::optional<Job> Driver::next_job(Pace pace) {
@@ -300,7 +316,12 @@ void Driver::take_death(Team& team) {
     take_unit(team);
     return team.worker->revive();
   }
-  if (death.at_start) throw std::runtime_error("a worker " + death.failure + " before it could run a case");
+  if (death.at_start) {
+    const std::string what = "a worker " + death.failure + " before it could run a case; " +
+                             (setting_.folder / kWorkerLog).string() + " may say why";
+    if (options_.plugin_crc32) throw io::Error(io::ErrorKind::kBadInput, ledger_.target + ": " + what);
+    throw std::runtime_error(what);
+  }
   const auto p = static_cast<std::size_t>(job.property);
   Share& share = shares_[p];
   Progress& progress = team.worker->progress();

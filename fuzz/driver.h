@@ -20,6 +20,7 @@ struct DriverOptions {
   bool resume = false;
   double case_seconds = kCaseSeconds;  ///< that a case may compute or sleep (case_clock.h)
   std::string version, target = "selvage";
+  std::optional<std::uint32_t> plugin_crc32;
 };
 
 struct DriverStatus {

@@ -59,7 +59,7 @@ class SharedMemory {
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   Shared& head = memory.head();
   try {
-    child.prepare();
+    child.prepare.run();
     head.stage = Stage::kPrepared;
     child.work(memory.result());
     head.stage = Stage::kDone;
@@ -75,7 +75,7 @@ class SharedMemory {
 }
 
 /// Its status as waitpid() gives it; nothing where it had to be killed.
-std::optional<int> wait_for(pid_t process, const Shared& head, double seconds) {
+std::optional<int> wait_for(pid_t process, const Shared& head, const ChildWork& child) {
   CaseClock clock;
   auto pause = std::chrono::microseconds(200);
   while (true) {
@@ -86,7 +86,7 @@ std::optional<int> wait_for(pid_t process, const Shared& head, double seconds) {
     const bool is_preparing = head.stage == Stage::kBegun;
     const WorkerSight sight{is_preparing ? 1 : 2, processor_seconds(process).value_or(0), is_asleep(process),
                             std::chrono::steady_clock::now()};
-    if (!clock.is_over(sight, is_preparing ? kPrepareSeconds : seconds)) continue;
+    if (!clock.is_over(sight, is_preparing ? child.prepare.seconds : child.seconds)) continue;
     kill(process, SIGKILL);
     waitpid(process, nullptr, 0);
     return std::nullopt;
@@ -113,7 +113,7 @@ ChildEnd run_in_child(const ChildWork& child, void* result) {
   const pid_t process = fork();
   if (process < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (process == 0) be_the_child(child, memory);
-  const std::optional<int> status = wait_for(process, memory.head(), child.seconds);
+  const std::optional<int> status = wait_for(process, memory.head(), child);
   const Stage stage = memory.head().stage;
   if (stage == Stage::kRefused) throw io::Error(io::ErrorKind::kBadInput, memory.head().refusal);
   ChildEnd end{{}, stage != Stage::kBegun};

@@ -15,15 +15,17 @@ void become_test_process();
 /// How a child died, from its status: "exited", or "crashed-SIGSEGV" and the like.
 [[nodiscard]] std::string death_of(int status);
 
-/// Seconds in which `prepare` of run_guarded() must be done, counted as those of a case (case_clock.h). A library that
-/// takes longer to load is said to hang: 20 s are a hundred times what a large one takes.
-inline constexpr double kPrepareSeconds = 20;
+/// What has to be done before the code under test is asked, and how long it may take, counted as a case (case_clock.h).
+struct Preparation {
+  std::function<void()> run;
+  double seconds = 0;
+};
 
 /// What `prepare` and then `work` leave in a memory of `size` bytes that parent and child share. How the child died
 /// (crashed-SIGSEGV, hung, exited, threw), or nothing. What `prepare` throws is thrown here, as io::Error(kBadInput).
 /// What the child prints goes to stderr: it is no result.
 struct ChildWork {
-  std::function<void()> prepare;
+  Preparation prepare;
   std::function<void(void* memory)> work;
   std::size_t size = 0;
   double seconds = 0;  ///< for `work`
@@ -42,7 +44,7 @@ struct Guarded {
 };
 
 template <class Result>
-[[nodiscard]] Guarded<Result> run_guarded(std::function<void()> prepare, const std::function<Result()>& work,
+[[nodiscard]] Guarded<Result> run_guarded(Preparation prepare, const std::function<Result()>& work,
                                           double seconds) {
   static_assert(std::is_trivially_copyable_v<Result>);
   Guarded<Result> guarded;

@@ -16,7 +16,7 @@ std::string_view difference(const Ledger& a, const Ledger& b) {
     return p.name == q.name && p.streams == q.streams && p.counters == q.counters;
   };
   if (a.version != b.version) return "the version of the program";
-  if (a.target != b.target) return "the code under test (--plugin)";
+  if (a.target != b.target || a.plugin_crc32 != b.plugin_crc32) return "the code under test (--plugin)";
   if (a.seed != b.seed) return "--seed";
   if (a.cases != b.cases) return "--cases";
   if (a.shards != b.shards) return "the number of shards (--shard i/N)";

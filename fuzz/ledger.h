@@ -42,6 +42,12 @@ struct PropertyLedger {
   friend bool operator==(const PropertyLedger&, const PropertyLedger&) = default;
 };
 
+/// Of each property: campaign.json holds counts up to 2^53, which every reader of JSON takes exactly, and what is asked
+/// for is rounded up to work units.
+inline constexpr double kMostCases = 1e15;
+/// Far more than a scheduler's array holds, and so few that the numbers of cases stay below 2^53 as well.
+inline constexpr std::size_t kMostShards = 1'000'000;
+
 struct Ledger {
   std::string version;  ///< of the program: the cases behind a number may change with it
   std::string target;   ///< what is attacked: "selvage", or the plugin's name
@@ -49,6 +55,7 @@ struct Ledger {
   std::int64_t cases = 0;  ///< of each property, asked for; 0: as many as the time allows
   std::int64_t shard = 1, shards = 1;
   std::vector<PropertyLedger> properties;
+  std::optional<std::uint32_t> plugin_crc32 = {};  ///< of the plugin's file: one that was rebuilt is another target
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -71,6 +72,14 @@ std::int64_t count(const Json& json) {
   return json.get<std::int64_t>();
 }
 
+std::uint32_t checksum(const Json& json) {
+  const std::int64_t value = count(json);
+  if (value > std::numeric_limits<std::uint32_t>::max()) {
+    throw std::invalid_argument("'" + json.dump() + "' is no CRC-32");
+  }
+  return static_cast<std::uint32_t>(value);
+}
+
 Accuracy::Histogram histogram_of(const Json& json) {
   Accuracy::Histogram histogram{};
   for (const auto& [bin, value] : json.items()) {
@@ -134,6 +143,7 @@ std::string to_json(const Ledger& ledger) {
   json["schema"] = kSchema;
   json["version"] = ledger.version;
   json["target"] = ledger.target;
+  if (ledger.plugin_crc32) json["plugin_crc32"] = *ledger.plugin_crc32;
   json["seed"] = ledger.seed;
   json["cases"] = ledger.cases;
   json["shard"] = {ledger.shard, ledger.shards};
@@ -149,6 +159,7 @@ Ledger parse_ledger(const std::string& text, const std::string& name) {
     Ledger ledger;
     ledger.version = json.at("version").get<std::string>();
     ledger.target = json.at("target").get<std::string>();
+    if (json.contains("plugin_crc32")) ledger.plugin_crc32 = checksum(json.at("plugin_crc32"));
     const Json& seed = json.at("seed");
     if (!seed.is_number_unsigned()) throw std::invalid_argument("the seed is no number");
     ledger.seed = seed.get<std::uint64_t>();

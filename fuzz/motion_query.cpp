@@ -104,6 +104,15 @@ double max_coordinate(const MotionQuery& query) {
   return largest;
 }
 
+bool is_in_domain(const MotionQuery& query) {
+  for (const auto* x : {&query.x_t0, &query.x_t1}) {
+    for (int i = 0; i < point_count(query.kind); ++i) {  // each by itself: a maximum may pass over NaN
+      if (!((*x)[static_cast<std::size_t>(i)].array().abs() <= kMaxCoordinate).all()) return false;
+    }
+  }
+  return query.options.tolerance >= 0 && std::isfinite(query.options.tolerance) && query.options.max_intervals >= 1;
+}
+
 double extent(const MotionQuery& query) {
   Vec3 low = query.x_t0[0];
   Vec3 high = low;

@@ -38,6 +38,8 @@ using CcdKernel = CcdResult (*)(const MotionQuery& query);
 
 /// Largest |coordinate| at either end.
 [[nodiscard]] double max_coordinate(const MotionQuery& query);
+/// Whether the kernel promises anything about it: kernel/types.h.
+[[nodiscard]] bool is_in_domain(const MotionQuery& query);
 /// Largest side of the box of all points at both ends, rounded: a length that describes the query.
 [[nodiscard]] double extent(const MotionQuery& query);
 

@@ -18,6 +18,8 @@
 #include <unistd.h>
 
 #include "fuzz/guarded_run.h"
+#include "io/atomic_file.h"
+#include "io/checksum.h"
 #include "io/fail.h"
 #include "io/text.h"
 #include "kernel/fp_env.h"
@@ -222,13 +224,18 @@ std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, con
   return "";
 }
 
-PluginInfo probe_plugin(const std::filesystem::path& library) {
+PluginInfo probe_plugin(const std::filesystem::path& library, double seconds) {
   if (access(library.c_str(), R_OK) != 0) io::file_error(library.string(), "open", errno);
   std::optional<Plugin> plugin;
   const auto probe =
-      run_guarded<PluginInfo>([&] { plugin.emplace(library); }, [&] { return plugin->info(); }, kPrepareSeconds);
-  if (!probe.death.empty()) refuse(library, "does not survive being loaded: " + probe.death);
+      run_guarded<PluginInfo>({[&] { plugin.emplace(library); }, seconds}, [&] { return plugin->info(); }, seconds);
+  if (!probe.death.empty()) {
+    const std::string limit = probe.death == "hung" ? "; give it more time with --case-time, if it needs it" : "";
+    refuse(library, "does not survive being loaded: " + probe.death + limit);
+  }
   return probe.result;
 }
+
+std::uint32_t crc32_of_plugin(const std::filesystem::path& library) { return io::crc32(io::read_file(library)); }
 
 }  // namespace selvage::fuzz

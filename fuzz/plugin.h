@@ -1,6 +1,7 @@
 // A user's collision code in a shared library, called with care: what it does besides answering is seen and undone.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -17,8 +18,12 @@ struct PluginInfo {
 };
 
 /// Loads it in a child process, so that nothing it does on the way stays. Throws io::Error(kBadInput): no library, no
-/// entry, another version, or it does not survive.
-[[nodiscard]] PluginInfo probe_plugin(const std::filesystem::path& library);
+/// entry, another version, or it does not survive, or takes longer than `seconds`, counted as those of a case
+/// (case_clock.h).
+[[nodiscard]] PluginInfo probe_plugin(const std::filesystem::path& library, double seconds);
+
+/// Of the file, by which a library is known again. Throws io::Error(kFile).
+[[nodiscard]] std::uint32_t crc32_of_plugin(const std::filesystem::path& library);
 
 class Plugin {
  public:

@@ -52,7 +52,7 @@ PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& 
     selvage_answer answer{};
   };
   PluginTrial trial;
-  trial.info = probe_plugin(library);
+  trial.info = probe_plugin(library, case_seconds);
   std::optional<Plugin> plugin;
   const auto ask = [&] {
     Plain plain;
@@ -63,7 +63,7 @@ PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& 
     plain.answer = judgement.answer.answer;
     return plain;
   };
-  const auto run = run_guarded<Plain>([&] { plugin.emplace(library); }, ask, case_seconds);
+  const auto run = run_guarded<Plain>({[&] { plugin.emplace(library); }, case_seconds}, ask, case_seconds);
   trial.failure = run.death.empty() ? run.result.failure : run.death;
   trial.has_answer = run.result.has_answer;
   trial.answer = run.result.answer;

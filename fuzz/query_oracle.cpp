@@ -56,8 +56,9 @@ Disagreement check_alarm(const MotionQuery& query, const CcdResult& answer, Judg
   if (answer.gap_bound > gap_allowance(query, answer.cause)) return Disagreement::kGapTooLoose;
   if (judgement.touches) return Disagreement::kNone;  // distance 0 is within any bound
   if (judgement.hit && answer.gap_bound >= query.options.tolerance) return Disagreement::kNone;  // within it at the end
-  if (answer.cause == CcdCause::kMotion && answer.gap_bound > 0) {
-    judgement.near_miss_bits = std::ilogb(spread(query)) - std::ilogb(answer.gap_bound);
+  const double size = spread(query);  // beyond the domain infinite, which has no exponent
+  if (answer.cause == CcdCause::kMotion && answer.gap_bound > 0 && size > 0 && std::isfinite(size)) {
+    judgement.near_miss_bits = std::ilogb(size) - std::ilogb(answer.gap_bound);
   }
   const std::array<double, 3> hints{answer.cause == CcdCause::kEnd ? 1 : answer.toi_lower, answer.toi_lower + 0x1p-52,
                                     1};

@@ -8,9 +8,6 @@
 namespace selvage::fuzz {
 namespace {
 
-/// What is no number has a cost of its own: a candidate that must be refused should keep one of them at most.
-constexpr int kNotFiniteBits = 64;
-
 void drop_loose_vertices(MeshCase& kept) {
   std::vector<std::int32_t> number(kept.vertex_count(), -1);
   for (const auto& face : kept.faces) {
@@ -147,20 +144,18 @@ class MeshShrinker {
     for (const int bits : kShortBits) {  // all at once, then one by one
       MeshCase rounded = best_;
       for (Positions& x : rounded.x) {
-        for (double& coordinate : x.reshaped()) coordinate = shorter(coordinate, bits);
+        for (double& coordinate : x.reshaped()) coordinate = round_to_bits(coordinate, bits);
       }
       if (offer(std::move(rounded))) break;
     }
     for (std::size_t i = 0; i < best_.x.size(); ++i) {
       for (Eigen::Index at = 0; at < best_.x[i].size(); ++at) {
         for (const int bits : kShortBits) {
-          if (set(i, at, shorter(best_.x[i].reshaped()[at], bits))) break;
+          if (set(i, at, round_to_bits(best_.x[i].reshaped()[at], bits))) break;
         }
       }
     }
   }
-
-  static double shorter(double x, int bits) { return std::isfinite(x) ? round_to_bits(x, bits) : x; }
 
   bool set(std::size_t i, Eigen::Index at, double x) {
     MeshCase simpler = best_;
@@ -192,7 +187,7 @@ MeshCost cost_of(const MeshCase& kept) {
       cost.moving += coordinate != kept.x[0].reshaped()[at] ? 1 : 0;
       if (coordinate == 0) continue;
       ++cost.non_zero;
-      cost.bits += std::isfinite(coordinate) ? mantissa_bits(coordinate) : kNotFiniteBits;
+      cost.bits += mantissa_bits(coordinate);
       cost.exponents += std::isfinite(coordinate) ? std::abs(std::ilogb(coordinate)) : 0;
     }
   }

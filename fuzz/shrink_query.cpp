@@ -55,7 +55,7 @@ class Shrinker {
     }
     const QueryCost cost = cost_of(simpler);
     if (!(cost < cost_ || (simpler_options && cost == cost_)) || best_.trials >= max_trials_) return false;
-    if (!(max_coordinate(simpler) <= kMaxCoordinate)) return false;
+    if (!is_in_domain(simpler)) return false;
     ++best_.trials;
     if (!still_fails_(simpler)) return false;
     best_.query = simpler;
@@ -133,7 +133,7 @@ class Shrinker {
   /// So that the largest coordinate is about 1, or half as far as that.
   void scaling() {
     const double largest = max_coordinate(best_.query);
-    if (largest == 0) return;
+    if (!(largest > 0) || !std::isfinite(largest)) return;  // which have no exponent
     for (int exponent = -std::ilogb(largest); exponent != 0; exponent /= 2) {
       MotionQuery scaled = best_.query;
       for (std::size_t i = 0; i < all_.size(); ++i) {
@@ -186,9 +186,10 @@ QueryCost cost_of(const MotionQuery& query) {
     if (i % 2 == 0 && x != Coordinates::at(copy, i + 1)) ++cost.moving;
     if (x == 0) continue;
     ++cost.non_zero;
-    distinct.insert(std::abs(x));
     cost.bits += mantissa_bits(x);
-    cost.exponents += std::isfinite(x) ? std::abs(std::ilogb(x)) : 0;
+    if (!std::isfinite(x)) continue;  // NaN has no place in an order
+    distinct.insert(std::abs(x));
+    cost.exponents += std::abs(std::ilogb(x));
   }
   cost.distinct = static_cast<int>(distinct.size());
   return cost;

@@ -31,6 +31,9 @@ Outcome outcome_of(Property& property, const Stream& stream, std::uint64_t seed)
   }
 }
 
+/// For all that a property makes before its first case, the recorded scene too, which takes seconds under sanitizers.
+constexpr double kPrepareSeconds = 20;
+
 class Worker {
  public:
   Worker(const WorkerSetting& setting, Progress& progress, int events)
@@ -123,6 +126,7 @@ void work(const WorkerSetting& setting, Progress& progress, int jobs, int events
       property->on_beat([&progress] { progress.beat.fetch_add(1, std::memory_order_relaxed); });
       property->start();
     }
+    progress.has_started = true;
     Worker worker(setting, progress, events);
     Job job;
     while (receive(jobs, job)) worker.run(job);
@@ -152,7 +156,7 @@ OneCase run_case(Property& property, const Stream& stream, std::uint64_t seed, s
     property.prepare();
     property.start();
   };
-  const Guarded<Plain> run = run_guarded<Plain>(prepare, work, seconds);
+  const Guarded<Plain> run = run_guarded<Plain>({prepare, kPrepareSeconds}, work, seconds);
   if (run.death.empty()) return {{run.result.counts, run.result.failure}, false};
   if (!run.has_prepared) {
     throw io::Error(io::ErrorKind::kBadInput, property.name() + ": " + run.death + " before it could run a case");

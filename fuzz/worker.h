@@ -47,6 +47,7 @@ struct Progress {
   Accuracy accuracy[kMaxStreams];
   bool is_skipped[kMaxStreams] = {};      ///< streams not to be run any more
   std::atomic<bool> is_stopping = false;  ///< a unit ends behind the case in hand
+  std::atomic<bool> has_started = false;  ///< this worker: what is tested is loaded
   std::atomic<bool> has_kept = false;     ///< of kKeep: the case is written, be it not yet simple
 };
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "shared between processes");

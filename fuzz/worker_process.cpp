@@ -47,6 +47,7 @@ WorkerProcess::~WorkerProcess() {
 
 void WorkerProcess::start() {
   const auto jobs = make_pipe(), events = make_pipe();
+  progress_->has_started = false;
   pid_ = fork();
   if (pid_ < 0) fail("fork");
   if (pid_ == 0) {
@@ -114,8 +115,10 @@ void WorkerProcess::revive() {
 void WorkerProcess::watch(double case_seconds) {
   if (!job_) return;
   const std::int64_t beat = progress_->beat.load();
-  // Not at its first case yet; or it shrinks what does not beat, which runs many cases and is bounded by their number.
-  if (beat == (job_->kind == Job::Kind::kUnit ? beat_at_start_ : beat_at_job_)) return;
+  // Loaded, and not at its first case yet; or it shrinks what does not beat, which runs many cases and is bounded by
+  // their number.
+  const std::int64_t idle_beat = job_->kind == Job::Kind::kUnit ? beat_at_start_ : beat_at_job_;
+  if (progress_->has_started && beat == idle_beat) return;
   const std::optional<double> used = processor_seconds(pid_);
   if (!used) return;  // it has just died
   if (!clock_.is_over({beat, *used, is_asleep(pid_), std::chrono::steady_clock::now()}, case_seconds)) return;

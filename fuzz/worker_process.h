@@ -37,7 +37,9 @@ class WorkerProcess {
   [[nodiscard]] Death bury();
   /// Another process takes over: the unit goes on behind the case that killed the last one; a kept case is given up.
   void revive();
-  /// Kills it if the case in hand has taken too long (case_clock.h).
+  /// Whether it has loaded what it tests.
+  [[nodiscard]] bool has_started() const { return progress_->has_started; }
+  /// Kills it if the case in hand, or loading what it tests, has taken too long (case_clock.h).
   void watch(double case_seconds);
   /// A unit in hand ends behind the case in hand.
   void ask_to_stop() { progress_->is_stopping = true; }

@@ -64,6 +64,12 @@ fs::path behind_links(const fs::path& file) {
   return target;
 }
 
+void require_nameable(const fs::path& file) {
+  for (const fs::path& name : file) {
+    if (name.native().size() > NAME_MAX) file_error(file.string(), "write", ENAMETOOLONG);
+  }
+}
+
 void write_atomically(const fs::path& file, std::string_view bytes) {
   std::error_code status;
   const fs::file_status found = fs::status(file, status);

@@ -39,6 +39,10 @@ class AtomicFile {
 /// lead round in a circle.
 [[nodiscard]] std::filesystem::path behind_links(const std::filesystem::path& file);
 
+/// Throws Error(kFile) where the name of `file`, or of a folder in its path, is longer than any that there are
+/// (NAME_MAX): to be called before work whose result would have that name.
+void require_nameable(const std::filesystem::path& file);
+
 /// Replaces `file` by `bytes`; on disk when it returns. On failure throws Error(kFile) and leaves the old file intact.
 /// A kill leaves at most a file "NAME.tmp-..." beside it. A link is followed, to what is not there yet as well. What is
 /// no regular file (a pipe, a device) cannot be replaced and is written in place.

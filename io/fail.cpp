@@ -31,6 +31,8 @@ std::string_view remedy(int errno_value) {
       return "raise the limit on the size of files (ulimit -f)";
     case EISDIR:
       return "name a file";
+    case ENAMETOOLONG:
+      return "shorten the name";
     default:
       return "check the file system";
   }

@@ -111,6 +111,7 @@ fs::path frame_path(const fs::path& target, std::size_t frame, const char* exten
 }
 
 void require_absent(const fs::path& file) {
+  require_nameable(file);
   std::error_code status;
   if (!fs::exists(fs::symlink_status(file, status))) return;
   throw Error(ErrorKind::kFile, file.string() + ": is there already; remove it, or choose another name");

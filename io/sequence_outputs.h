@@ -27,7 +27,7 @@ namespace selvage::io {
 /// cloth_000012.obj for cloth.obj.
 [[nodiscard]] std::filesystem::path frame_path(const std::filesystem::path& target, std::size_t frame,
                                                const char* extension);
-/// Throws Error(kFile) if `file` is there.
+/// Throws Error(kFile) if `file` is there, or can have no such name.
 void require_absent(const std::filesystem::path& file);
 /// Throws Error(kBadInput) unless `mesh` has the faces and the number of vertices of the first frame.
 void require_same_mesh(const OutputHeader& header, const MeshData& mesh, const std::filesystem::path& target);

@@ -2,12 +2,18 @@
 
 #include <cstdio>
 
+#include "page/utf8.h"
+
 namespace selvage::page {
 
 std::string json_string(std::string_view plain) {
   std::string quoted = "\"";
-  for (const char c : plain) {
-    if (c == '"' || c == '\\') {
+  for (std::size_t i = 0; i < plain.size();) {
+    const std::size_t length = character_length(plain.substr(i));
+    const char c = plain[i];
+    if (length == 0) {
+      quoted += kReplacement;
+    } else if (c == '"' || c == '\\') {
       quoted += '\\';
       quoted += c;
     } else if (static_cast<unsigned char>(c) < ' ') {
@@ -15,8 +21,9 @@ std::string json_string(std::string_view plain) {
       std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(static_cast<unsigned char>(c)));
       quoted += escape;
     } else {
-      quoted += c;
+      quoted += plain.substr(i, length);
     }
+    i += length == 0 ? 1 : length;
   }
   return quoted + "\"";
 }

@@ -156,10 +156,11 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   }
   for (const Violation& violation : report.disagreements) text += line(violation, context);
   for (const auto& [groups, pairs] : report.exempted) {
-    text += "exempted:   " + count(pairs) + " pairs of \"" + groups[0] + "\" and \"" + groups[1] + "\"\n";
+    text += "exempted:   " + count(pairs) + " pairs of \"" + io::printable(groups[0]) + "\" and \"" +
+            io::printable(groups[1]) + "\"\n";
   }
   for (const auto& [group, faces] : report.ignored) {
-    text += "ignored:    " + count(faces) + " faces of \"" + group + "\"\n";
+    text += "ignored:    " + count(faces) + " faces of \"" + io::printable(group) + "\"\n";
   }
   if (report.welded) {
     text += "welded:     " + count(report.welded->vertices) +

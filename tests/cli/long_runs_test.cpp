@@ -56,6 +56,31 @@ nlohmann::json report(const std::filesystem::path& file) {
 
 }  // namespace
 
+TEST(LongRuns, APartIsNotOverwrittenByTheWhole) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj", b = folder.path() / "b.obj", parts = folder.path() / "parts";
+  spit(a, sheet(1, 0));
+  spit(b, sheet(1, 1));
+  std::filesystem::create_directory(parts);
+  for (const std::string i : {"1", "2"}) {
+    const auto part = run_program(folder, {"verify", a, b, "--shard", i + "/2", "--json", parts / (i + ".json")});
+    ASSERT_EQ(part.exit_code, 0) << part.err;
+  }
+  const std::string first = slurp(parts / "1.json");
+  const auto refused = run_program(folder, {"merge", parts, "-o", parts / "1.json"});
+  EXPECT_EQ(refused.exit_code, 2) << refused.out;
+  EXPECT_NE(refused.err.find("1.json is a report of " + parts.string() + " that is read, and would be overwritten"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_EQ(slurp(parts / "1.json"), first);
+  for (int i = 0; i < 2; ++i) {  // that of an earlier merge is none of the parts
+    EXPECT_EQ(run_program(folder, {"merge", parts, "-o", parts / "whole.json"}).exit_code, 0);
+  }
+  for (const char* part : {"1.json", "2.json"}) std::filesystem::remove(parts / part);
+  const auto alone = run_program(folder, {"merge", parts, "-o", parts / "whole.json"});
+  EXPECT_EQ(alone.exit_code, 2) << alone.err;
+}
+
 TEST(LongRuns, ShardsMergeIntoTheWhole) {
   const TemporaryFolder folder;
   const auto files = sequence(folder.path(), 7, 3);

@@ -58,11 +58,24 @@ TEST(Options, ANumberThatWouldBeRoundedToZeroIsRefused) {
 TEST(Options, TheRangeIsSaidInShort) {
   expect_usage_errors({
       {{"verify", "none.obj", "--max-violations", "-1"}, "--max-violations", "'-1' is not a number from 0 up"},
-      {{"fuzz", "ccd", "--cases", "0"}, "--cases", "'0' is not a number from 1 up"},
+      {{"fuzz", "ccd", "--cases", "0"}, "--cases", "'0' is not a number from 1 to 1000000000000000"},
       {{"fuzz", "ccd", "--jobs", "0"}, "--jobs", "'0' is not a number from 1 up"},
       {{"fuzz", "ccd", "--case-time", "0"}, "--case-time", "'0' is not a number above 0"},
       {{"bench", "queries", "none.csv", "--tolerance", "-1"}, "--tolerance", "'-1' is not a number from 0 up"},
   });
+}
+
+// campaign.json could not be read back, and beyond 2^63 the numbers of cases and shards would overflow.
+TEST(Options, ACampaignIsNoLargerThanItsCounts) {
+  for (const std::string cases : {"1000000000000001", "9007199254740993", "9223372036854775807"}) {
+    const std::string words = "'" + cases + "' is not a number from 1 to 1000000000000000";
+    expect_usage_errors({{{"fuzz", "ccd", "--cases", cases}, "--cases", words}});
+  }
+  for (const std::string shard : {"1/1000001", "2/18446744073709551615"}) {
+    expect_usage_errors({{{"fuzz", "ccd", "--cases", "1", "--shard", shard}, "--shard", "at most 1000000 shards"}});
+  }
+  const std::string help = run_program({"fuzz", "--help"}).out;
+  EXPECT_NE(help.find("from 1 to 1000000000000000"), std::string::npos) << help;
 }
 
 TEST(Options, AFrameIsAWholeNumber) {
@@ -104,6 +117,60 @@ TEST(Options, ANumberOfACaseIsWhole) {
     expect_usage_errors({{{"fuzz", "step", "--only", "soup:" + number}, "--only", "'soup:" + number + "'"}});
   }
   expect_usage_errors({{{"fuzz", "step", "--cases", "1", "--seed", "-1"}, "--seed", "'-1' is not a whole number"}});
+}
+
+// Hours of work would end in an error.
+TEST(Options, ANameThatNoFileCanHaveIsFourBeforeTheWork) {
+  const testing::TemporaryFolder folder;
+  const auto path_of = [&](std::size_t length, const std::string& extension) {
+    return (folder.path() / (std::string(length - extension.size(), 'n') + extension)).string();
+  };
+  const std::string mesh = folder.path() / "a.obj", case_file = folder.path() / "a.case",
+                    report = folder.path() / "r.json", queries = folder.path() / "q_vf.csv",
+                    json = path_of(256, ".json");
+  testing::spit(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  testing::spit(case_file,
+                "selvage-case 1 vf\nseed hand\noptions tolerance=0 max_intervals=64\np 1 1 1  1 1 -1\n"
+                "a 0 0 0  0 0 0\nb 4 0 0  4 0 0\nc 0 4 0  0 4 0\nexpect touches\n");
+  std::string rows;
+  for (int i = 0; i < 8; ++i) rows += std::to_string(i) + ",1,0,1,0,1,0\n";
+  testing::spit(queries, rows);
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", report}).exit_code, 0);
+  const std::vector<std::string> kCommands[] = {
+      {"verify", mesh, "--json", json},
+      {"verify", mesh, "--json", path_of(250, ".json")},  // progress is kept in NAME.json.progress
+      {"verify", mesh, "--html", json},
+      {"verify", mesh, "--cases", json},
+      {"verify", mesh, "--json", folder.path() / std::string(256, 'n') / "report.json"},
+      {"merge", report, "-o", json},
+      {"merge", report, "-o", folder.path() / "whole.json", "--html", json},
+      {"convert", mesh, "-o", path_of(256, ".npz")},
+      {"convert", mesh, mesh, "-o", path_of(255, ".obj")},  // whose frames are NAME_000000.obj
+      {"render", mesh, "-o", path_of(256, ".png")},
+      {"view", mesh, "-o", json},
+      {"subdivide", mesh, "-o", path_of(256, "")},
+      {"sim", SELVAGE_SOURCE_DIR "/sim/scenes/demo.toml", "-o", path_of(256, "")},
+      {"replay", case_file, "--json", json},
+      {"fuzz", "scale", "--cases", "1", "--artifacts", path_of(256, "")},
+      {"doctor", "--json", json},
+      {"bench", "queries", queries, "--json", json},
+      {"bench", "ccd", "--sheet", "10", "--json", json},
+      {"bench", "broad", "--largest", "100", "--repeat", "1", "--json", json},
+      {"bench", "methods", "--sheet", "2", "--hard", "10", "--repeat", "1", "--json", json},
+      {"bench", "verify", "--faces", "100", "--repeat", "1", "--json", json},
+      {"bench", "stability", "--quick", "--case", "knot", "--json", json},
+      {"bench", "sim", "--finest-mesh", "17", "--growth", "2", "--module-nodes", "2", "--repeat", "1", "--json", json},
+  };
+  for (const auto& arguments : kCommands) {
+    const auto result = run_program(folder, arguments);
+    const std::string what = arguments[0] + " " + arguments[1] + ": " + result.out + result.err;
+    EXPECT_EQ(result.exit_code, 4) << what;
+    EXPECT_EQ(result.out, "") << what;
+    EXPECT_NE(result.err.find("File name too long; shorten the name"), std::string::npos) << what;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_LT(entry.path().filename().string().size(), 40U) << entry.path();
+  }
 }
 
 TEST(Options, AFolderThatCannotBeMadeIsFour) {

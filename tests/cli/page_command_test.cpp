@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/sequence.h"
+#include "io/text.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/two_faces.h"
 
@@ -109,6 +110,18 @@ TEST(VerifyPage, NamesOfStrangersStayText) {
     EXPECT_EQ(occurrences(html, "<script"), occurrences(html, "</script>"));
   }
   EXPECT_NE(ignored.find("Ignored: &quot;&lt;/script&gt;&lt;b&gt;&amp;&quot;"), ignored.npos);
+}
+
+TEST(VerifyPage, NamesThatAreNoUtf8LeaveThePageUtf8) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "cloth\xff.obj", page = folder.path() / "page.html";
+  spit(mesh, two_faces(0));
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--html", page, "--cases", folder.path() / "\xfe"}).exit_code, 1);
+  EXPECT_TRUE(io::is_utf8(slurp(page)));
+  EXPECT_EQ(run_program(folder, {"view", mesh, "-o", page}).exit_code, 0);
+  EXPECT_TRUE(io::is_utf8(slurp(page)));
+  const std::string name = data_of(slurp(page), "scene")["frames"][0]["name"];
+  EXPECT_NE(name.find("cloth\xef\xbf\xbd.obj"), name.npos) << name;
 }
 
 TEST(VerifyPage, MeshesThatDoNotFitAreLeftOutAndSo) {

@@ -130,6 +130,29 @@ TEST(ReplayCommand, AWrongExpectationIsThree) {
   }
 }
 
+TEST(ReplayCommand, WhatTheKernelPromisesNothingAboutIsSaidToBeSo) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.case", json = folder.path() / "r.json";
+  const auto replay = [&](const std::string& tolerance, const std::string& x) {
+    spit(file, "selvage-case 1 vf\nseed hand\noptions tolerance=" + tolerance + " max_intervals=64\np " + x +
+                   " 1 1  1 1 -1\na 0 0 0  0 0 0\nb 4 0 0  4 0 0\nc 0 4 0  0 4 0\nexpect apart\n");
+    return run_program(folder, {"replay", "--json", json, file});
+  };
+  EXPECT_EQ(replay("0x1p-20", "0x1p+1000").exit_code, 0);
+  const auto outside = replay("0x1p-20", "0x1.0000000000001p+1000");
+  EXPECT_EQ(outside.exit_code, 3) << outside.out << outside.err;
+  EXPECT_EQ(outside.out.find("holds"), std::string::npos) << outside.out;
+  EXPECT_NE(outside.out.find("  property: ccd: not judged, and no plugin asked: a coordinate is beyond 2^1000\n"),
+            std::string::npos)
+      << outside.out;
+  EXPECT_NE(outside.out.find("OUTSIDE THE DOMAIN: nothing is promised\n"), std::string::npos) << outside.out;
+  EXPECT_EQ(parse(json)["cases"][0]["outcome"], "outside");
+  const auto negative = replay("-0x1p-20", "9");
+  EXPECT_EQ(negative.exit_code, 3) << negative.out;
+  EXPECT_EQ(negative.err, "selvage: " + file.string() +
+                              ":3: tolerance: -0x1p-20 is negative; it is a distance, from 0 up\n");
+}
+
 TEST(ReplayCommand, TheTextbooksMissIsNamed) {
   // Edges of length 1e60 that cross at a time that is no double: at the nearest one they are far apart.
   const TemporaryFolder folder;

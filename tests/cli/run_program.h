@@ -82,6 +82,18 @@ inline void wait_until_signal_is_caught(pid_t child, int signal) {
   ADD_FAILURE() << "the program does not catch signal " << signal;
 }
 
+/// Returns once a signal that was sent to the child is no longer waiting for it, or has killed it.
+inline void wait_until_signal_is_taken(pid_t child, int signal) {
+  for (int i = 0; i < 60000; ++i) {
+    const std::string status = slurp("/proc/" + std::to_string(child) + "/status");
+    const std::size_t at = status.find("ShdPnd:");
+    if (at == std::string::npos || status.find("State:\tZ") != std::string::npos) return;
+    if ((std::stoull(status.substr(at + 7), nullptr, 16) >> (signal - 1) & 1) == 0) return;
+    usleep(1000);
+  }
+  ADD_FAILURE() << "the program does not take signal " << signal;
+}
+
 inline ProgramResult wait_for_program(const std::filesystem::path& folder, pid_t child) {
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);

@@ -263,6 +263,21 @@ TEST(SequenceArgument, AFrameThatIsMissingInTheListOfAFolderIsSaid) {
   EXPECT_NE(result.err.find("frame_000003.npy comes right after "), std::string::npos) << result.err;
 }
 
+TEST(SequenceArgument, NamesOfFilesDoNotCommandTheTerminal) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"convert"};
+  for (const char* name : {"\x1b[31m\n_1.obj", "\x1b[31m\n_2.obj", "\x1b[31m\n_4.obj"}) {
+    arguments.push_back(folder.path() / name);
+    spit(arguments.back(), kTwoFaces);
+  }
+  arguments.insert(arguments.end(), {"-o", folder.path() / "\x1b[2J.obj"});
+  const auto converted = run_program(folder, arguments);
+  EXPECT_EQ(converted.exit_code, 0) << converted.err;
+  EXPECT_NE(converted.err.find("/?[31m?_4.obj comes right after "), std::string::npos) << converted.err;
+  EXPECT_NE(converted.out.find("/?[2J_000000.obj ... "), std::string::npos) << converted.out;
+  EXPECT_EQ((converted.out + converted.err).find('\x1b'), std::string::npos);
+}
+
 TEST(SequenceArgument, NotesAreInTheReportsToo) {
   const TemporaryFolder folder;
   const auto json = folder.path() / "r.json", page = folder.path() / "r.html", merged = folder.path() / "m.json",

@@ -207,6 +207,20 @@ TEST(VerifyCommand, ABodyThatTheFormatCannotNameIsNamedByTheUser) {
   EXPECT_NE(divided.err.find("which is a body; give both groups one role"), std::string::npos) << divided.err;
 }
 
+TEST(VerifyCommand, AGroupThatJoinsOneOfTheSequenceIsNoted) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", json = folder.path() / "a.json";
+  spit(mesh, two_faces(0) + "g sheet\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf 7 8 9\n");
+  const std::string note = "--group: the sequence has a group \"sheet\" of its own; faces 0:1 are added to it";
+  const auto joined =
+      run_program(folder, {"verify", mesh, "--group", "sheet=0:1", "--ignore", "sheet", "--json", json});
+  EXPECT_EQ(joined.err, "selvage: note: " + note + "\n");
+  const auto report = nlohmann::json::parse(testing::slurp(json));
+  EXPECT_EQ(report["notes"], nlohmann::json{note});
+  EXPECT_EQ(report["allowed"]["ignored"][0]["faces"], 2);
+  EXPECT_EQ(run_program(folder, {"verify", mesh, "--group", "low=0:1", "--ignore", "low"}).err, "");
+}
+
 TEST(VerifyCommand, BadInputIsNeverAVerdict) {
   const struct {
     const char* why;

@@ -66,6 +66,7 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   while (goes_on) {
   }
 #elif defined(SLEEPS)
+  std::puts("a plugin falls asleep");
   while (true) pause();
 #elif defined(EXITS)
   std::exit(0);
@@ -118,10 +119,16 @@ void answer_batch(int32_t kind, size_t count, const selvage_query* queries, selv
 #endif
 
 extern "C" const selvage_plugin* selvage_plugin_entry(void) {
+  std::puts("a plugin says hello");
 #if defined(EXITS_AT_LOAD)
   std::exit(0);
+#elif defined(HANGS_AT_LOAD)
+  while (true) pause();
+#elif defined(HANGS_IN_WORKERS)
+  struct sigaction on_stop = {};  // a campaign's workers ignore what asks their driver to stop
+  sigaction(SIGTERM, nullptr, &on_stop);
+  while (on_stop.sa_handler == SIG_IGN) pause();
 #endif
-  std::puts("a plugin says hello");
   static const selvage_plugin plugin = {kVersion, kName, kTolerance, 0, kHasToi, answer, answer_batch};
   return &plugin;
 }

@@ -1,5 +1,6 @@
 // The conformance test of collision code: what misbehaves is named, what misses is found and made simple, and our own
 // kernel passes.
+#include <csignal>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ using testing::TemporaryFolder;
 std::set<std::string> failures_of(const std::string& plugin) {
   const TemporaryFolder folder;
   Properties properties;
-  properties.push_back(make_conformance(plugin));
+  properties.push_back(make_conformance(plugin, crc32_of_plugin(plugin)));
   DriverOptions options;
   options.folder = folder.path();
   options.cases = 1;
@@ -224,8 +225,139 @@ TEST(Plugin, ReplayAsksAPluginAsACampaignDoes) {
 }
 
 TEST(Plugin, ANameIsCutBetweenCharactersAndHasNothingButCharacters) {
-  EXPECT_STREQ(probe_plugin(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_has_a_bad_name.so").name,
+  EXPECT_STREQ(probe_plugin(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_has_a_bad_name.so", kCaseSeconds).name,
                "a??[31m ? ........ ........ ........ ........ ........ .......");
+}
+
+std::string bad_plugin(const std::string& misdeed) {
+  return std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + misdeed + ".so";
+}
+
+/// As a linker leaves another build: other bytes, the same name.
+void rebuild(const std::filesystem::path& library) { testing::spit(library, slurp(library) + "rebuilt"); }
+
+TEST(Plugin, ALibraryThatWasRebuiltIsAnotherCampaign) {
+  const TemporaryFolder folder;
+  const auto library = folder.path() / "plugin.so", artifacts = folder.path() / "artifacts";
+  std::filesystem::copy_file(SELVAGE_KERNEL_PLUGIN, library);
+  const std::vector<std::string> arguments = {"fuzz",   "--plugin", library,       "--cases", "1",
+                                              "--jobs", "1",        "--artifacts", artifacts, "--resume"};
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 0);
+  EXPECT_EQ(run_program(folder, arguments).exit_code, 0) << "the same library";
+  const std::string ledger = slurp(artifacts / "campaign.json");
+  EXPECT_EQ(nlohmann::json::parse(ledger)["plugin_crc32"], crc32_of_plugin(library));
+  EXPECT_EQ(nlohmann::json::parse(slurp(artifacts / "conformance.json"))["plugin"]["crc32"], crc32_of_plugin(library));
+  rebuild(library);
+  const auto refused = run_program(folder, arguments);
+  EXPECT_EQ(refused.exit_code, 3) << refused.out << refused.err;
+  EXPECT_NE(refused.err.find("campaign.json: is of another library with the name 'plugin selvage kernel'"),
+            refused.err.npos)
+      << refused.err;
+  EXPECT_EQ(slurp(artifacts / "campaign.json"), ledger);
+}
+
+TEST(Plugin, ALibraryThatIsRebuiltMeanwhileIsNotLoaded) {
+  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const TemporaryFolder folder;
+  const auto library = folder.path() / "plugin.so";
+  std::filesystem::copy_file(SELVAGE_KERNEL_PLUGIN, library);
+  Properties properties;
+  properties.push_back(make_conformance(library, crc32_of_plugin(library)));
+  rebuild(library);
+  DriverOptions options;
+  options.folder = folder.path();
+  options.cases = 1;
+  options.plugin_crc32 = 0;
+  Driver driver(properties, options);
+  EXPECT_THROW((void)driver.run([] { return false; }, [](const DriverStatus&) {}), io::Error);
+  EXPECT_NE(slurp(folder.path() / kWorkerLog).find("plugin.so: has changed since this began"), std::string::npos);
+}
+
+TEST(Plugin, PartsOfACampaignAreNotJoined) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"merge", "-o", folder.path() / "whole"};
+  for (const std::string part : {"1/2", "2/2"}) {
+    arguments.push_back(folder.path() / ("part-" + part.substr(0, 1)));
+    const auto run = run_program(folder, {"fuzz", "--plugin", SELVAGE_KERNEL_PLUGIN, "--cases", "1", "--jobs", "1",
+                                          "--shard", part, "--artifacts", arguments.back()});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+  }
+  const auto refused = run_program(folder, arguments);
+  EXPECT_EQ(refused.exit_code, 3) << refused.out;
+  EXPECT_NE(refused.err.find("campaign.json: is a campaign of collision code under --plugin (plugin selvage kernel), "
+                             "and those are not joined; read the report of each shard"),
+            refused.err.npos)
+      << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "whole"));
+}
+
+TEST(Plugin, LoadingMayTakeAsLongAsACase) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.case";
+  testing::spit(file,
+                "selvage-case 1 vf\nseed hand\noptions tolerance=0x0p+0 max_intervals=64\np 1 1 1  1 1 -1\n"
+                "a 0 0 0  0 0 0\nb 4 0 0  4 0 0\nc 0 4 0  0 4 0\nexpect touches\n");
+  const std::string at_load = bad_plugin("hangs_at_load"), in_workers = bad_plugin("hangs_in_workers");
+  const std::string artifacts = folder.path() / "artifacts";
+  const std::pair<std::vector<std::string>, std::string> kRuns[] = {
+      {{"fuzz", "--plugin", at_load, "--cases", "1", "--artifacts", artifacts},
+       at_load + ": does not survive being loaded: hung; give it more time with --case-time"},
+      {{"replay", "--plugin", at_load, file}, at_load + ": does not survive being loaded: hung; give it more time"},
+      {{"fuzz", "--plugin", in_workers, "--cases", "1", "--artifacts", artifacts},
+       "plugin bad: a worker hung before it could run a case"}};
+  for (auto [arguments, words] : kRuns) {
+    arguments.insert(arguments.end(), {"--case-time", "0.3"});
+    const auto run = run_program(folder, arguments);
+    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+    EXPECT_NE(run.err.find(words), run.err.npos) << run.err;
+  }
+}
+
+/// A campaign with a plugin that does not come back, once its worker has printed `words`.
+pid_t start_stuck(const TemporaryFolder& folder, const std::string& misdeed, const std::string& case_time,
+                  const std::string& words) {
+  const auto artifacts = folder.path() / "artifacts";
+  const pid_t child =
+      testing::start_program(folder.path(), {"fuzz", "--plugin", bad_plugin(misdeed), "--cases", "1", "--case-time",
+                                             case_time, "--jobs", "1", "--artifacts", artifacts});
+  const auto has_come = [&] { return slurp(artifacts / kWorkerLog).find(words) != std::string::npos; };
+  for (int i = 0; i < 6000 && !has_come(); ++i) usleep(10000);
+  EXPECT_TRUE(has_come());
+  return child;
+}
+
+// The terminal signals the whole group, and a launcher passes on what it gets.
+TEST(Plugin, TwoSignalsAtOnceAreOneRequest) {
+  const TemporaryFolder folder;
+  const pid_t child = start_stuck(folder, "sleeps", "2", "a plugin falls asleep");
+  for (int i = 0; i < 2; ++i) {
+    kill(child, SIGTERM);
+    testing::wait_until_signal_is_taken(child, SIGTERM);
+  }
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
+}
+
+TEST(Plugin, ALaterSecondSignalEndsAtOnce) {
+  const TemporaryFolder folder;
+  const pid_t child = start_stuck(folder, "sleeps", "600", "a plugin falls asleep");
+  int status = 0;
+  pid_t ended = 0;
+  for (int i = 0; i < 100 && ended == 0; ++i) {  // the first asks; one that comes half a second after it kills
+    kill(child, i % 2 == 0 ? SIGTERM : SIGINT);
+    usleep(600'000);
+    ended = waitpid(child, &status, WNOHANG);
+  }
+  ASSERT_EQ(ended, child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(Plugin, ASignalEndsAWorkerThatStillLoads) {
+  const TemporaryFolder folder;
+  const pid_t child = start_stuck(folder, "hangs_in_workers", "600", "a plugin says hello");
+  kill(child, SIGTERM);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 75) << result.out << result.err;
 }
 
 TEST(Plugin, WhatIsNoPluginIsRefused) {

@@ -108,6 +108,26 @@ TEST(KernelPromises, OutsideTheDomainIsUnresolved) {
   }
 }
 
+// As a kernel may answer beyond the domain, where the difference of two coordinates overflows.
+TEST(KernelPromises, ANearMissIsMeasuredWhereTheQueryHasASize) {
+  CcdResult alarm;
+  alarm.verdict = CcdVerdict::kCollides;
+  alarm.cause = CcdCause::kMotion;
+  alarm.toi_lower = 0;
+  alarm.gap_bound = 1;
+  alarm.weights = {1, 1, 0, 0};
+  MotionQuery query;
+  for (const double x : {0x1p+10, 0x1.8p+1023}) {
+    for (std::size_t i = 0; i < 4; ++i) query.x_t0[i] = query.x_t1[i] = Vec3::Constant(i == 0 ? x : -x);
+    const Judgement judgement = judge(query, alarm);
+    EXPECT_FALSE(judgement.touches);
+    EXPECT_EQ(judgement.near_miss_bits, 0) << "beyond the allowance, or without a size";
+  }
+  query.x_t0[0] = query.x_t1[0] = Vec3::Zero();
+  for (std::size_t i = 1; i < 4; ++i) query.x_t0[i] = query.x_t1[i] = {0, 0, 0x1p+50};
+  EXPECT_EQ(judge(query, alarm).near_miss_bits, 50);
+}
+
 /// Cases of the property until the kernel fails, one round over all classes and kinds after another; -1 if it never
 /// does.
 std::int64_t cases_until_failure(std::string_view name, CcdKernel kernel, std::int64_t limit, std::string& what) {

@@ -1,6 +1,9 @@
 // The geometric shrinker: what it returns still fails, is simple, and took little work.
 #include "fuzz/shrink_query.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "fuzz/campaign.h"
@@ -35,6 +38,21 @@ TEST(ShrinkQuery, PlantedDefectsComeDownToAFewShortNumbers) {
     }
     EXPECT_GT(shrunk_failures, 3);
     EXPECT_GE(few * 10, shrunk_failures * 9);  // what lives in the last bits stays long
+  }
+}
+
+// Neither has an exponent, and NaN no place in an order.
+TEST(ShrinkQuery, WhatIsNotFiniteCostsMostAndIsNotScaled) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  MotionQuery query;
+  for (auto* x : {&query.x_t0, &query.x_t1}) x->fill(Vec3::Constant(1));
+  for (const double odd : {kNan, kInf}) {
+    query.x_t0[0] = {odd, 1, 1};
+    EXPECT_EQ(cost_of(query).bits, 64 + 23);
+    EXPECT_EQ(cost_of(query).distinct, 1);
+    EXPECT_EQ(cost_of(query).exponents, 0);
+    const auto still_fails = [](const MotionQuery& one) { return !one.x_t0[0].allFinite(); };
+    EXPECT_FALSE(std::isfinite(shrink(query, still_fails).query.x_t0[0].x()));
   }
 }
 

@@ -182,6 +182,7 @@ TEST(PageScene, WhatIsTooFarAwayIsMovedAndCounted) {
 
 TEST(PageJson, StringsAndNumbersComeBack) {
   EXPECT_EQ(json_string("a\"b\\c\n\x01"), "\"a\\\"b\\\\c\\u000a\\u0001\"");
+  EXPECT_EQ(json_string("\xc3\xa9\xff\xe2\x82z"), "\"\xc3\xa9\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbdz\"");
   EXPECT_EQ(std::stod(json_number(0.1)), 0.1);
 }
 
