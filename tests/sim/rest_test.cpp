@@ -21,9 +21,10 @@ namespace {
 std::string square_on_square(const std::string& under, const std::string& over, const std::string& friction) {
   return "gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 0.4\n"
          "[collision]\nthickness_m = 0.004\nfriction_static = " +
-         friction + "\n[[cloth]]\nposition_m = [0, 0, 0.0041]\ndamping_ratio = 0.1\n" + under +
-         "[[cloth]]\nposition_m = [0.003, 0.002, 0.0085]\nrotation_deg = [0, 0, 20]\ndamping_ratio = 0.1\n" + over +
-         plane();
+         friction + "\n[[cloth]]\nname = \"under\"\nposition_m = [0, 0, 0.0041]\ndamping_ratio = 0.1\n" + under +
+         "[[cloth]]\nname = \"over\"\nposition_m = [0.003, 0.002, 0.0085]\nrotation_deg = [0, 0, 20]\ndamping_ratio = "
+         "0.1\n" +
+         over + plane();
 }
 
 /// How `count` vertices of cloth from `first` on lie while it is at rest: from 0.1 s to the end of the scene.
@@ -199,10 +200,10 @@ TEST(Rest, FineClothUnderCoarseClothStaysDown) {
   const std::string springs = "density_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\n";
   for (const std::string friction : {"0", "0.3"}) {
     SCOPED_TRACE(friction);
-    Simulation simulation(parse_scene(
-        square_on_square("sheet = {nx = 25, ny = 25, width_m = 0.2, height_m = 0.2}\n" + springs,
-                         "sheet = {nx = 4, ny = 4, width_m = 0.15, height_m = 0.15}\n" + springs, friction),
-        "fine.toml"));
+    Simulation simulation(
+        parse_scene(square_on_square("sheet = {nx = 25, ny = 25, width_m = 0.2, height_m = 0.2}\n" + springs,
+                                     "sheet = {nx = 4, ny = 4, width_m = 0.15, height_m = 0.15}\n" + springs, friction),
+                    "fine.toml"));
     Lying under, over;
     selvage::testing::run_exactly_free(simulation, simulation.scene().time.frame_count, [&](const StepResult&) {
       look(simulation, 0, kUnder, under);
@@ -222,13 +223,13 @@ TEST(Rest, LightClothUnderHeavyClothKeepsItsThickness) {
   constexpr VertexId kUnder = 8 * 8, kOver = 8 * 8;
   for (const std::string friction : {"0", "0.3"}) {
     SCOPED_TRACE(friction);
-    Simulation simulation(parse_scene(
-        square_on_square("sheet = {nx = 8, ny = 8, width_m = 0.2, height_m = 0.2}\n"
-                         "density_kg_m2 = 0.02\nstretch_n_m = 30\nshear_n_m = 10\nbend_n_m = 0.05\n",
-                         "sheet = {nx = 8, ny = 8, width_m = 0.13, height_m = 0.13}\n"
-                         "density_kg_m2 = 2\nstretch_n_m = 300\nshear_n_m = 100\nbend_n_m = 0.6\n",
-                         friction),
-        "veil.toml"));
+    Simulation simulation(
+        parse_scene(square_on_square("sheet = {nx = 8, ny = 8, width_m = 0.2, height_m = 0.2}\n"
+                                     "density_kg_m2 = 0.02\nstretch_n_m = 30\nshear_n_m = 10\nbend_n_m = 0.05\n",
+                                     "sheet = {nx = 8, ny = 8, width_m = 0.13, height_m = 0.13}\n"
+                                     "density_kg_m2 = 2\nstretch_n_m = 300\nshear_n_m = 100\nbend_n_m = 0.6\n",
+                                     friction),
+                    "veil.toml"));
     Lying under, over;
     selvage::testing::run_exactly_free(simulation, simulation.scene().time.frame_count, [&](const StepResult&) {
       look(simulation, 0, kUnder, under);
