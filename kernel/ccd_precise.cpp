@@ -26,7 +26,7 @@ constexpr double kNoPreciseGap = 0x1p-94;
 /// fuzzer's classes, where halving alone leaves 5 and this 1.
 double split_share(double reach_share) {
   constexpr double kTiny = 0x1p-20;
-  return reach_share > 0 && reach_share < kTiny ? std::sqrt(reach_share) : 0.5;
+  return reach_share < kTiny ? std::sqrt(reach_share) : 0.5;
 }
 
 Polygon polygon_within(const PairMotion<DoubleDouble>& motion, Part time) {
@@ -98,7 +98,7 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
       return static_cast<Tick>(begin >> kPartBits);
     } else {
       const auto split = static_cast<Part>(split_share(reach.share) * static_cast<double>(width));
-      ends[depth++] = split > 0 ? begin + split : middle;
+      ends[depth++] = split > 0 ? begin + split : middle;  // no share, or less than a part of it
     }
   }
   return std::nullopt;

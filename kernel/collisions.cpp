@@ -70,6 +70,9 @@ class CollisionFinder {
   struct Block {
     std::vector<Collision> collisions;
     std::int64_t vf_candidates = 0, ee_candidates = 0, self_candidates = 0, intervals = 0;
+
+    void count(std::span<const VfCandidate> pairs) { vf_candidates += std::ssize(pairs); }
+    void count(std::span<const EeCandidate> pairs) { ee_candidates += std::ssize(pairs); }
   };
 
   /// With what faces meet of their own corners.
@@ -100,7 +103,7 @@ class CollisionFinder {
       block.collisions.push_back({kind, first, second, answer.ccd});
     }
     block.intervals += report.intervals;
-    (kind == PairKind::kVf ? block.vf_candidates : block.ee_candidates) += std::ssize(pairs);
+    block.count(pairs);
   }
 
   /// Asked of what was found, too: else what is found would depend on which boxes the candidates come from.

@@ -128,7 +128,6 @@ class Visiting {
   void add_ee(PairBuffer& pairs, EdgeId /*first*/, std::span<const std::uint64_t> found) {
     add(lists_.local(), &Candidates::ee, pairs, found);
   }
-  [[nodiscard]] static bool is_full() { return false; }
   void finish() {
     for (Candidates& list : lists_) give(list);
   }
@@ -204,7 +203,9 @@ class PairFinder {
   }
 
   void find_in_cluster(std::size_t c, const MovingBox& box, const Words& frontier, bool active_only) {
-    if (sink_.is_full()) return;
+    if constexpr (requires { sink_.is_full(); }) {
+      if (sink_.is_full()) return;
+    }
     Workspace& work = workspaces_.local();
     work.clusters.assign(frontier);
     const auto is_node = [](std::uint64_t word) { return tree_ref(word) >= 0; };

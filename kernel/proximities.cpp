@@ -76,7 +76,7 @@ Candidates find_near_candidates(const Mesh& mesh, BoxHierarchy& hierarchy, const
   const std::size_t count = candidates.vf.size() + candidates.ee.size();
   if (count * kVerticesPerQuery < static_cast<std::size_t>(V.rows())) return candidates;
   const detail::LaneMotion still(V, V);
-  if (!still.is_valid()) return candidates;
+  SELVAGE_ASSERT(still.is_valid());  // the domain of validate()
   return {not_proved_apart(mesh, still, reach, candidates.vf), not_proved_apart(mesh, still, reach, candidates.ee)};
 }
 

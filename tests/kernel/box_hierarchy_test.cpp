@@ -149,6 +149,13 @@ TEST(BoxHierarchy, NoFacesAndOneFace) {
   expect_brute_force(make_mesh(3, F), three, -three, {});
 }
 
+/// Of 1058 faces each of the widest nodes has 132 or 133, and so both clusters, of 16 faces, and nodes, of 17, below it.
+TEST(BoxHierarchy, ClustersOfDifferentDepths) {
+  const auto [mesh, V] = sheet(23, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i, j, i * j % 3); });
+  ASSERT_EQ(mesh.faces.size(), 1058U);
+  expect_brute_force(mesh, V, V, {});
+}
+
 TEST(BoxHierarchy, AllVerticesCoincide) {
   const auto [mesh, V] = sheet(12, [](VertexId, VertexId) { return Eigen::RowVector3d(1, 2, 3); });
   expect_brute_force(mesh, V, V, {});

@@ -325,6 +325,24 @@ TEST(Ccd, CornersThatPassThroughOnePointAreDecided) {
   EXPECT_GT(separated, 1500);
 }
 
+/// Where all corners meet, an edge may be shorter than the rounding of its ends, and they disagree with it: feet of
+/// perpendiculars then seem to lie on it that do not. The fuzzer found these two.
+TEST(Ccd, WeightsOnAnEdgeThatVanishesAreConvex) {
+  const Points edges_t0 = {Vec3(-0x1.20971p-1, 0x1.3370cp-3, 0x1.ba56a4p+0), Vec3(0, 0, 0x1.776d24p+0),
+                           Vec3(-0x1.d400f8p-1, -0x1.3bbe2p-3, 0), Vec3(0, 0, 0)};
+  const Points edges_t1 = {Vec3(-0x1.d85c38p-3, 0x1.d89dep-5, 0x1.0b02ep-5),
+                           Vec3(-0x1.4e885ap-1, 0x1.5cbc08p-3, 0x1.d439b8p-3),
+                           Vec3(0x1.0786p-5, 0x1.24c55p-2, 0x1.541912p+0), Vec3(0, 0, 0)};
+  const Points face_t0 = {Vec3(0, 0, 0), Vec3(1.25, 1, 0), Vec3(1, 1.25, 0)};
+  const Points face_t1 = {Vec3(1.3125, 0.875, 1.3125), Vec3(0.375, 0.125, 1.3125), Vec3(0.5625, -0.0625, 1.3125)};
+  const CcdResult edges = ccd(PairKind::kEe, edges_t0, edges_t1, kNoTolerance);
+  const CcdResult face = ccd(PairKind::kSelf, face_t0, face_t1, kNoTolerance);
+  for (const CcdResult& result : {edges, face}) {
+    EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+    for (const double weight : result.weights) EXPECT_TRUE(weight >= 0 && weight <= 1) << weight;
+  }
+}
+
 /// Their touch is approached in the times between doubles: by halving from where doubles stop, 57 intervals each.
 TEST(Ccd, TouchesWithinAPlaneTakeFewIntervals) {
   Random random(58);

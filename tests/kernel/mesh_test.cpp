@@ -113,6 +113,12 @@ TEST(MakeMesh, TwoTrianglesShareAnEdge) {
   EXPECT_EQ(mesh.vertex_owner, (std::vector<FaceId>{0, 0, 0, 1, -1}));
 }
 
+TEST(MakeMesh, OfNoFaces) {
+  const Mesh mesh = make_mesh(2, std::span<const std::array<VertexId, 3>>());
+  EXPECT_TRUE(mesh.faces.empty() && mesh.edges.empty());
+  EXPECT_EQ(mesh.vertex_owner, (std::vector<FaceId>{-1, -1}));
+}
+
 TEST(MakeMesh, NonManifoldEdgesAndDuplicateFacesAreKept) {
   const Mesh mesh = make_mesh(5, faces_of({{0, 1, 4}, {0, 1, 2}, {1, 0, 3}, {2, 1, 0}}));
   EXPECT_EQ(mesh.faces.size(), 4U);
