@@ -33,10 +33,11 @@ pages: build  ## open the pages of verify, view and fuzz --plugin in Chromium
 	@cmake/setup packages-browser.txt
 	ctest --preset release -R Pages.InABrowser
 
-asan: setup  ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+ASAN := $(if $(QUICK),asan-short,asan-ubsan)
+asan: setup  ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer; QUICK=1: those of kernel, files, step, fuzz corpus
 	cmake --preset asan-ubsan --log-level=WARNING
-	cmake --build --preset asan-ubsan
-	ctest --preset asan-ubsan
+	cmake --build --preset $(ASAN)
+	ctest --preset $(ASAN)
 
 tsan: setup  ## run the tests under ThreadSanitizer, with oneTBB built for it
 	@cmake/setup packages-tsan.txt
