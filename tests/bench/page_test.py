@@ -1,0 +1,28 @@
+"""docs/speed-against-error.md is what bench/report/page.md and the measurements of bench/results make.
+
+    tests/bench/page_test.py SOURCE
+
+Whoever edits the page alone would lose it with the next `make bench`. Exit code 1 if the two differ, with the lines.
+"""
+import difflib
+import json
+import pathlib
+import sys
+import tempfile
+
+source = pathlib.Path(sys.argv[1])
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(source / "bench" / "report"))
+import page  # noqa: E402
+
+results = source / "bench" / "results"
+reports = {name: json.loads((results / f"{name}.json").read_text()) for name in ("methods", "verify", "sim", "micro")}
+with tempfile.TemporaryDirectory() as folder:
+    made = pathlib.Path(folder) / "page.md"
+    page.write(source / "bench" / "report" / "page.md", reports, json.loads((results / "machine.json").read_text()),
+               "../bench/results", made)
+    kept = source / "docs" / "speed-against-error.md"
+    difference = list(difflib.unified_diff(made.read_text().splitlines(), kept.read_text().splitlines(),
+                                           "bench/report/page.md, filled in", "docs/speed-against-error.md", lineterm="", n=0))
+print("\n".join(difference))
+sys.exit(1 if difference else 0)
