@@ -203,7 +203,7 @@ class PairFinder {
   }
 
   void find_in_cluster(std::size_t c, const MovingBox& box, const Words& frontier, bool active_only) {
-    if constexpr (requires { sink_.is_full(); }) {
+    if constexpr (requires { sink_.is_full(); }) {  // a sink with a limit: what is found beyond it is thrown away
       if (sink_.is_full()) return;
     }
     Workspace& work = workspaces_.local();
