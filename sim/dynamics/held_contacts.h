@@ -52,7 +52,7 @@ class HeldContacts {
   /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
   /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
   /// friction that it began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it.
-  /// Of many something is left (tests/sim/physics_test.cpp asks their energy). They keep linear momentum. Every contact
+  /// Of many something is left (tests/sim/energy_test.cpp asks their energy). They keep linear momentum. Every contact
   /// that presses is first looked at where it is now: held where they were at the start of the collision step, cloth
   /// that a ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an
   /// edge was held in the air. A vertex that has left its face is held by the one on which it is now: held by the
