@@ -1,49 +1,37 @@
 #include "kernel/ccd.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/kernel/ccd_of_kind.h"
 #include "tests/kernel/constructed_contact.h"
 #include "tests/kernel/exact_proximity.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage {
 
+using testing::ccd;
 using testing::ConstructedContact;
+using testing::contact_of;
 using testing::ContactGenerator;
 using testing::exact;
 using testing::ExactClosest;
+using testing::kKinds;
+using testing::kNoTolerance;
 using testing::placed;
+using testing::Points;
 using testing::Random;
+using testing::random_query;
 using testing::Rational;
 using testing::squared;
-using Points = std::array<Vec3, 4>;
 
 namespace {
 
-constexpr CcdOptions kNoTolerance{0, 4096};
-constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe, PairKind::kSelf};
 /// What an alarm may be off by, relative to the largest difference: kAlarmGap is relative to its next power of two.
 constexpr double kAlarmShare = 0x1p-39;
-
-CcdResult ccd(PairKind kind, const Points& x_t0, const Points& x_t1, const CcdOptions& options) {
-  switch (kind) {
-    case PairKind::kVf:
-      return vf_ccd(x_t0, x_t1, options);
-    case PairKind::kEe:
-      return ee_ccd(x_t0, x_t1, options);
-    case PairKind::kSelf:
-      break;
-  }
-  return self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
-}
-
-ConstructedContact contact_of(PairKind kind, ContactGenerator& generator, int bits) {
-  return kind == PairKind::kVf ? generator.vf(bits) : kind == PairKind::kEe ? generator.ee(bits) : generator.self(bits);
-}
 
 std::array<detail::Double3, 4> points(const Points& x) {
   return {detail::to_double3(x[0]), detail::to_double3(x[1]), detail::to_double3(x[2]), detail::to_double3(x[3])};
@@ -79,54 +67,6 @@ void expect_gap(PairKind kind, const Points& x_t0, const Points& x_t1, const Ccd
   EXPECT_TRUE(distance_squared_at(kind, x_t0, x_t1, t) <= bound ||
               (result.toi_lower < 1 && distance_squared_at(kind, x_t0, x_t1, t + tick) <= bound))
       << result.gap_bound;
-}
-
-/// The pair in another labelling, and what that does to weights and normal.
-struct Relabelling {
-  std::array<std::size_t, 4> order;
-  double normal_sign;
-};
-
-std::vector<Relabelling> relabellings(PairKind kind) {
-  if (kind == PairKind::kVf) {
-    return {{{0, 1, 3, 2}, 1}, {{0, 2, 1, 3}, 1}, {{0, 2, 3, 1}, 1}, {{0, 3, 1, 2}, 1}, {{0, 3, 2, 1}, 1}};
-  }
-  if (kind == PairKind::kSelf) return {{{0, 2, 1, 3}, 1}};
-  return {{{1, 0, 2, 3}, 1},  {{0, 1, 3, 2}, 1},  {{1, 0, 3, 2}, 1}, {{2, 3, 0, 1}, -1},
-          {{3, 2, 0, 1}, -1}, {{2, 3, 1, 0}, -1}, {{3, 2, 1, 0}, -1}};
-}
-
-Points relabelled(const Points& x, const std::array<std::size_t, 4>& order) {
-  return {x[order[0]], x[order[1]], x[order[2]], x[order[3]]};
-}
-
-/// A query of a random class, so that all branches of the search take part.
-ConstructedContact random_query(Random& random, ContactGenerator& generator, PairKind kind) {
-  ConstructedContact query = contact_of(kind, generator, 8);
-  switch (random.integer(0, 5)) {
-    case 0:
-      break;
-    case 1:
-      for (Vec3& p : query.x_t1) p += 0.5 * detail::to_vec3(random.point());
-      break;
-    case 2:
-      for (Points* x : {&query.x_t0, &query.x_t1}) {
-        for (Vec3& p : *x) p = detail::to_vec3(random.point());
-      }
-      break;
-    case 3:
-      for (Points* x : {&query.x_t0, &query.x_t1}) {
-        for (Vec3& p : *x) p[2] = 1;
-      }
-      break;
-    case 4:
-      query.x_t1 = query.x_t0;
-      break;
-    default:
-      query.x_t0[2] = query.x_t0[1];
-      query.x_t1[2] = query.x_t1[1];
-  }
-  return query;
 }
 
 }  // namespace
@@ -392,55 +332,6 @@ TEST(Ccd, TheEndIsJudgedByTheTolerance) {
     EXPECT_LE(result.gap_bound, tolerance * (1 + 0x1p-40) + 0x1p-40);
   }
   EXPECT_GT(near, 200);
-}
-
-TEST(Ccd, RelabellingChangesNoBit) {
-  Random random(52);
-  ContactGenerator generator(52);
-  for (int i = 0; i < 3000; ++i) {
-    const PairKind kind = kKinds[i % 3];
-    const ConstructedContact query = random_query(random, generator, kind);
-    const CcdResult one = ccd(kind, query.x_t0, query.x_t1, CcdOptions{});
-    for (const Relabelling& label : relabellings(kind)) {
-      const CcdResult other =
-          ccd(kind, relabelled(query.x_t0, label.order), relabelled(query.x_t1, label.order), CcdOptions{});
-      EXPECT_EQ(other.verdict, one.verdict);
-      EXPECT_EQ(other.cause, one.cause);
-      EXPECT_EQ(other.toi_lower, one.toi_lower);
-      EXPECT_EQ(other.gap_bound, one.gap_bound);
-      EXPECT_EQ(other.intervals, one.intervals);
-      EXPECT_EQ(other.normal, Vec3(label.normal_sign * one.normal));
-      for (std::size_t k = 0; k < 4; ++k) {
-        // Points that coincide throughout share their weight in either order.
-        const std::size_t from = label.order[k];
-        const bool shared =
-            query.x_t0[1] == query.x_t0[2] && query.x_t1[1] == query.x_t1[2] && (from == 1 || from == 2);
-        if (!shared) {
-          EXPECT_EQ(other.weights[k], one.weights[from]);
-        }
-      }
-    }
-  }
-}
-
-TEST(Ccd, ScalingByAPowerOfTwoScalesTheAnswer) {
-  Random random(53);
-  ContactGenerator generator(53);
-  for (int i = 0; i < 3000; ++i) {
-    const PairKind kind = kKinds[i % 3];
-    const ConstructedContact query = random_query(random, generator, kind);
-    const int exponent = random.integer(-900, 900);
-    const double scale = std::ldexp(1.0, exponent);
-    const CcdResult one = ccd(kind, query.x_t0, query.x_t1, {1e-6, 4096});
-    const CcdResult other = ccd(kind, placed(query.x_t0, scale, Vec3::Zero()), placed(query.x_t1, scale, Vec3::Zero()),
-                                {std::ldexp(1e-6, exponent), 4096});
-    EXPECT_EQ(other.verdict, one.verdict);
-    EXPECT_EQ(other.toi_lower, one.toi_lower);
-    EXPECT_EQ(other.gap_bound, std::ldexp(one.gap_bound, exponent));
-    EXPECT_EQ(other.intervals, one.intervals);
-    EXPECT_EQ(other.weights, one.weights);
-    EXPECT_EQ(other.normal, one.normal);
-  }
 }
 
 TEST(Ccd, AReachedLimitIsUnresolvedAndItsTimeIsSafe) {
