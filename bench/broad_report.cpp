@@ -1,11 +1,10 @@
 #include <nlohmann/json.hpp>
 
+#include "bench/best_time_json.h"
 #include "bench/broad_bench.h"
 
 namespace selvage::bench {
 namespace {
-
-nlohmann::ordered_json json_of(const BestTime& time) { return {{"cpu", time.cpu}, {"wall", time.wall}}; }
 
 nlohmann::ordered_json json_of(const BroadMotionReport& report) {
   nlohmann::ordered_json methods = nlohmann::ordered_json::array(), incremental = nlohmann::ordered_json::array();

@@ -103,14 +103,14 @@ CcdAnswers exact(PairKind kind, const MeshMotion& motion, const Candidates& cand
                                : ask_exact(motion, candidates.ee, verify::exact_ee_motion);
 }
 
-constexpr std::array<CcdMethod, 4> kMethods{{{"kernel", kernel, true, true},
-                                             {"kernel_scalar", kernel_scalar, true, true},
-                                             {"textbook", textbook, true, false},
-                                             {"exact", exact, false, false}}};
+constexpr std::array<CcdMethod, 4> kCcdMethods{{{"kernel", kernel, true, true},
+                                                {"kernel_scalar", kernel_scalar, true, true},
+                                                {"textbook", textbook, true, false},
+                                                {"exact", exact, false, false}}};
 
 }  // namespace
 
-std::span<const CcdMethod> ccd_methods() { return kMethods; }
+std::span<const CcdMethod> ccd_methods() { return kCcdMethods; }
 
 ExactQuery exact_query(PairKind kind, const MeshMotion& motion, const Candidates& candidates, std::size_t pair) {
   return exact_query(motion, kind == PairKind::kVf ? pair_vertices(motion.mesh, candidates.vf[pair])

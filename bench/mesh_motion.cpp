@@ -36,7 +36,7 @@ double smooth_noise(int i, int j, int channel) {
 }
 
 constexpr int kPleat = 10;  // edges from one fold to the next
-constexpr double kRoughness = 0.12, kTravel = 1.5;
+constexpr double kFoldRoughness = 0.12, kTravel = 1.5;
 
 }  // namespace
 
@@ -78,8 +78,8 @@ MeshMotion crumpled_sheet(int side, double pleat_advance) {
     for (int j = 0; j < side; ++j) {
       const int phase = i % (2 * kPleat);
       const int height = phase < kPleat ? phase : 2 * kPleat - phase;
-      const Vec3 x(pleat_advance * i + kRoughness * noise(i, j, 0), j + kRoughness * noise(i, j, 1),
-                   height + kRoughness * noise(i, j, 2));
+      const Vec3 x(pleat_advance * i + kFoldRoughness * noise(i, j, 0), j + kFoldRoughness * noise(i, j, 1),
+                   height + kFoldRoughness * noise(i, j, 2));
       const Vec3 travel(smooth_noise(i, j, 3), smooth_noise(i, j, 4), smooth_noise(i, j, 5));
       V_t0.row(i * side + j) = x;
       V_t1.row(i * side + j) = x + kTravel * travel;

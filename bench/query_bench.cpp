@@ -59,7 +59,7 @@ BenchAnswer ask_exact(const BenchQuery& query) {
   return {exact_answer(query, verify::Detail::kDecision).touches, false, 0};
 }
 
-constexpr std::array<Method, 3> kMethods{
+constexpr std::array<Method, 3> kQueryMethods{
     {{"kernel", ask_kernel, true}, {"textbook", ask_textbook, true}, {"exact", ask_exact, false}}};
 
 std::vector<BenchQuery> flatten(std::span<const QueryFile> files, double tolerance) {
@@ -179,7 +179,7 @@ QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBe
   }
   report.queries = static_cast<std::int64_t>(queries.size());
   report.clock_ns = clock_cost();
-  for (const Method& method : kMethods) {
+  for (const Method& method : kQueryMethods) {
     MethodReport& of_method = report.methods.emplace_back();
     of_method.name = method.name;
     const std::vector<BenchAnswer> answers = time_method(method, queries, options.repeat, of_method.ns);

@@ -10,13 +10,13 @@
 namespace selvage::bench {
 namespace {
 
-MethodAnswer ask_textbook(const MethodQuery& query, double tolerance) {
+MethodAnswer textbook_within(const MethodQuery& query, double tolerance) {
   const auto ask = query.kind == PairKind::kVf ? textbook_vf : textbook_ee;
   const TextbookAnswer answer = ask(query.x_t0, query.x_t1, tolerance);
   return {answer.collides, false, answer.toi};
 }
 
-MethodAnswer ask_kernel(const MethodQuery& query, double tolerance) {
+MethodAnswer kernel_within(const MethodQuery& query, double tolerance) {
   CcdOptions options;
   options.tolerance = tolerance;
   const auto ask = query.kind == PairKind::kVf ? vf_ccd : ee_ccd;
@@ -24,7 +24,7 @@ MethodAnswer ask_kernel(const MethodQuery& query, double tolerance) {
   return {result.verdict != CcdVerdict::kSeparated, result.verdict == CcdVerdict::kUnresolved, result.toi_lower};
 }
 
-MethodAnswer ask_additive(const MethodQuery& query, double rescaling) {
+MethodAnswer additive_rescaled(const MethodQuery& query, double rescaling) {
   AdditiveOptions options;
   options.rescaling = rescaling;
   const auto ask = query.kind == PairKind::kVf ? additive_vf : additive_ee;
@@ -32,7 +32,7 @@ MethodAnswer ask_additive(const MethodQuery& query, double rescaling) {
   return {answer.collides, answer.gave_up, answer.toi};
 }
 
-MethodAnswer ask_inclusion(const MethodQuery& query, double tolerance) {
+MethodAnswer inclusion_within(const MethodQuery& query, double tolerance) {
   InclusionOptions options;
   options.tolerance = tolerance;
   const auto ask = query.kind == PairKind::kVf ? inclusion_vf : inclusion_ee;
@@ -64,10 +64,10 @@ std::vector<MethodSetting> method_settings() {
           {method, fmt::format("{}{}", value, unit), [ask, value](const MethodQuery& q) { return ask(q, value); }});
     }
   };
-  add("textbook", " m", ask_textbook, {1e-3, 1e-6, 1e-9, 1e-12});
-  add("kernel", " m", ask_kernel, {1e-3, 1e-6, 0.0});
-  add("additive", "", ask_additive, {0.5, 0.9, 0.99, 0.999});
-  add("inclusion", " of size", ask_inclusion, {1e-2, 1e-4, 1e-6});
+  add("textbook", " m", textbook_within, {1e-3, 1e-6, 1e-9, 1e-12});
+  add("kernel", " m", kernel_within, {1e-3, 1e-6, 0.0});
+  add("additive", "", additive_rescaled, {0.5, 0.9, 0.99, 0.999});
+  add("inclusion", " of size", inclusion_within, {1e-2, 1e-4, 1e-6});
   settings.push_back(
       {"exact", "",
        [](const MethodQuery& q) { return MethodAnswer{exact_answer(q, verify::Detail::kDecision).touches}; }, false});

@@ -82,7 +82,8 @@ ExitCode bench_broad(const BroadArguments& arguments) {
   fmt::print("processor time of all threads, and wall time of the query; best of {} passes; reach 0\n",
              arguments.options.repeat);
   if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports, rivals));
-  return std::any_of(reports.begin(), reports.end(), bench::is_wrong) ? ExitCode::kViolation : ExitCode::kClean;
+  const auto wrong = [](const bench::BroadMotionReport& report) { return bench::is_wrong(report); };
+  return std::ranges::any_of(reports, wrong) ? ExitCode::kViolation : ExitCode::kClean;
 }
 
 }  // namespace

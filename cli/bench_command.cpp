@@ -23,7 +23,7 @@
 namespace selvage::cli {
 namespace {
 
-struct Arguments {
+struct BenchArguments {
   std::vector<std::string> files;
   std::string kind, json;
   bench::QueryBenchOptions options;
@@ -70,7 +70,7 @@ void print_contradicted(const std::vector<std::string>& places) {
   if (places.size() > kMost) fmt::print(stderr, "selvage: ... and {} more\n", places.size() - kMost);
 }
 
-ExitCode bench_queries(const Arguments& arguments) {
+ExitCode bench_queries(const BenchArguments& arguments) {
   require_separate_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
   std::vector<bench::QueryFile> files;
   std::size_t count = 0;
@@ -187,7 +187,7 @@ void add_bench_command(CLI::App& program, Job& job) {
       "public sets). Exit code 1 if the kernel missed a contact or answered late, or if the exact checker contradicts "
       "the truth of a file.",
       "selvage bench queries vertex-face/data_0_0.csv edge-edge/data_0_0.csv --json out.json");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BenchArguments>();
   queries.add_option("FILE", arguments->files, "CSV files: eight rows a query, three rationals a row, truth optional")
       ->required();
   queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")

@@ -50,7 +50,8 @@ ExitCode bench_verify(const VerifyBenchArguments& arguments) {
       "processor time over that of the frame check in the same run\n",
       arguments.options.repeat);
   if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports, rival));
-  return std::any_of(reports.begin(), reports.end(), bench::is_wrong) ? ExitCode::kViolation : ExitCode::kClean;
+  const auto wrong = [](const bench::VerifySheetReport& report) { return bench::is_wrong(report); };
+  return std::ranges::any_of(reports, wrong) ? ExitCode::kViolation : ExitCode::kClean;
 }
 
 }  // namespace

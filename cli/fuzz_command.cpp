@@ -30,7 +30,7 @@
 namespace selvage::cli {
 namespace {
 
-struct Arguments {
+struct FuzzArguments {
   std::vector<std::string> properties;
   std::int64_t cases = 0;
   std::string time;
@@ -82,7 +82,7 @@ std::optional<std::int64_t> parse_case_number(std::string_view text) {
 
 /// What `selvage replay` says of a case that has just run: of a query whatever it came to, of others where they fail.
 std::string explanation(fuzz::Property& property, const fuzz::Stream& stream, std::int64_t number,
-                        const Arguments& arguments, const std::string& failure) {
+                        const FuzzArguments& arguments, const std::string& failure) {
   // What is made on the way may start threads, which the process of a plugin could not take along.
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const fuzz::ChoiceSource source = fuzz::ChoiceSource::from_seed(fuzz::case_seed(arguments.seed, stream, number));
@@ -95,7 +95,7 @@ std::string explanation(fuzz::Property& property, const fuzz::Stream& stream, st
 }
 
 /// "STREAM:NUMBER" of the only property.
-ExitCode run_only(const Arguments& arguments, fuzz::Properties& properties) {
+ExitCode run_only(const FuzzArguments& arguments, fuzz::Properties& properties) {
   const std::size_t colon = arguments.only.rfind(':');
   std::string name = arguments.only.substr(0, colon);
   std::ranges::replace(name, '/', ' ');
@@ -146,7 +146,7 @@ class StatusLine {
   bool enabled_;
 };
 
-fuzz::DriverOptions driver_options(const Arguments& arguments) {
+fuzz::DriverOptions driver_options(const FuzzArguments& arguments) {
   fuzz::DriverOptions options;
   options.cases = arguments.cases;
   if (!arguments.time.empty()) options.seconds = parse_seconds(arguments.time);
@@ -168,13 +168,13 @@ fuzz::DriverOptions driver_options(const Arguments& arguments) {
 }
 
 /// A campaign that was stopped has work left, whatever it has found: whoever reads 1 as an answer would not go on.
-ExitCode exit_code(bool finished, bool held) {
+ExitCode exit_code_of(bool finished, bool held) {
   if (!finished) return ExitCode::kInterrupted;
   return held ? ExitCode::kClean : ExitCode::kViolation;
 }
 
 /// Someone else's code under the query level.
-ExitCode run_plugin(const Arguments& arguments) {
+ExitCode run_plugin(const FuzzArguments& arguments) {
   if (!arguments.properties.empty()) throw UsageError("--plugin runs the conformance test and nothing else");
   const std::filesystem::path folder = arguments.artifacts;
   const std::filesystem::path json = folder / "conformance.json", plain = folder / "conformance.txt",
@@ -202,10 +202,10 @@ ExitCode run_plugin(const Arguments& arguments) {
   io::write_atomically(plain, text);
   io::write_atomically(html, conformance_page(ledger, *properties.front(), info, page));
   fmt::print("{}", text);
-  return exit_code(finished, ledger.properties.front().findings.empty());
+  return exit_code_of(finished, ledger.properties.front().findings.empty());
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const FuzzArguments& arguments) {
   if (!arguments.plugin.empty()) return run_plugin(arguments);
   fuzz::Properties properties = chosen_properties(arguments.properties);
   if (arguments.list) {
@@ -225,7 +225,7 @@ ExitCode run(const Arguments& arguments) {
   fmt::print("{}{} cases in {:.1f} s, {:.1f} s of processor time: {:.0f} a second\n", table.text, status.cases,
              status.seconds, status.processor_seconds,
              static_cast<double>(status.cases) / std::max(status.seconds, 1e-3));
-  return exit_code(finished, table.held);
+  return exit_code_of(finished, table.held);
 }
 
 }  // namespace
@@ -236,7 +236,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
                                "worker processes. Exit code 1 if a promise broke or a class of cases has gone dead; "
                                "failures are shrunk and kept. docs/fuzzing.md says more",
                                "selvage fuzz ccd --time 60s --seed 7");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FuzzArguments>();
   fuzz.add_option("PROPERTY", arguments->properties,
                   "Which promises to attack, as --list names them; all if none is named");
   auto* cases = fuzz.add_option("--cases", arguments->cases, "Cases of each property, rounded up to whole work units")

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct MergeArguments {
   std::vector<std::string> sources;
   std::string output, html;
 };
@@ -52,14 +52,15 @@ std::vector<fs::path> reports_in(const fs::path& folder, const fs::path& output)
   }
   if (files.empty()) {
     throw io::Error(io::ErrorKind::kBadInput,
-                    folder.string() + ": holds no report (*.json); name the folder where selvage verify --shard i/N "
-                                      "--json FILE wrote them, or each folder of selvage fuzz --shard i/N");
+                    folder.string() +
+                        ": holds no report (*.json); name the folder where selvage verify --shard i/N "
+                        "--json FILE wrote them, or each folder of selvage fuzz --shard i/N");
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const MergeArguments& arguments) {
   const std::vector<fs::path> sources(arguments.sources.begin(), arguments.sources.end());
   if (are_campaigns(sources)) return merge_campaigns(sources, arguments.output);
   std::vector<fs::path> files;
@@ -87,8 +88,8 @@ ExitCode run(const Arguments& arguments) {
     io::write_atomically(arguments.html, report_page(merged.report, merged.context, nullptr, {}));
   }
   print_notes(merged.context.notes);
-  constexpr std::size_t kListed = 10;  // as selvage verify does on a terminal
-  print_report(verify::text_report(merged.report, merged.context, kListed), merged.report.verdict);
+  constexpr std::size_t kMostListed = 10;  // as selvage verify does on a terminal
+  print_report(verify::text_report(merged.report, merged.context, kMostListed), merged.report.verdict);
   return exit_code(merged.report);
 }
 
@@ -98,7 +99,7 @@ void add_merge_command(CLI::App& program, Job& job) {
   CLI::App& command = add_command(
       program, "merge", "Join what shards of selvage verify or selvage fuzz have done: all of them, or it is an error",
       "selvage merge shards/ -o report.json");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<MergeArguments>();
   command
       .add_option("REPORT", arguments->sources,
                   "Reports of selvage verify --shard or folders of them; or folders of selvage fuzz --shard")

@@ -33,7 +33,7 @@ struct RenderArguments {
 
 ExitCode render_sequence(const RenderArguments& arguments) {
   catch_interrupts();
-  require_separate_outputs(arguments.sequence, {arguments.picture});
+  require_outputs_apart_from(arguments.sequence, {arguments.picture});
   const auto sequence = without_groups(open_sequence(arguments.sequence), arguments.hidden);
   SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};
   if (options.frames.empty()) options.frames = spread_frames(*sequence, arguments.tiles);

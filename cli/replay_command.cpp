@@ -18,7 +18,7 @@
 namespace selvage::cli {
 namespace {
 
-struct Arguments {
+struct ReplayArguments {
   std::vector<std::filesystem::path> cases;
   std::string json, plugin;
   double case_time_s = fuzz::kCaseSeconds;
@@ -27,7 +27,7 @@ struct Arguments {
 constexpr std::size_t kLargestCase = 1 << 20;
 
 /// The gravest one counts.
-ExitCode exit_code(const std::vector<Explanation>& explanations) {
+ExitCode exit_code_of(const std::vector<Explanation>& explanations) {
   ExitCode code = ExitCode::kClean;
   for (const Explanation& explanation : explanations) {
     switch (explanation.outcome) {
@@ -48,7 +48,7 @@ ExitCode exit_code(const std::vector<Explanation>& explanations) {
   return code;
 }
 
-ExitCode run(const Arguments& arguments) {
+ExitCode run(const ReplayArguments& arguments) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& named : arguments.cases) {
     if (!std::filesystem::is_directory(named)) {
@@ -82,7 +82,7 @@ ExitCode run(const Arguments& arguments) {
     throw io::Error(io::ErrorKind::kBadInput, arguments.plugin + ": was asked nothing; name a case of vf or ee");
   }
   if (!arguments.json.empty()) io::write_atomically(arguments.json, json + "\n]\n}\n");
-  return exit_code(explanations);
+  return exit_code_of(explanations);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ void add_replay_command(CLI::App& program, Job& job) {
                   "expects another answer than the exact one, or a coordinate is beyond the domain (2^1000), 7 if "
                   "two exact deciders differ",
                   "selvage replay failure.case");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReplayArguments>();
   command.add_option("CASE", arguments->cases, "Case files, or folders of them")->required();
   command
       .add_option("--plugin", arguments->plugin,

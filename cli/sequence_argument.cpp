@@ -57,7 +57,7 @@ std::vector<std::string> notes_on(const SequenceArgument& argument, const io::Se
   return notes;
 }
 
-void require_separate_outputs(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs) {
+void require_outputs_apart_from(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs) {
   std::vector<std::filesystem::path> inputs = io::sequence_files(argument.sources, argument.base);
   for (const std::string_view beside : {sim::kCheckpointFile, sim::kRunFile}) {
     inputs.push_back(argument.sources.front() / beside);

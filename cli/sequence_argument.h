@@ -29,6 +29,6 @@ void add_sequence_argument(CLI::App& command, SequenceArgument& argument);
 
 /// Throws UsageError where an output is one of the files that are read or that a run in the folder goes on from, or
 /// where two outputs are one file.
-void require_separate_outputs(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs);
+void require_outputs_apart_from(const SequenceArgument& argument, const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace selvage::cli

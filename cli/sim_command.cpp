@@ -133,7 +133,7 @@ sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSum
 }
 
 /// `shortfalls` count where --strict asks for none.
-ExitCode exit_code(sim::RunEnd end, bool has_shortfalls) {
+ExitCode exit_code_of(sim::RunEnd end, bool has_shortfalls) {
   if (end == sim::RunEnd::kInterrupted) return ExitCode::kInterrupted;
   return end == sim::RunEnd::kStopped || has_shortfalls ? ExitCode::kViolation : ExitCode::kClean;
 }
@@ -168,7 +168,7 @@ ExitCode simulate(const SimArguments& arguments) {
   try {
     recorder.begin();
     end = run(simulation, recorder, waiting);
-    code = exit_code(end, arguments.strict && !recorder.totals().shortfalls().empty());
+    code = exit_code_of(end, arguments.strict && !recorder.totals().shortfalls().empty());
     recorder.finish({end, static_cast<int>(code)});
   } catch (const std::exception&) {
     note_failure(recorder, std::current_exception());

@@ -93,7 +93,7 @@ void write_outputs(const VerifyArguments& arguments, const io::SequenceReader& s
 ExitCode run(const VerifyArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
-  require_separate_outputs(arguments.sequence, {arguments.json, arguments.html});
+  require_outputs_apart_from(arguments.sequence, {arguments.json, arguments.html});
   if (!arguments.json.empty()) io::require_nameable(VerifyProgress::file_of(arguments.json));
   const auto sequence = open_sequence(arguments);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);

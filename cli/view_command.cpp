@@ -27,7 +27,7 @@ struct ViewArguments {
 };
 
 ExitCode view_sequence(const ViewArguments& arguments) {
-  require_separate_outputs(arguments.sequence, {arguments.page});
+  require_outputs_apart_from(arguments.sequence, {arguments.page});
   const auto sequence = without_groups(open_sequence(arguments.sequence), arguments.hidden);
   const std::string title = source_names({arguments.sequence.sources.begin(), arguments.sequence.sources.end()});
   ProgressBar bar("packing");

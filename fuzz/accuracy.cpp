@@ -12,7 +12,7 @@ namespace {
 
 /// For each of five distances: bisecting down to a gap of 2^-50 of the size takes some 50 levels, most of them with two
 /// intervals of two tests each.
-constexpr int kMaxTests = 256;
+constexpr int kTestsOfDistance = 256;
 
 /// The largest value that the bin holds.
 double most_of(std::size_t bin) { return bin == 0 ? 0 : std::ldexp(1, 1 - static_cast<int>(bin)); }
@@ -38,7 +38,7 @@ int gap_class(const MotionQuery& query) {
   const double size = extent(query);
   for (std::size_t i = 0; i < Accuracy::kGaps.size(); ++i) {
     const double d = std::ldexp(size, Accuracy::kGaps[i]);
-    if (closest_approach(query, d, hints, kMaxTests) == Approach::kBeyond) return static_cast<int>(i);
+    if (closest_approach(query, d, hints, kTestsOfDistance) == Approach::kBeyond) return static_cast<int>(i);
   }
   return static_cast<int>(Accuracy::kGaps.size());
 }

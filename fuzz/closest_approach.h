@@ -14,6 +14,9 @@ enum class Approach : std::uint8_t {
   kUnknown,  ///< the smallest distance is too close to d for the number of tests allowed
 };
 
+/// Enough to bisect down to neighbouring doubles about one closest approach; a hint decides nearly always before.
+inline constexpr int kEnoughTests = 256;
+
 /// Both proofs are exact comparisons of the distance at single times. Between them, the distance of two features
 /// changes at most as fast as their fastest pair of vertices moves apart (each point of a feature is a convex
 /// combination of its vertices), so `distance(m) > d + speed r` excludes every time within r of m. Bisects, nearest

@@ -6,11 +6,11 @@
 namespace selvage::fuzz::make {
 namespace {
 
-constexpr std::uint32_t kSmall = 3;
-constexpr std::uint32_t kLarge = 1U << 20;
+constexpr std::uint32_t kSmallRadius = 3;
+constexpr std::uint32_t kLargeRadius = 1U << 20;
 
 /// Small integers tie, and their products are exact in doubles; large ones touch as exactly, but no product is.
-std::uint32_t choose_radius(ChoiceSource& source, std::uint32_t small) { return source.coin() ? kLarge : small; }
+std::uint32_t choose_radius(ChoiceSource& source, std::uint32_t small) { return source.coin() ? kLargeRadius : small; }
 
 LatticeMotion random_motion(ChoiceSource& source, std::uint32_t radius) {
   LatticeMotion motion;
@@ -86,7 +86,7 @@ MotionQuery near_coplanar(ChoiceSource& source, PairKind kind) {
   for (auto& vector : plane) vector *= flatness;
   LatticeMotion motion;
   for (auto* x : {&motion.x_t0, &motion.x_t1}) {
-    for (auto& point : *x) point = choose_in_plane(source, plane, kSmall) + choose_point(source, 1);
+    for (auto& point : *x) point = choose_in_plane(source, plane, kSmallRadius) + choose_point(source, 1);
   }
   return to_query(kind, motion);
 }
@@ -94,11 +94,11 @@ MotionQuery near_coplanar(ChoiceSource& source, PairKind kind) {
 MotionQuery same_velocity(ChoiceSource& source, PairKind kind) {
   LatticeMotion motion = random_motion(source, 2);
   if (source.coin()) {
-    Placement x = choose_placement(source, choose_radius(source, kSmall));
+    Placement x = choose_placement(source, choose_radius(source, kSmallRadius));
     x.gap.setZero();
     motion.x_t0 = place(kind, choose_weights(source, kind, choose_any_place(source)), x);
   }
-  LatticePoint velocity = choose_point(source, kSmall);
+  LatticePoint velocity = choose_point(source, kSmallRadius);
   velocity *= std::int64_t{1} << source.n(31);
   for (std::size_t i = 0; i < 4; ++i) motion.x_t1[i] = motion.x_t0[i] + velocity;
   return to_query(kind, motion);
@@ -116,7 +116,7 @@ MotionQuery rigid_rotation(ChoiceSource& source, PairKind kind) {
   };
   constexpr std::array<Turn, 6> kTurns{{{3, 4, 5}, {4, 3, 5}, {0, 1, 1}, {-3, 4, 5}, {5, 12, 13}, {-1, 0, 1}}};
   const Turn turn = kTurns[source.n(kTurns.size())];
-  Placement x = choose_placement(source, choose_radius(source, kSmall));
+  Placement x = choose_placement(source, choose_radius(source, kSmallRadius));
   if (!source.one_in(4)) x.gap.setZero();
   const LatticePoints pose = place(kind, choose_weights(source, kind, choose_any_place(source)), x);
   const Eigen::Index axis = source.range(0, 2);

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "selvage.fuzz/1";
 
 /// The bins that hold something, by number.
-Json json_of(const Accuracy::Histogram& histogram) {
+Json kept_json(const Accuracy::Histogram& histogram) {
   Json json = Json::object();
   for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
     if (histogram[bin] > 0) json[std::to_string(bin)] = histogram[bin];
@@ -23,14 +23,14 @@ Json json_of(const Accuracy::Histogram& histogram) {
   return json;
 }
 
-Json json_of(const Accuracy& accuracy) {
-  return {{"early_time", json_of(accuracy.early_time)},
-          {"early_distance", json_of(accuracy.early_distance)},
+Json kept_json(const Accuracy& accuracy) {
+  return {{"early_time", kept_json(accuracy.early_time)},
+          {"early_distance", kept_json(accuracy.early_distance)},
           {"apart", accuracy.apart},
           {"alarms", accuracy.alarms}};
 }
 
-Json json_of(const PropertyLedger& property) {
+Json kept_json(const PropertyLedger& property) {
   Json json;
   json["name"] = property.name;
   json["units"] = property.units.ranges();
@@ -46,7 +46,7 @@ Json json_of(const PropertyLedger& property) {
                        {"counts", std::vector<std::int64_t>(row.of.begin(), row.of.begin() + used)},
                        {"nearest_bits", row.nearest_bits}});
     if (i < property.accuracy.size() && property.accuracy[i] != Accuracy()) {
-      streams.back()["accuracy"] = json_of(property.accuracy[i]);
+      streams.back()["accuracy"] = kept_json(property.accuracy[i]);
     }
   }
   json["streams"] = std::move(streams);
@@ -148,7 +148,7 @@ std::string to_json(const Ledger& ledger) {
   json["cases"] = ledger.cases;
   json["shard"] = {ledger.shard, ledger.shards};
   json["properties"] = Json::array();
-  for (const PropertyLedger& property : ledger.properties) json["properties"].push_back(json_of(property));
+  for (const PropertyLedger& property : ledger.properties) json["properties"].push_back(kept_json(property));
   return json.dump(1) + "\n";
 }
 

@@ -6,7 +6,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::int64_t kChoiceTrials = 300;  // each takes milliseconds
+constexpr std::int64_t kMeshChoiceTrials = 300;  // each takes milliseconds
 
 }  // namespace
 
@@ -14,7 +14,7 @@ std::string MeshProperty::kept(const Stream& stream, ChoiceSource source, const 
                                const std::string& failure, bool shrunk) {
   if (!shrunk) return kept_text(KeptMesh(drawn(stream, source)), origin, failure);
   const Choices choices = shrink_choices(
-      source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
+      source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kMeshChoiceTrials);
   const MeshCase simplest = drawn(stream, ChoiceSource::from_words(choices));
   return kept_text(KeptMesh(shrink(simplest, failure)), origin, failure);
 }

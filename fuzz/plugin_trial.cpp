@@ -9,13 +9,6 @@
 #include "fuzz/worker.h"
 
 namespace selvage::fuzz {
-namespace {
-
-/// As for our own kernel: enough to bisect down to neighbouring doubles about one closest approach.
-constexpr int kMaxTests = 256;
-
-}  // namespace
-
 PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch) {
   PluginJudgement judgement;
   judgement.answer = plugin.ask(query, in_batch);
@@ -31,7 +24,7 @@ PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, boo
   if (!exact.touches && judgement.alarm) {
     const double gap = plugin.info().tolerance + plugin.info().relative_tolerance * extent(query);
     const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
-    if (closest_approach(query, gap, hints, kMaxTests) == Approach::kBeyond) judgement.failure = "alarm-too-far";
+    if (closest_approach(query, gap, hints, kEnoughTests) == Approach::kBeyond) judgement.failure = "alarm-too-far";
   }
   return judgement;
 }

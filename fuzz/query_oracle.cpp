@@ -9,9 +9,6 @@
 namespace selvage::fuzz {
 namespace {
 
-// Enough to bisect down to neighbouring doubles about one closest approach; a hint decides nearly always before.
-constexpr int kMaxTests = 256;
-
 bool weights_are_convex(PairKind kind, const std::array<double, 4>& w) {
   const double slack = 0x1p-40;  // "up to rounding", of a few sums and quotients
   const bool non_negative = std::all_of(w.begin(), w.end(), [](double x) { return x >= 0; });
@@ -62,7 +59,7 @@ Disagreement check_alarm(const MotionQuery& query, const CcdResult& answer, Judg
   }
   const std::array<double, 3> hints{answer.cause == CcdCause::kEnd ? 1 : answer.toi_lower, answer.toi_lower + 0x1p-52,
                                     1};
-  switch (closest_approach(query, answer.gap_bound, hints, kMaxTests)) {
+  switch (closest_approach(query, answer.gap_bound, hints, kEnoughTests)) {
     case Approach::kBeyond:
       return Disagreement::kFalseAlarmTooFar;
     case Approach::kUnknown:

@@ -11,7 +11,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::int64_t kChoiceTrials = 100;  // the only choice is an exponent
+constexpr std::int64_t kExponentTrials = 100;  // of the only choice
 
 Tally tally_of(const Counts& counts) {
   return {counts.cases, counts.of[0], counts.of[1], counts.of[2], counts.of[3], counts.of[4], counts.failures};
@@ -66,7 +66,7 @@ class QueryCampaign final : public Property {
       const auto failure_of = [&](ChoiceSource simpler) {
         return std::string(property_.check(query, selvage_kernel, simpler).failure);
       };
-      choices = shrink_choices(source, failure, failure_of, kChoiceTrials);
+      choices = shrink_choices(source, failure, failure_of, kExponentTrials);
     }
     const bool touches = exact_motion(query, verify::Detail::kDecision).touches;
     return format_case({query, origin, touches, name(), choices});

@@ -196,7 +196,7 @@ struct SceneClass {
   std::string_view name;
   void (*make)(SceneText&);
 };
-constexpr std::array<SceneClass, 6> kClasses{
+constexpr std::array<SceneClass, 6> kSceneClasses{
     {{"fall", fall}, {"stack", stack}, {"pinch", pinch}, {"fling", fling}, {"crowd", crowd}, {"carry", carry}}};
 
 }  // namespace
@@ -204,8 +204,8 @@ constexpr std::array<SceneClass, 6> kClasses{
 const std::vector<std::string_view>& scene_classes() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all;
-    all.reserve(kClasses.size());
-    for (const SceneClass& one : kClasses) all.push_back(one.name);
+    all.reserve(kSceneClasses.size());
+    for (const SceneClass& one : kSceneClasses) all.push_back(one.name);
     return all;
   }();
   return names;
@@ -214,7 +214,7 @@ const std::vector<std::string_view>& scene_classes() {
 std::string random_scene(std::string_view scene_class, ChoiceSource& source) {
   SceneText scene(source);
   scene.head();
-  for (const SceneClass& one : kClasses) {
+  for (const SceneClass& one : kSceneClasses) {
     if (one.name == scene_class) one.make(scene);
   }
   return scene.text();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kSteps = 80;  ///< of a case at most
 /// A trial takes tenths of a second.
-constexpr std::int64_t kChoiceTrials = 100, kTextTrials = 300;
+constexpr std::int64_t kSceneChoiceTrials = 100, kTextTrials = 300;
 
 class SimulationCampaign final : public Property {
  public:
@@ -37,7 +37,7 @@ class SimulationCampaign final : public Property {
                    bool shrunk) override {
     if (!shrunk) return kept_text(KeptBytes(scene_case(random_scene(stream.name, source), kSteps)), origin, failure);
     const Choices choices = shrink_choices(
-        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
+        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kSceneChoiceTrials);
     ChoiceSource again = ChoiceSource::from_words(choices);
     const std::string scene = random_scene(stream.name, again);
     const ByteCase simplest = scene_case(scene, std::max<std::int64_t>(1, try_scene(scene, kSteps).steps));

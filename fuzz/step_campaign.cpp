@@ -17,7 +17,7 @@ const SurfaceClass& surface_of(const Stream& stream) {
   return *found;
 }
 
-constexpr std::int64_t kChoiceTrials = 300;  // each takes milliseconds
+constexpr std::int64_t kStepChoiceTrials = 300;  // each takes milliseconds
 
 class StepCampaign final : public Property {
  public:
@@ -45,7 +45,7 @@ class StepCampaign final : public Property {
     // Which of its steps failed is known only when they are run.
     if (!shrunk) return kept_text(DrawnCase(origin), origin, failure);
     const Choices choices = shrink_choices(
-        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kChoiceTrials);
+        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kStepChoiceTrials);
     ChoiceSource again = ChoiceSource::from_words(choices);
     const StepWorld world = make_step_world(again, surface_of(stream));
     const StepObservation seen = run_steps(again, world, selvage_step);

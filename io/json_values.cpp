@@ -11,10 +11,10 @@
 namespace selvage::io {
 namespace {
 
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
 /// What the parser calls for every value. Nothing opens that has no place, so `open_` is no deeper than the places.
-class Handler final : public nlohmann::json_sax<Json> {
+class Handler final : public nlohmann::json_sax<AnyJson> {
  public:
   Handler(std::string_view text, const JsonReading& reading) : text_(text), reading_(reading) {}
 
@@ -53,7 +53,7 @@ class Handler final : public nlohmann::json_sax<Json> {
   }
 
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
-    if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
+    if (dynamic_cast<const AnyJson::out_of_range*>(&error) != nullptr)
       reading_.fail("a number is outside the range of double; correct it");
     const std::string_view before = text_.substr(0, position);
     reading_.fail_at(static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')),
@@ -118,7 +118,7 @@ std::string_view last_key(std::string_view path) { return path.substr(path.rfind
 
 JsonValues read_json(std::string_view text, const JsonReading& reading) {
   Handler handler(text, reading);
-  Json::sax_parse(text, &handler);
+  AnyJson::sax_parse(text, &handler);
   return handler.take();
 }
 

@@ -27,7 +27,7 @@ struct DirectoryPlace {
 
 /// The 64-bit values of a directory entry whose 32-bit fields are full: extra field 1, in the order of `fields`.
 bool widen(std::string_view extra, std::initializer_list<std::uint64_t*> fields) {
-  constexpr std::uint64_t kFull = 0xffffffff;
+  constexpr std::uint64_t kFull64 = 0xffffffff;
   std::string_view wide;
   while (extra.size() >= 4) {
     const std::size_t size = field<std::uint16_t>(extra, 2);
@@ -36,7 +36,7 @@ bool widen(std::string_view extra, std::initializer_list<std::uint64_t*> fields)
     extra.remove_prefix(4 + size);
   }
   for (std::uint64_t* value : fields) {
-    if (*value != kFull) continue;
+    if (*value != kFull64) continue;
     if (wide.size() < 8) return false;
     *value = field<std::uint64_t>(wide, 0);
     wide.remove_prefix(8);

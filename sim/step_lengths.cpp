@@ -21,7 +21,7 @@ constexpr double kShortestImplicitShare = 1.0 / 8;
 // sheets that meet edge-on at 100 m/s have springs of 3.5, 3.4 and 3.1 times their length, in 1, 1.1 and 1.3 times the
 // time; in steps of the dynamics of 20 times, and the fail-safe held 605 vertices.
 constexpr double kSpringShare = 1.0 / 16;
-constexpr double kLeastShare = 1.0 / 64;
+constexpr double kLeastShareOfShortest = 1.0 / 64;
 
 double mean_rest_length_m(const SpringSystem& springs) {
   double sum_m = 0;
@@ -44,7 +44,7 @@ StepLengths::StepLengths(const Scene& scene, const World& world)
   const double shortest_s = is_implicit ? kShortestImplicitShare * longest_s_ : dynamics_s_;
   shortest_s_ = std::min(scene.time.min_step_s.value_or(shortest_s), longest_s_);
   const double most_steps_s = std::min(shortest_s_, kLeastStepShare / frames_per_s_);
-  least_s_ = scene.time.min_step_s ? shortest_s_ : std::max(kLeastShare * shortest_s_, most_steps_s);
+  least_s_ = scene.time.min_step_s ? shortest_s_ : std::max(kLeastShareOfShortest * shortest_s_, most_steps_s);
 }
 
 double StepLengths::shortest_s(double fastest_m_s) const {

@@ -11,13 +11,13 @@
 namespace selvage::verify {
 namespace {
 
-using Vector = std::array<mpz_class, 3>;
+using IntegerVector = std::array<mpz_class, 3>;
 
-Vector operator-(const Vector& a, const Vector& b) {
+IntegerVector operator-(const IntegerVector& a, const IntegerVector& b) {
   return {mpz_class(a[0] - b[0]), mpz_class(a[1] - b[1]), mpz_class(a[2] - b[2])};
 }
-mpz_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
+mpz_class exact_dot(const IntegerVector& a, const IntegerVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+IntegerVector exact_cross(const IntegerVector& a, const IntegerVector& b) {
   return {mpz_class(a[1] * b[2] - a[2] * b[1]), mpz_class(a[2] * b[0] - a[0] * b[2]),
           mpz_class(a[0] * b[1] - a[1] * b[0])};
 }
@@ -31,54 +31,55 @@ struct Fraction {
   }
 };
 
-Fraction squared(const Vector& p, const Vector& q) {
-  const Vector d = p - q;
-  return {dot(d, d), 1};
+Fraction squared(const IntegerVector& p, const IntegerVector& q) {
+  const IntegerVector d = p - q;
+  return {exact_dot(d, d), 1};
 }
 
-Fraction squared_point_segment(const Vector& p, const Vector& a, const Vector& b) {
-  const Vector edge = b - a, offset = p - a;
-  const mpz_class along = dot(edge, offset), length_squared = dot(edge, edge);
+Fraction squared_point_segment(const IntegerVector& p, const IntegerVector& a, const IntegerVector& b) {
+  const IntegerVector edge = b - a, offset = p - a;
+  const mpz_class along = exact_dot(edge, offset), length_squared = exact_dot(edge, edge);
   if (along <= 0) return squared(p, a);  // also where the edge has no length
   if (along >= length_squared) return squared(p, b);
-  return {dot(offset, offset) * length_squared - along * along, length_squared};
+  return {exact_dot(offset, offset) * length_squared - along * along, length_squared};
 }
 
-using Vectors = std::array<Vector, 4>;
+using IntegerVectors = std::array<IntegerVector, 4>;
 
-Fraction squared_vf(const Vectors& x) {
+Fraction squared_vf(const IntegerVectors& x) {
   const auto& [p, a, b, c] = x;
   Fraction least =
       std::min({squared_point_segment(p, a, b), squared_point_segment(p, b, c), squared_point_segment(p, c, a)});
-  const Vector n = cross(b - a, c - a);
-  const mpz_class n_squared = dot(n, n);
+  const IntegerVector n = exact_cross(b - a, c - a);
+  const mpz_class n_squared = exact_dot(n, n);
   if (n_squared == 0) return least;  // zero area: the triangle is its edges
-  const auto inside = [&, &p = p](const Vector& from, const Vector& to) {
-    return dot(n, cross(to - from, p - from)) >= 0;
+  const auto inside = [&, &p = p](const IntegerVector& from, const IntegerVector& to) {
+    return exact_dot(n, exact_cross(to - from, p - from)) >= 0;
   };
   if (!(inside(a, b) && inside(b, c) && inside(c, a))) return least;
-  const mpz_class height = dot(n, p - a);
+  const mpz_class height = exact_dot(n, p - a);
   return std::min(least, Fraction{height * height, n_squared});
 }
 
-Fraction squared_ee(const Vectors& x) {
+Fraction squared_ee(const IntegerVectors& x) {
   const auto& [a, b, c, d] = x;
   Fraction least = std::min({squared_point_segment(a, c, d), squared_point_segment(b, c, d),
                              squared_point_segment(c, a, b), squared_point_segment(d, a, b)});
   // The feet of the common perpendicular of the two lines, a + (u_foot / n_squared)(b - a) and c + ... (d - c).
-  const Vector u = b - a, v = d - c, w = a - c, n = cross(u, v);
-  const mpz_class n_squared = dot(n, n);
+  const IntegerVector u = b - a, v = d - c, w = a - c, n = exact_cross(u, v);
+  const mpz_class n_squared = exact_dot(n, n);
   if (n_squared == 0) return least;  // parallel, or an edge without length: some end point is nearest
-  const mpz_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const mpz_class uu = exact_dot(u, u), uv = exact_dot(u, v), vv = exact_dot(v, v), uw = exact_dot(u, w),
+                  vw = exact_dot(v, w);
   const mpz_class u_foot = uv * vw - vv * uw, v_foot = uu * vw - uv * uw;
   if (!(u_foot >= 0 && u_foot <= n_squared && v_foot >= 0 && v_foot <= n_squared)) return least;
-  const mpz_class gap = dot(w, n);
+  const mpz_class gap = exact_dot(w, n);
   return std::min(least, Fraction{gap * gap, n_squared});
 }
 
 /// Everything times one power of two: four points and the square of the distance to compare with.
 struct Scene {
-  Vectors x;
+  IntegerVectors x;
   mpz_class distance_squared;
 };
 
@@ -140,7 +141,7 @@ int compare_distances(const FeaturePair& a, const FeaturePair& b) {
     values[12 + i] = b.x[i / 3][i % 3];
   }
   scale_to_integers(values, integers);
-  Vectors of_a, of_b;
+  IntegerVectors of_a, of_b;
   for (std::size_t i = 0; i < 12; ++i) {
     of_a[i / 3][i % 3] = std::move(integers[i]);
     of_b[i / 3][i % 3] = std::move(integers[12 + i]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verify/direction.h"
 #include "verify/dyadic.h"
 
 namespace selvage::verify {
@@ -25,8 +26,6 @@ int sign_beyond(double value, double bound) {
   if (value < -bound) return -1;
   return 0;
 }
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
 

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order of writing: the verdict is on top
 
-std::string hex_float(double x) {
+std::string to_hex(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%a", x);
   return buffer;
@@ -23,7 +23,7 @@ std::string hex_word(std::uint32_t x) {
 
 Json bits(const std::vector<Point>& points) {
   Json json = Json::array();
-  for (const auto& [x, y, z] : points) json.push_back({hex_float(x), hex_float(y), hex_float(z)});
+  for (const auto& [x, y, z] : points) json.push_back({to_hex(x), to_hex(y), to_hex(z)});
   return json;
 }
 
@@ -95,8 +95,8 @@ Json gap(const SequenceReport& report) {
   if (!report.gap) return {{"lower", nullptr}};
   return {{"lower", report.gap->lower},
           {"upper", report.gap->upper},
-          {"lower_hex", hex_float(report.gap->lower)},
-          {"upper_hex", hex_float(report.gap->upper)},
+          {"lower_hex", to_hex(report.gap->lower)},
+          {"upper_hex", to_hex(report.gap->upper)},
           {"frame", report.gap->frame},
           {"event", name_of(report.gap->event)},
           {"features", report.gap->features},
@@ -165,7 +165,7 @@ std::string json_report(const SequenceReport& report, const ReportContext& conte
                      {"body_pairs", report.bodies_checked ? "checked" : "skipped"},
                      {"precision", report.precision == io::Precision::kFloat32 ? "float32" : "float64"},
                      {"largest_coordinate", report.largest_coordinate},
-                     {"largest_coordinate_hex", hex_float(report.largest_coordinate)}};
+                     {"largest_coordinate_hex", to_hex(report.largest_coordinate)}};
   if (const auto change = first_surface_change(report)) json["surface"]["first_change"] = *change;
   json["sequence"] = sequence(report);
   json["seconds"] = report.seconds;

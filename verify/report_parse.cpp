@@ -28,7 +28,7 @@ std::uint32_t word(const std::string& text) {
   return value;
 }
 
-double hex_float(const std::string& text) {
+double from_hex(const std::string& text) {
   if (text == "inf") return std::numeric_limits<double>::infinity();
   std::string_view digits = text;
   const bool negative = digits.starts_with('-');
@@ -73,7 +73,7 @@ std::array<std::int32_t, 2> features(const Json& json) {
 std::vector<Point> points(const Json& json) {
   std::vector<Point> result;
   for (const Json& point : json) {
-    result.push_back({hex_float(point.at(0)), hex_float(point.at(1)), hex_float(point.at(2))});
+    result.push_back({from_hex(point.at(0)), from_hex(point.at(1)), from_hex(point.at(2))});
   }
   return result;
 }
@@ -171,7 +171,7 @@ void parse_surface(const Json& json, SequenceReport& report) {
   report.bodies_checked = named<bool, 2>(json.at("body_pairs"), {{{"checked", true}, {"skipped", false}}});
   report.precision = named<io::Precision, 2>(
       json.at("precision"), {{{"float32", io::Precision::kFloat32}, {"float64", io::Precision::kFloat64}}});
-  report.largest_coordinate = hex_float(json.at("largest_coordinate_hex"));
+  report.largest_coordinate = from_hex(json.at("largest_coordinate_hex"));
 }
 
 ParsedReport parse(const Json& json) {
@@ -208,7 +208,7 @@ ParsedReport parse(const Json& json) {
   const Json& gap = json.at("gap");
   report.gap_searched = !gap.is_null();
   if (report.gap_searched && !gap.at("lower").is_null()) {
-    report.gap = {hex_float(gap.at("lower_hex")), hex_float(gap.at("upper_hex")), count(gap.at("frame")),
+    report.gap = {from_hex(gap.at("lower_hex")), from_hex(gap.at("upper_hex")), count(gap.at("frame")),
                   named<EventKind, 2>(gap.at("event"), {{{"vf", EventKind::kVf}, {"ee", EventKind::kEe}}}),
                   features(gap.at("features"))};
     if (gap.contains("bits")) report.gap->x = points(gap.at("bits"));  // not in reports of earlier versions

@@ -8,8 +8,6 @@
 namespace selvage::bench {
 namespace {
 
-const Vec3 kGravity(0, 0, -9.81);
-
 /// An open cone about the z axis from `top` radius at z = 0 down to `bottom` at z = -height.
 sim::Shape make_funnel(int facets, double top_m, double bottom_m, double height_m) {
   sim::Shape funnel = make_tube(2, facets, 1, 1);
@@ -25,7 +23,7 @@ void funnel(Trial& trial) {
   const int side = trial.pick(7, 11, 15);
   StageSetup setup;
   setup.dt_s = 4e-3;
-  setup.gravity_m_s2 = kGravity;
+  setup.gravity_m_s2 = {0, 0, -9.81};
   setup.drag_1_s = 1;
   setup.collision.thickness_m = 3e-3;
   setup.policy = sim::SqueezePolicy::kYield;

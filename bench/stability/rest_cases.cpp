@@ -10,12 +10,10 @@
 namespace selvage::bench {
 namespace {
 
-const Vec3 kGravity(0, 0, -9.81);
-
 void resting_contact(Trial& trial) {
   // A small sheet lies on the ground: the coarse one for 10^5 steps.
   StageSetup setup;
-  setup.gravity_m_s2 = kGravity;
+  setup.gravity_m_s2 = {0, 0, -9.81};
   setup.dt_s = 1e-3;
   setup.add_body(sim::make_sheet(2, 2, 4, 4), Vec3::Zero());
   const int side = trial.pick(2, 3, 4);

@@ -7,13 +7,13 @@
 namespace selvage::bench {
 namespace {
 
-const Material kCloth{1e-3, 100, 0, 0.2};
+const Material kSqueezedCloth{1e-3, 100, 0, 0.2};
 
 /// A sheet between two boxes that close at 1 m/s from either side; or against the lower one, which rests.
 StageSetup press(Trial& trial, bool lower_rests) {
   StageSetup setup;
   const sim::Shape box = sim::make_box(Vec3(0.8, 0.8, 0.2), trial.pick(1, 2, 4));
-  setup.add_cloth(sim::make_sheet(trial.pick(4, 8, 16), trial.pick(4, 8, 16), 1, 1), Vec3::Zero(), kCloth);
+  setup.add_cloth(sim::make_sheet(trial.pick(4, 8, 16), trial.pick(4, 8, 16), 1, 1), Vec3::Zero(), kSqueezedCloth);
   setup.add_body(box, {{0, {Vec3(0, 0, 0.12)}}, {1, {Vec3(0, 0, -0.88)}}});
   const Vec3 start(0.05, 0.03, -0.12);
   if (lower_rests) {
@@ -60,7 +60,7 @@ void pinched_three(Trial& trial) {
 
 void spike_press(Trial& trial) {
   StageSetup setup;
-  setup.add_cloth(sim::make_sheet(trial.pick(5, 9, 17), trial.pick(5, 9, 17), 1, 1), Vec3::Zero(), kCloth);
+  setup.add_cloth(sim::make_sheet(trial.pick(5, 9, 17), trial.pick(5, 9, 17), 1, 1), Vec3::Zero(), kSqueezedCloth);
   setup.add_body(sim::make_sheet(2, 2, 3, 3), Vec3(0, 0, -0.05));
   // Exactly above the middle vertex.
   setup.add_body(make_spike(trial.pick(3, 8, 16), 0.2, 0.4), {{0, {Vec3(0, 0, 0.05)}}, {1, {Vec3(0, 0, -1.95)}}});
@@ -93,7 +93,7 @@ void pins_cross(Trial& trial) {
   // The two ends of a sheet are asked to change places, through its middle.
   StageSetup setup;
   const int side = trial.pick(3, 4, 6);
-  setup.add_cloth(sim::make_sheet(side, side, 1, 1), Vec3::Zero(), kCloth);
+  setup.add_cloth(sim::make_sheet(side, side, 1, 1), Vec3::Zero(), kSqueezedCloth);
   std::vector<VertexId> left, right;
   for (int j = 0; j < side; ++j) {
     left.push_back(j * side);

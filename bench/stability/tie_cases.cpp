@@ -5,7 +5,7 @@
 namespace selvage::bench {
 namespace {
 
-const Material kCloth{1e-3, 100, 1, 0.2};
+const Material kTiedCloth{1e-3, 100, 1, 0.2};
 
 /// A sheet whose coordinates are multiples of 2^-6, so that they are the same bits at the far offset.
 sim::Shape lattice_sheet(int cells) { return sim::make_sheet(cells + 1, cells + 1, cells * 0x1p-4, cells * 0x1p-4); }
@@ -17,7 +17,7 @@ void fall_onto_lattice(Trial& trial, const Vec3& shift) {
   setup.dt_s = 0x1p-8;
   setup.gravity_m_s2 = Vec3(0, 0, -8);
   setup.add_body(lattice_sheet(2 * cells), Vec3::Zero());
-  setup.add_cloth(lattice_sheet(cells), Vec3(0, 0, 0x1p-6) + shift, kCloth, Vec3(0, 0, -4));
+  setup.add_cloth(lattice_sheet(cells), Vec3(0, 0, 0x1p-6) + shift, kTiedCloth, Vec3(0, 0, -4));
   Stage stage(trial, setup);
   for (int step = 0; step < trial.steps(60, 6); ++step) stage.step();
   trial.at_least("steps with collisions", double(trial.report().steps_with_collisions), 1);
@@ -33,7 +33,7 @@ void cube_on_grid(Trial& trial) {
   setup.dt_s = 0x1p-8;
   const Part cube = setup.add_cloth(sim::make_box(Vec3::Constant(cells * 0x1p-4), cells),
                                     Vec3(0, 0, cells * 0x1p-5 + 0x1p-6), {1e-3, 400, 0, 0.2}, Vec3(0, 0, -8));
-  const Part sheet = setup.add_cloth(lattice_sheet(2 * cells), Vec3::Zero(), kCloth);
+  const Part sheet = setup.add_cloth(lattice_sheet(2 * cells), Vec3::Zero(), kTiedCloth);
   Stage stage(trial, setup);
   for (int step = 0; step < trial.steps(40, 4); ++step) stage.step();
   trial.at_least("cube above the sheet, m", stage.centre(cube).z() - stage.centre(sheet).z(), 0);

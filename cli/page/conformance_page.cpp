@@ -24,7 +24,7 @@ using page::text;
 
 namespace {
 
-constexpr std::size_t kLargestCase = 1 << 16;
+constexpr std::size_t kLargestCaseShown = 1 << 16;
 
 /// A finding with its kept case, which there is not where the campaign was stopped before it was written.
 struct Counterexample {
@@ -41,7 +41,7 @@ std::vector<Counterexample> counterexamples(const fuzz::PropertyLedger& done, co
     Counterexample one{key.first, key.second, finding, {}, {}, {}};
     if (!finding.file.empty()) {
       one.file = run.folder / finding.file;
-      one.case_text = io::read_file(one.file, kLargestCase);
+      one.case_text = io::read_file(one.file, kLargestCaseShown);
       one.kept = fuzz::parse_case(one.case_text, one.file.string());
     }
     all.push_back(std::move(one));
@@ -155,7 +155,7 @@ Html header(const fuzz::PropertyLedger& done, const std::vector<Counterexample>&
   return html + element("p", {{"class", "lead"}}, text(lead(all, ConformanceRow(done.total()), run)));
 }
 
-Html fact(const std::string& name, const std::string& value, const std::string& detail) {
+Html detailed_fact(const std::string& name, const std::string& value, const std::string& detail) {
   return element("div", {},
                  element("dt", {}, text(name)) + element("dd", {}, text(value) + element("small", {}, text(detail)))) +
          Html{"\n"};
@@ -166,35 +166,36 @@ Html accuracy_facts(const fuzz::Accuracy& accuracy) {
   Html list;
   const fuzz::Spread time = fuzz::spread_of(accuracy.early_time), distance = fuzz::spread_of(accuracy.early_distance);
   if (time.count > 0) {
-    list +=
-        fact("Times early by", fmt::format("{:.3g}", time.half),
-             fmt::format("of the step at most, half of {}; 99 % {:.3g}, all {:.3g}; of the size {:.3g}, {:.3g}, {:.3g}",
-                         grouped(time.count), time.all_but_a_hundredth, time.worst, distance.half,
-                         distance.all_but_a_hundredth, distance.worst));
+    list += detailed_fact(
+        "Times early by", fmt::format("{:.3g}", time.half),
+        fmt::format("of the step at most, half of {}; 99 % {:.3g}, all {:.3g}; of the size {:.3g}, {:.3g}, {:.3g}",
+                    grouped(time.count), time.all_but_a_hundredth, time.worst, distance.half,
+                    distance.all_but_a_hundredth, distance.worst));
   }
   if (accuracy.apart[0] > 0) {
     const double share = 100 * static_cast<double>(accuracy.alarms[0]) / static_cast<double>(accuracy.apart[0]);
-    list += fact("False alarms", grouped(accuracy.alarms[0]),
-                 fmt::format("{:.3g} % of what stays apart by more than 2^{} of the size, of {} measured", share,
-                             fuzz::Accuracy::kGaps[0], grouped(accuracy.apart[0])));
+    list += detailed_fact("False alarms", grouped(accuracy.alarms[0]),
+                          fmt::format("{:.3g} % of what stays apart by more than 2^{} of the size, of {} measured",
+                                      share, fuzz::Accuracy::kGaps[0], grouped(accuracy.apart[0])));
   }
   return list;
 }
 
 Html facts_of(const fuzz::Ledger& ledger, const fuzz::PluginInfo& info) {
   const ConformanceRow total(ledger.properties.front().total());
-  Html list = fact("Queries", grouped(total.queries), grouped(total.touches) + " touch exactly");
-  list += fact("Alarms", grouped(total.alarms), "answered: collides");
-  list += fact("Contacts missed", grouped(total.missed), "answered: separated");
-  list += fact("Times too late", grouped(total.late),
-               info.has_toi ? "the features touch before them" : "it gives no times of impact");
-  list += fact("Alarms too far", grouped(total.too_far),
-               fmt::format("beyond {:g} + {:g} of the size, as it declares", info.tolerance, info.relative_tolerance));
+  Html list = detailed_fact("Queries", grouped(total.queries), grouped(total.touches) + " touch exactly");
+  list += detailed_fact("Alarms", grouped(total.alarms), "answered: collides");
+  list += detailed_fact("Contacts missed", grouped(total.missed), "answered: separated");
+  list += detailed_fact("Times too late", grouped(total.late),
+                        info.has_toi ? "the features touch before them" : "it gives no times of impact");
+  list += detailed_fact(
+      "Alarms too far", grouped(total.too_far),
+      fmt::format("beyond {:g} + {:g} of the size, as it declares", info.tolerance, info.relative_tolerance));
   list += accuracy_facts(ledger.properties.front().total_accuracy());
-  list += fact("Misdeeds", grouped(total.misdeeds), "crashes, hangs, answers that are none");
-  list += fact("Time a query", fmt::format("{:.0f} ns", total.nanoseconds_per_query()),
-               "reading the clock included, about 50 ns");
-  list += fact("Seed", std::to_string(ledger.seed), "the cases depend on it alone");
+  list += detailed_fact("Misdeeds", grouped(total.misdeeds), "crashes, hangs, answers that are none");
+  list += detailed_fact("Time a query", fmt::format("{:.0f} ns", total.nanoseconds_per_query()),
+                        "reading the clock included, about 50 ns");
+  list += detailed_fact("Seed", std::to_string(ledger.seed), "the cases depend on it alone");
   return element("dl", {{"class", "facts"}}, list);
 }
 

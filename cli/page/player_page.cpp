@@ -20,7 +20,7 @@ using page::text;
 namespace {
 
 /// Of the cloth's radius: 2^-16 is 15 micrometres on a curtain of 2 metres, a hundredth of what a pixel shows of it.
-constexpr int kBits = 16;
+constexpr int kPlayerBits = 16;
 
 struct Packed {
   page::Scene scene;
@@ -38,7 +38,7 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t count) {
 
 Packed pack(const io::SequenceReader& sequence, const page::Box& stage, const std::vector<std::size_t>& frames,
             std::size_t byte_limit, const std::function<void(std::size_t, std::size_t)>& progress) {
-  Packed packed{page::Scene(stage, kBits, page::Prediction::kPrevious)};
+  Packed packed{page::Scene(stage, kPlayerBits, page::Prediction::kPrevious)};
   for (const std::size_t i : frames) {
     ++packed.frames_tried;
     if (!add_frame(packed.scene, sequence, i, byte_limit)) return packed;

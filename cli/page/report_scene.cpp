@@ -10,7 +10,7 @@ namespace {
 /// Frames without a witness, for a look at the whole: what a person still goes through one by one.
 constexpr std::int64_t kFramesInPassing = 24;
 /// Of the cloth's radius: 2^-20 is 1 micrometre on a curtain of 2 metres, a thousandth of the cloth's usual thickness.
-constexpr int kBits = 20;
+constexpr int kReportBits = 20;
 
 page::Box witness_box(const verify::SequenceReport& report) {
   page::Box box;
@@ -44,9 +44,9 @@ std::vector<std::size_t> wanted_frames(const verify::SequenceReport& report) {
 
 ReportScene report_scene(const verify::SequenceReport& report, const io::SequenceReader* sequence,
                          std::size_t byte_limit) {
-  if (sequence == nullptr) return {page::Scene(witness_box(report), kBits, page::Prediction::kNone), 0};
+  if (sequence == nullptr) return {page::Scene(witness_box(report), kReportBits, page::Prediction::kNone), 0};
   const std::vector<std::size_t> frames = wanted_frames(report);
-  ReportScene result{page::Scene(stage_of(*sequence, frames), kBits, page::Prediction::kNone), frames.size()};
+  ReportScene result{page::Scene(stage_of(*sequence, frames), kReportBits, page::Prediction::kNone), frames.size()};
   for (const std::size_t frame : frames) {
     if (!add_frame(result.scene, *sequence, frame, byte_limit)) break;
   }

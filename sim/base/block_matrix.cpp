@@ -26,14 +26,13 @@ bool invert(const SymmetricBlock& m, SymmetricBlock& inverse) {
   return m[0] > 0 && m[0] * m[3] - m[1] * m[1] > 0 && determinant > 0;
 }
 
-// Row by row in order: the bits do not depend on the number of threads.
+}  // namespace
+
 double dot(const Positions& a, const Positions& b) {
   double sum = 0;
   for (Eigen::Index i = 0; i < a.rows(); ++i) sum += a(i, 0) * b(i, 0) + a(i, 1) * b(i, 1) + a(i, 2) * b(i, 2);
   return sum;
 }
-
-}  // namespace
 
 BlockMatrix::BlockMatrix(const std::vector<std::vector<VertexId>>& neighbours) : diagonal_(neighbours.size()) {
   for (const std::vector<VertexId>& row : neighbours) {

@@ -31,6 +31,9 @@ inline void add_outer(double scale, double x, double y, double z, SymmetricBlock
   block[5] += scale * z * z;
 }
 
+/// The sum of the products of all coordinates, row by row in order: the bits do not depend on the number of threads.
+[[nodiscard]] double dot(const Positions& a, const Positions& b);
+
 /// Row i holds a diagonal block and one block for each of its neighbours, in increasing order. The pattern is fixed;
 /// the caller fills the values, the same block at (i, j) and (j, i).
 class BlockMatrix {

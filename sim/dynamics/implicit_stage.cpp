@@ -39,12 +39,6 @@ std::vector<std::vector<VertexId>> find_neighbours(const SpringSystem& springs,
   return neighbours;
 }
 
-double dot(const Positions& a, const Positions& b) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < a.rows(); ++i) sum += a(i, 0) * b(i, 0) + a(i, 1) * b(i, 1) + a(i, 2) * b(i, 2);
-  return sum;
-}
-
 }  // namespace
 
 ImplicitStage::ImplicitStage(const SpringSystem& springs, const StabilizerSystem* stabilizers,

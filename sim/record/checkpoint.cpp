@@ -6,6 +6,7 @@
 
 #include "io/atomic_file.h"
 #include "sim/base/fnv1a.h"
+#include "sim/base/points.h"
 
 namespace selvage::sim {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
 constexpr std::string_view kMagic = "selvage-checkpoint 10\n";
-
-std::string_view bytes_of(const Positions& x) {
-  return {reinterpret_cast<const char*>(x.data()), static_cast<std::size_t>(x.size()) * sizeof(double)};
-}
 
 template <class Number>
 void put(std::string& bytes, const Number& number) {

@@ -6,14 +6,11 @@
 
 #include "io/atomic_file.h"
 #include "sim/base/fnv1a.h"
+#include "sim/base/points.h"
 #include "sim/record/changed_setting.h"
 
 namespace selvage::sim {
 namespace {
-
-std::string_view bytes_of(const Positions& x) {
-  return {reinterpret_cast<const char*>(x.data()), static_cast<std::size_t>(x.size()) * sizeof(double)};
-}
 
 std::uint64_t digest_of_part(const World& world, std::size_t part) {
   std::uint64_t hash = fnv1a({});

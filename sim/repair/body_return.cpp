@@ -15,8 +15,8 @@ constexpr double kLeastGain = 1e-3;  // of the way: a step that gains less ends 
 // A body that comes back goes at most this many gaps a step: a ball through which a cloth passed by its middle comes
 // back in 3.2 s so, and in 10.4 s with steps four times as long, which the rigid zones have to resolve (measured).
 constexpr double kStepGaps = 4;
-constexpr int kMostSteps = 256;   // so that bodies much larger than the gap come back too
-constexpr double kClearGaps = 4;  // between bodies that stand aside and the cloth
+constexpr int kMostReturnSteps = 256;  // so that bodies much larger than the gap come back too
+constexpr double kClearGaps = 4;       // between bodies that stand aside and the cloth
 
 CollisionStep make_step(const UntangleState& state) {
   return {state.mesh, step_options(state.options), state.options.surfaces};
@@ -76,7 +76,7 @@ Positions BodyReturn::moved_bodies(const Positions& displacement) const {
 std::optional<Positions> BodyReturn::come_back(const Positions& away) {
   Positions x = away;
   const double steps = std::ceil((away - state_.x).rowwise().norm().maxCoeff() / (kStepGaps * state_.options.gap_m));
-  const int step_count = static_cast<int>(std::clamp<double>(steps, 1, kMostSteps));
+  const int step_count = static_cast<int>(std::clamp<double>(steps, 1, kMostReturnSteps));
   for (int n = 1; n <= step_count; ++n) {
     const double left = 1 - double(n) / step_count;
     Positions candidate = x;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kStep_s = 1.0 / 120;
 // Where much is stretched, a step may meet so much that it stretches more; but after some the sum must have gone down.
 constexpr std::int32_t kMostInVain = 5;
-constexpr double kLeastGain = 1e-3;  // of the sum; less is no reason to go on
+constexpr double kLeastRelief = 1e-3;  // of the sum; less is no reason to go on
 
 /// Of structural and shear springs, the elongations beyond the limit, summed up.
 double excess(const SpringSystem& springs, const PositionsRef& x, double strain_limit) {
@@ -51,7 +51,7 @@ RelaxedSprings relax_springs(const Positions& x, const SpringSystem& springs, co
     if (safe.report.status != StepStatus::kSafe) break;
     now = std::move(safe.x);
     const double left = excess(springs, now.topRows(cloth), strain_limit);
-    if (!(left < (1 - kLeastGain) * least)) continue;
+    if (!(left < (1 - kLeastRelief) * least)) continue;
     least = left;
     result.x = now;
     result.steps = n;

@@ -18,14 +18,14 @@ namespace {
 constexpr std::size_t kLeastValence = 3;
 
 /// What is around a vertex.
-struct Ring {
+struct VertexRing {
   enum class Kind { kInner, kBoundary, kOther } kind = Kind::kOther;
   std::vector<VertexId> neighbours;  ///< kInner: in order around the vertex; kBoundary: its two along the boundary
 };
 
 // The faces at a vertex as links between its neighbours; one closed chain is an inner vertex, one open chain a
 // boundary. Whatever way round the faces are: cloth has no outside.
-Ring ring_of(VertexId vertex, const Mesh& mesh, std::span<const FaceId> faces_at) {
+VertexRing ring_of(VertexId vertex, const Mesh& mesh, std::span<const FaceId> faces_at) {
   std::map<VertexId, std::vector<VertexId>> linked;
   for (const FaceId face : faces_at) {
     const auto& f = mesh.faces[static_cast<std::size_t>(face)];
@@ -38,7 +38,7 @@ Ring ring_of(VertexId vertex, const Mesh& mesh, std::span<const FaceId> faces_at
   const auto is_end = [](const auto& neighbour) { return neighbour.second.size() == 1; };
   const auto first_end = std::ranges::find_if(linked, is_end);
   const bool open = first_end != linked.end();
-  Ring ring;
+  VertexRing ring;
   VertexId before = -1, now = open ? first_end->first : linked.begin()->first;
   do {
     ring.neighbours.push_back(now);
@@ -50,7 +50,7 @@ Ring ring_of(VertexId vertex, const Mesh& mesh, std::span<const FaceId> faces_at
   } while (now != ring.neighbours.front());
   if (ring.neighbours.size() != linked.size()) return {};          // several chains
   if (!open && ring.neighbours.size() < kLeastValence) return {};  // two faces back to back
-  ring.kind = open ? Ring::Kind::kBoundary : Ring::Kind::kInner;
+  ring.kind = open ? VertexRing::Kind::kBoundary : VertexRing::Kind::kInner;
   if (open) ring.neighbours = {ring.neighbours.front(), ring.neighbours.back()};
   return ring;
 }
@@ -67,11 +67,11 @@ void add(std::vector<RuleTerm>& row, VertexId vertex, double weight) {
 
 using WeightsByValence = std::map<std::size_t, RingWeights>;
 
-WeightsByValence weights_of(const std::vector<Ring>& rings) {
+WeightsByValence weights_of(const std::vector<VertexRing>& rings) {
   WeightsByValence weights;
-  for (const Ring& ring : rings) {
+  for (const VertexRing& ring : rings) {
     const std::size_t n = ring.neighbours.size();
-    if (ring.kind == Ring::Kind::kInner && !weights.contains(n)) {
+    if (ring.kind == VertexRing::Kind::kInner && !weights.contains(n)) {
       weights.emplace(n, ring_weights(static_cast<std::int32_t>(n)));
     }
   }
@@ -80,7 +80,7 @@ WeightsByValence weights_of(const std::vector<Ring>& rings) {
 
 // The new point of the edge from an inner vertex to `other`, by that vertex' rule. O(n), in a row that is not empty
 // O(n #row).
-void add_ring_rule(std::vector<RuleTerm>& row, VertexId vertex, const Ring& ring, const RingWeights& weights,
+void add_ring_rule(std::vector<RuleTerm>& row, VertexId vertex, const VertexRing& ring, const RingWeights& weights,
                    VertexId other, double share) {
   const bool all_are_new = row.empty();
   const auto put = [&](VertexId at, double weight) {
@@ -93,11 +93,11 @@ void add_ring_rule(std::vector<RuleTerm>& row, VertexId vertex, const Ring& ring
   for (std::size_t j = 0; j < n; ++j) put(ring.neighbours[(at + j) % n], share * weights.ring[j]);
 }
 
-std::vector<RuleTerm> vertex_rule(VertexId vertex, const Ring& ring, const WeightsByValence& weights) {
+std::vector<RuleTerm> vertex_rule(VertexId vertex, const VertexRing& ring, const WeightsByValence& weights) {
   std::vector<RuleTerm> row;
-  if (ring.kind == Ring::Kind::kBoundary) {
+  if (ring.kind == VertexRing::Kind::kBoundary) {
     row = {{vertex, 0.75}, {ring.neighbours[0], 0.125}, {ring.neighbours[1], 0.125}};
-  } else if (ring.kind == Ring::Kind::kInner) {
+  } else if (ring.kind == VertexRing::Kind::kInner) {
     const double beta = weights.at(ring.neighbours.size()).beta;
     row.push_back({vertex, 1 - beta});
     for (const VertexId neighbour : ring.neighbours) {
@@ -107,11 +107,13 @@ std::vector<RuleTerm> vertex_rule(VertexId vertex, const Ring& ring, const Weigh
   return row;
 }
 
-bool is_extraordinary(const Ring& ring) { return ring.kind == Ring::Kind::kInner && ring.neighbours.size() != 6; }
+bool is_extraordinary(const VertexRing& ring) {
+  return ring.kind == VertexRing::Kind::kInner && ring.neighbours.size() != 6;
+}
 
 // `opposite`: the third vertices of the edge's faces.
 std::vector<RuleTerm> edge_rule(const std::array<VertexId, 2>& edge, const std::vector<VertexId>& opposite,
-                                const std::vector<Ring>& rings, const WeightsByValence& weights) {
+                                const std::vector<VertexRing>& rings, const WeightsByValence& weights) {
   std::vector<RuleTerm> row;
   if (opposite.size() != 2) return row;  // a boundary: its B-spline has the midpoint
   const double extraordinary = int(is_extraordinary(rings[static_cast<std::size_t>(edge[0])])) +
@@ -120,7 +122,7 @@ std::vector<RuleTerm> edge_rule(const std::array<VertexId, 2>& edge, const std::
     return {{edge[0], 0.375}, {edge[1], 0.375}, {opposite[0], 0.125}, {opposite[1], 0.125}};
   }
   for (std::size_t k = 0; k < 2; ++k) {
-    const Ring& ring = rings[static_cast<std::size_t>(edge[k])];
+    const VertexRing& ring = rings[static_cast<std::size_t>(edge[k])];
     if (!is_extraordinary(ring)) continue;
     add_ring_rule(row, edge[k], ring, weights.at(ring.neighbours.size()), edge[1 - k], 1 / extraordinary);
   }
@@ -168,7 +170,7 @@ LoopRules::LoopRules(const Mesh& coarse, const std::vector<std::uint8_t>& rigid)
     triangles_.push_back(middle);
   }
   const VertexFaces faces(coarse);
-  std::vector<Ring> rings;
+  std::vector<VertexRing> rings;
   for (VertexId v = 0; v < coarse_count_; ++v) rings.push_back(ring_of(v, coarse, faces.of(v)));
   const WeightsByValence weights = weights_of(rings);
   for (std::size_t v = 0; v < vertex_count; ++v) {

@@ -10,7 +10,7 @@ namespace {
 
 using testing::check_property;
 
-constexpr std::uint64_t kSeed = 20020721;
+constexpr std::uint64_t kByteSeed = 20020721;
 
 /// Every bit of it, as text.
 std::string text_of(const MotionQuery& query) { return format_case({query, "drawn", false}); }
@@ -35,7 +35,7 @@ rc::Gen<std::vector<std::uint8_t>> any_bytes() {
 }
 
 TEST(ByteDecoder, prop_any_bytes_are_a_query) {
-  check_property(100, kSeed, [] {
+  check_property(100, kByteSeed, [] {
     const std::vector<std::uint8_t> bytes = *any_bytes();
     for_each_class([&bytes](const QueryClass& query_class, PairKind kind) {
       ChoiceSource source = ChoiceSource::from_bytes(bytes);
@@ -65,7 +65,7 @@ bool survives_as_bytes(ChoiceSource source, const Make& make) {
 }
 
 TEST(ByteDecoder, prop_words_are_bytes) {
-  check_property(1000, kSeed + 1, [] {
+  check_property(1000, kByteSeed + 1, [] {
     const DrawnQuery drawn = *any_query();
     const auto make = [&drawn](ChoiceSource& source) { return drawn.query(source); };
     RC_ASSERT(survives_as_bytes(ChoiceSource::from_words(drawn.words), make));

@@ -10,7 +10,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::int64_t kCases = 300;
+constexpr std::int64_t kDraws = 300;
 
 TEST(Generators, NamesAreUnique) {
   std::set<std::string> names;
@@ -34,7 +34,7 @@ Tally tally_of(const Chunk& chunk) {
 
 TEST(Generators, ShareOfExactHitsIsInItsBand) {
   std::int64_t hits = 0;
-  for (const Chunk& chunk : make_chunks(0, kCases)) {
+  for (const Chunk& chunk : make_chunks(0, kDraws)) {
     const Tally tally = tally_of(chunk);
     hits += tally.hits;
     EXPECT_FALSE(is_out_of_band(*chunk.query_class, chunk.kind, tally))

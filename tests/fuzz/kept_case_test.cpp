@@ -37,7 +37,7 @@ std::optional<MeshCase> failing_step(std::uint64_t seed, const StepFunction& ste
   return step_case(world, seen.x_t0, seen.x_candidate);
 }
 
-sim::CollisionStepResult nothing_done(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
+sim::CollisionStepResult no_response(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
   sim::CollisionStepResult result;
   result.report.status = sim::StepStatus::kSafe;
   result.x = candidate;
@@ -153,13 +153,13 @@ TEST(KeptCase, WhatPromisesNothingIsNotRun) {
 TEST(ShrinkMesh, AStepThatDoesNothingIsShownByAHandfulOfVertices) {
   static const MeshKind planted = [] {
     MeshKind kind = step_kind();
-    kind.retry = [](const MeshCase& kept) { return retry_step(kept, nothing_done); };
+    kind.retry = [](const MeshCase& kept) { return retry_step(kept, no_response); };
     return kind;
   }();
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);  // as a worker
   int failures = 0;
   for (std::uint64_t seed = 0; seed < 30 && failures < 3; ++seed) {
-    std::optional<MeshCase> kept = failing_step(seed, nothing_done, StepDefect::kTouches);
+    std::optional<MeshCase> kept = failing_step(seed, no_response, StepDefect::kTouches);
     if (!kept) continue;
     ++failures;
     kept->kind = &planted;

@@ -9,7 +9,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::uint64_t kCases = 1000;
+constexpr std::uint64_t kMeetings = 1000;
 /// A coordinate moves nine ulps at most, three times three, in one of the ends.
 constexpr double kMoved = 9 * 0x1p-52;
 
@@ -47,24 +47,24 @@ TEST(MeetingMakers, CornersOfOnePointMeetInItOrInTwo) {
   for (const PairKind kind : kPairKinds) {
     std::array<std::uint64_t, 5> in_places{};
     std::uint64_t nudged = 0;
-    for (std::uint64_t seed = 0; seed < kCases; ++seed) {
+    for (std::uint64_t seed = 0; seed < kMeetings; ++seed) {
       ChoiceSource source = ChoiceSource::from_seed(seed);
       const MotionQuery query = make::one_point(source, kind);
       ++in_places[fewest_places(query)];
       nudged += is_nudged(query);
     }
     EXPECT_EQ(in_places[3] + in_places[4], 0U) << name_of(kind);
-    EXPECT_GT(in_places[1], kCases * 3 / 4) << name_of(kind);
-    EXPECT_GT(in_places[2], kCases / 8) << name_of(kind);
-    EXPECT_GT(nudged, kCases / 2) << name_of(kind);
-    EXPECT_LT(nudged, kCases * 3 / 4) << name_of(kind);
+    EXPECT_GT(in_places[1], kMeetings * 3 / 4) << name_of(kind);
+    EXPECT_GT(in_places[2], kMeetings / 8) << name_of(kind);
+    EXPECT_GT(nudged, kMeetings / 2) << name_of(kind);
+    EXPECT_LT(nudged, kMeetings * 3 / 4) << name_of(kind);
   }
 }
 
 TEST(MeetingMakers, ExchangedCornersEndWhereOthersStart) {
   for (const PairKind kind : kPairKinds) {
     std::uint64_t moving = 0, nudged = 0;
-    for (std::uint64_t seed = 0; seed < kCases; ++seed) {
+    for (std::uint64_t seed = 0; seed < kMeetings; ++seed) {
       ChoiceSource source = ChoiceSource::from_seed(seed);
       const MotionQuery query = make::exchange(source, kind);
       const double near = 2 * kMoved * max_coordinate(query);
@@ -73,9 +73,9 @@ TEST(MeetingMakers, ExchangedCornersEndWhereOthersStart) {
       moving += !is_near(query.x_t0[0], query.x_t1[0]);
       nudged += is_nudged(query);
     }
-    EXPECT_GT(moving, kCases / 2) << name_of(kind);
-    EXPECT_GT(nudged, kCases / 2) << name_of(kind);
-    EXPECT_LT(nudged, kCases * 3 / 4) << name_of(kind);
+    EXPECT_GT(moving, kMeetings / 2) << name_of(kind);
+    EXPECT_GT(nudged, kMeetings / 2) << name_of(kind);
+    EXPECT_LT(nudged, kMeetings * 3 / 4) << name_of(kind);
   }
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 using testing::check_property;
 
-constexpr int kCases = 4000;
-constexpr std::uint64_t kSeed = 20020721;
+constexpr int kQueryCases = 4000;
+constexpr std::uint64_t kQuerySeed = 20020721;
 
 /// What the kernel answered and what is true, for one drawn query.
 struct Judged {
@@ -32,7 +32,7 @@ Judged judge_drawn(const DrawnQuery& drawn) {
 }
 
 TEST(KernelPromises, prop_ccd_no_miss) {
-  check_property(kCases, kSeed, [] {
+  check_property(kQueryCases, kQuerySeed, [] {
     const auto [answer, judgement] = judge_drawn(*any_query());
     RC_ASSERT(judgement.disagreement != Disagreement::kMissed);
     RC_ASSERT(judgement.disagreement != Disagreement::kEndMissed);
@@ -41,12 +41,12 @@ TEST(KernelPromises, prop_ccd_no_miss) {
 }
 
 TEST(KernelPromises, prop_toi_is_early) {
-  check_property(kCases, kSeed + 1,
+  check_property(kQueryCases, kQuerySeed + 1,
                  [] { RC_ASSERT(judge_drawn(*any_query()).judgement.disagreement != Disagreement::kLateToi); });
 }
 
 TEST(KernelPromises, prop_alarm_is_bounded) {
-  check_property(kCases, kSeed + 2, [] {
+  check_property(kQueryCases, kQuerySeed + 2, [] {
     const auto [answer, judgement] = judge_drawn(*any_query());
     RC_ASSERT(judgement.disagreement != Disagreement::kFalseAlarmTooFar);
     RC_ASSERT(judgement.disagreement != Disagreement::kGapTooLoose);
@@ -55,7 +55,7 @@ TEST(KernelPromises, prop_alarm_is_bounded) {
 }
 
 TEST(KernelPromises, prop_proximity_bracket) {
-  check_property(kCases, kSeed + 3, [] {
+  check_property(kQueryCases, kQuerySeed + 3, [] {
     const DrawnQuery drawn = *any_query();
     RC_PRE(drawn.kind != PairKind::kSelf);
     ChoiceSource source = ChoiceSource::from_words(drawn.words);
@@ -68,7 +68,7 @@ TEST(KernelPromises, prop_proximity_bracket) {
 void check_metamorphic(std::string_view name, std::uint64_t seed) {
   for (const QueryProperty& property : query_properties()) {
     if (property.name != name) continue;
-    check_property(kCases, seed, [&property] {
+    check_property(kQueryCases, seed, [&property] {
       const DrawnQuery drawn = *any_query();
       ChoiceSource source = ChoiceSource::from_words(drawn.words);
       const MotionQuery query = drawn.query(source);
@@ -79,8 +79,8 @@ void check_metamorphic(std::string_view name, std::uint64_t seed) {
   FAIL() << "no property " << name;
 }
 
-TEST(KernelPromises, prop_symmetry) { check_metamorphic("symmetry", kSeed + 4); }
-TEST(KernelPromises, prop_scale) { check_metamorphic("scale", kSeed + 5); }
+TEST(KernelPromises, prop_symmetry) { check_metamorphic("symmetry", kQuerySeed + 4); }
+TEST(KernelPromises, prop_scale) { check_metamorphic("scale", kQuerySeed + 5); }
 
 // Outside the domain there is one answer, and it claims nothing.
 TEST(KernelPromises, OutsideTheDomainIsUnresolved) {
@@ -138,7 +138,7 @@ std::int64_t cases_until_failure(std::string_view name, CcdKernel kernel, std::i
       for (const Chunk& chunk : make_chunks(round, 1)) {
         ++cases;
         bool failed = false;
-        (void)run_chunk(property, kernel, kSeed, chunk, [&](const Failure& failure) {
+        (void)run_chunk(property, kernel, kQuerySeed, chunk, [&](const Failure& failure) {
           failed = true;
           what = failure.what;
         });
@@ -153,7 +153,7 @@ std::int64_t cases_until_failure(std::string_view name, CcdKernel kernel, std::i
 bool leaves_too_much_open(CcdKernel kernel) {
   bool too_often = false;
   for (const Chunk& chunk : make_chunks(0, 100)) {
-    const Tally tally = run_chunk(query_properties()[0], kernel, kSeed, chunk, [](const Failure&) {});
+    const Tally tally = run_chunk(query_properties()[0], kernel, kQuerySeed, chunk, [](const Failure&) {});
     too_often = too_often || is_unresolved_too_often(chunk.kind, tally);
   }
   return too_often;

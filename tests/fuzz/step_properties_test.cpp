@@ -11,7 +11,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::uint64_t kSeed = 20020721;
+constexpr std::uint64_t kStepSeed = 20020721;
 
 /// The words behind a world and its steps.
 struct DrawnSteps {
@@ -40,7 +40,7 @@ rc::Gen<DrawnSteps> any_steps() {
 }
 
 TEST(StepPromises, prop_step_stays_free) {
-  testing::check_property(80, kSeed, [] {
+  testing::check_property(80, kStepSeed, [] {
     const StepObservation seen = observe(*any_steps(), selvage_step);
     RC_ASSERT(name_of(seen.defect) == name_of(StepDefect::kNone));
   });
@@ -48,7 +48,7 @@ TEST(StepPromises, prop_step_stays_free) {
 
 // Equal bits for one thread and for more than there are cores (K7).
 TEST(StepPromises, prop_step_is_reproducible) {
-  testing::check_property(15, kSeed + 1, [] {
+  testing::check_property(15, kStepSeed + 1, [] {
     const DrawnSteps drawn = *any_steps();
     const auto run_with = [&drawn](std::size_t threads) {
       const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);

@@ -25,7 +25,7 @@ struct Hostile {
   friend void PrintTo(const Hostile& file, std::ostream* out) { *out << file.parser; }
 };
 
-const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const std::string kPly =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list char int vertex_indices\nend_header\n";
@@ -54,37 +54,37 @@ std::vector<Hostile> hostile_files() {
   return {
       // OBJ
       {"obj_empty", "obj", "", "in: no vertex"},
-      {"obj_only_vertices", "obj", kVertices, "in: no face"},
+      {"obj_only_vertices", "obj", kThreeVertices, "in: no face"},
       {"obj_binary", "obj",
        std::string("\x7f"
                    "ELF\0\1\2",
                    7),
        "in:1: '?ELF"},
-      {"obj_zero_index", "obj", kVertices + "f 0 1 2\n", "in:4: vertex '0' of 3"},
-      {"obj_index_beyond", "obj", kVertices + "f 1 2 3\nf 1 2 4\n", "in:5: vertex 4 of 3"},
-      {"obj_negative_beyond", "obj", kVertices + "f -1 -2 -4\n", "in:4: vertex '-4' of 3"},
-      {"obj_index_overflow", "obj", kVertices + "f 1 2 4294967297\n", "in:4: vertex '4294967297' of 3"},
-      {"obj_two_corners", "obj", kVertices + "f 1 2\n", "in:4: a face has 2 corners"},
-      {"obj_no_corner", "obj", kVertices + "f\n", "in:4: a face has 0 corners"},
-      {"obj_repeated_corner", "obj", kVertices + "f 1 2 3 1\n", "in:4: a face names the same vertex twice"},
-      {"obj_repeated_by_negative", "obj", kVertices + "f 1 2 -2\n", "in:4: a face names the same vertex twice"},
-      {"obj_nan", "obj", kVertices + "v 0 nan 0\nf 1 2 3\n", "in:4: 'nan' is not finite"},
-      {"obj_infinity", "obj", "v 0 -inf 0\n" + kVertices, "in:1: '-inf' is not finite"},
-      {"obj_overflow", "obj", kVertices + "\nv 1e999 0 0\n", "in:5: '1e999' is outside the range"},
-      {"obj_underflow", "obj", kVertices + "v 1e-999 0 0\n", "in:4: '1e-999' is outside the range"},
+      {"obj_zero_index", "obj", kThreeVertices + "f 0 1 2\n", "in:4: vertex '0' of 3"},
+      {"obj_index_beyond", "obj", kThreeVertices + "f 1 2 3\nf 1 2 4\n", "in:5: vertex 4 of 3"},
+      {"obj_negative_beyond", "obj", kThreeVertices + "f -1 -2 -4\n", "in:4: vertex '-4' of 3"},
+      {"obj_index_overflow", "obj", kThreeVertices + "f 1 2 4294967297\n", "in:4: vertex '4294967297' of 3"},
+      {"obj_two_corners", "obj", kThreeVertices + "f 1 2\n", "in:4: a face has 2 corners"},
+      {"obj_no_corner", "obj", kThreeVertices + "f\n", "in:4: a face has 0 corners"},
+      {"obj_repeated_corner", "obj", kThreeVertices + "f 1 2 3 1\n", "in:4: a face names the same vertex twice"},
+      {"obj_repeated_by_negative", "obj", kThreeVertices + "f 1 2 -2\n", "in:4: a face names the same vertex twice"},
+      {"obj_nan", "obj", kThreeVertices + "v 0 nan 0\nf 1 2 3\n", "in:4: 'nan' is not finite"},
+      {"obj_infinity", "obj", "v 0 -inf 0\n" + kThreeVertices, "in:1: '-inf' is not finite"},
+      {"obj_overflow", "obj", kThreeVertices + "\nv 1e999 0 0\n", "in:5: '1e999' is outside the range"},
+      {"obj_underflow", "obj", kThreeVertices + "v 1e-999 0 0\n", "in:4: '1e-999' is outside the range"},
       {"obj_decimal_comma", "obj", "v 0,5 1 2\n", "in:1: '0,5' is not a decimal number"},
       {"obj_hexadecimal", "obj", "v 0x1p3 1 2\n", "in:1: '0x1p3' is not a decimal number"},
       {"obj_two_numbers", "obj", "v 0 1\n", "in:1: a vertex has 2 numbers"},
       {"obj_seven_numbers", "obj", "v 0 1 2 3 4 5 6\n", "in:1: a vertex has more than six"},
       {"obj_rational_weight", "obj", "v 0 1 2 0.5\n", "in:1: a vertex has 4 numbers"},
-      {"obj_name_not_utf8", "obj", kVertices + "g caf\xe9\nf 1 2 3\n", "in:4: the name is not UTF-8"},
-      {"obj_name_overlong_utf8", "obj", kVertices + "g \xc0\xaf\nf 1 2 3\n", "in:4: the name is not UTF-8"},
-      {"obj_keyword_not_utf8", "obj", kVertices + "\xff\xfe 1 2 3\n", "in:4: "},
-      {"obj_nul", "obj", kVertices + std::string("f 1 2 3\0 4\n", 11), "in:4: '3?' is not v"},
-      {"obj_huge_line", "obj", kVertices + "f " + longest, "in:4: line longer than 1048576"},
+      {"obj_name_not_utf8", "obj", kThreeVertices + "g caf\xe9\nf 1 2 3\n", "in:4: the name is not UTF-8"},
+      {"obj_name_overlong_utf8", "obj", kThreeVertices + "g \xc0\xaf\nf 1 2 3\n", "in:4: the name is not UTF-8"},
+      {"obj_keyword_not_utf8", "obj", kThreeVertices + "\xff\xfe 1 2 3\n", "in:4: "},
+      {"obj_nul", "obj", kThreeVertices + std::string("f 1 2 3\0 4\n", 11), "in:4: '3?' is not v"},
+      {"obj_huge_line", "obj", kThreeVertices + "f " + longest, "in:4: line longer than 1048576"},
       {"obj_huge_statement", "obj", "v" + rows(200'000, " 000 \\"), "statement longer than a line"},
-      {"obj_open_continuation", "obj", kVertices + "f 1 2 \\", "in:4: the file ends behind a backslash"},
-      {"obj_lines", "obj", kVertices + "f 1 2 3\nl 1 2\n", "in:5: 'l' is not part of a surface"},
+      {"obj_open_continuation", "obj", kThreeVertices + "f 1 2 \\", "in:4: the file ends behind a backslash"},
+      {"obj_lines", "obj", kThreeVertices + "f 1 2 3\nl 1 2\n", "in:5: 'l' is not part of a surface"},
       {"obj_line_break_in_token", "obj", "v 1\v2 3 4\n", "in:1: '1?2' is not a decimal number"},
       // PLY
       {"ply_empty", "ply", "", "in:1: the first line is not \"ply\""},

@@ -44,7 +44,7 @@ std::unique_ptr<SequenceReader> open_bytes(std::string bytes) {
   return open_npz_sequence(in_memory(std::move(bytes)), "a.npz");
 }
 
-void expect_bad(const std::string& fragment, const std::string& bytes) {
+void expect_bad_npz(const std::string& fragment, const std::string& bytes) {
   expect_error(ErrorKind::kBadInput, fragment, [&] { (void)open_bytes(bytes); });
 }
 
@@ -106,25 +106,25 @@ TEST(NpzHostile, DamagedArchives) {
   };
   ASSERT_EQ(open_bytes(zip({deflated, f}))->frame_count(), 2u) << "the entries themselves are sound";
 
-  expect_bad("no zip directory", "");
-  expect_bad("no member 'F.npy'", zip({v}));
-  expect_bad("two members are named 'F.npy'", zip({v, f, f}));
+  expect_bad_npz("no zip directory", "");
+  expect_bad_npz("no member 'F.npy'", zip({v}));
+  expect_bad_npz("two members are named 'F.npy'", zip({v, f, f}));
   for (const ZipEntry& entry : {v, deflated}) {
-    expect_bad("checksum of 'V.npy' is wrong", zip({with(entry, [](ZipEntry& e) { e.crc32_flip = 1; }), f}));
-    expect_bad("not here", zip({with(entry, [](ZipEntry& e) { e.offset_error = 1; }), f}));
-    expect_bad("encrypted", zip({with(entry, [](ZipEntry& e) { e.flags = 1; }), f}));
-    expect_bad("neither stored nor deflated", zip({with(entry, [](ZipEntry& e) { e.method_shown = 12; }), f}));
+    expect_bad_npz("checksum of 'V.npy' is wrong", zip({with(entry, [](ZipEntry& e) { e.crc32_flip = 1; }), f}));
+    expect_bad_npz("not here", zip({with(entry, [](ZipEntry& e) { e.offset_error = 1; }), f}));
+    expect_bad_npz("encrypted", zip({with(entry, [](ZipEntry& e) { e.flags = 1; }), f}));
+    expect_bad_npz("neither stored nor deflated", zip({with(entry, [](ZipEntry& e) { e.method_shown = 12; }), f}));
   }
-  expect_bad("has two sizes", zip({with(v, [](ZipEntry& e) { e.size_error = 1; }), f}));
-  expect_bad("'V.npy' ", zip({with(v, [](ZipEntry& e) { e.method_shown = 8; }), f}));
+  expect_bad_npz("has two sizes", zip({with(v, [](ZipEntry& e) { e.size_error = 1; }), f}));
+  expect_bad_npz("'V.npy' ", zip({with(v, [](ZipEntry& e) { e.method_shown = 8; }), f}));
   for (const std::int64_t lie : {-200, -1, 1, 100'000'000}) {
-    expect_bad("does not inflate to its size", zip({with(deflated, [&](ZipEntry& e) { e.size_error = lie; }), f}));
+    expect_bad_npz("does not inflate to its size", zip({with(deflated, [&](ZipEntry& e) { e.size_error = lie; }), f}));
   }
-  expect_bad("suspiciously many", zip({with(deflated, [](ZipEntry& e) { e.size_error = 1'000'000'000; }), f}));
-  expect_bad("suspiciously many",
-             zip({with(deflated, [](ZipEntry& e) { e.size_error = std::int64_t{1} << 40; }), f}, true));
+  expect_bad_npz("suspiciously many", zip({with(deflated, [](ZipEntry& e) { e.size_error = 1'000'000'000; }), f}));
+  expect_bad_npz("suspiciously many",
+                 zip({with(deflated, [](ZipEntry& e) { e.size_error = std::int64_t{1} << 40; }), f}, true));
   for (const std::int64_t far : {std::int64_t{1} << 40, std::int64_t{-100}}) {  // the second is nearly 2^64
-    expect_bad("not here", zip({with(v, [&](ZipEntry& e) { e.offset_error = far; }), f}, true));
+    expect_bad_npz("not here", zip({with(v, [&](ZipEntry& e) { e.offset_error = far; }), f}, true));
   }
   for (const bool zip64 : {false, true}) {
     const std::string whole = zip({deflated, f}, zip64);
@@ -137,7 +137,7 @@ TEST(NpzHostile, DamagedArchives) {
 TEST(NpzHostile, BombStopsAtTheSizeItShows) {
   const std::string zeros(50'000'000, '\0');
   const ZipEntry bomb = {.name = "V.npy", .content = zeros, .deflate = true, .size_error = 1000 - 50'000'000};
-  expect_bad("does not inflate to its size", zip({bomb, {.name = "F.npy", .content = npy_bytes(kFaces)}}));
+  expect_bad_npz("does not inflate to its size", zip({bomb, {.name = "F.npy", .content = npy_bytes(kFaces)}}));
 }
 
 TEST(NpzHostile, ArraysThatDoNotFit) {
@@ -147,17 +147,17 @@ TEST(NpzHostile, ArraysThatDoNotFit) {
     return zip(entries);
   };
   const std::string v = positions(2, "(2, 4, 3)"), f = npy_bytes(kFaces);
-  expect_bad("a.npz[V]: the shape does not fit", archive(positions(2, "(3, 4, 3)"), f));
-  expect_bad("a.npz[V]: the shape does not fit", archive(v + "x", f));
-  expect_bad("a.npz[V]: no vertices", archive(positions(0, "(1000000000000, 0, 3)"), f));
-  expect_bad("a.npz[V]: not floats in the shape", archive(positions(2, "(2, 3, 4)"), f));
-  expect_bad("a.npz[V]: not floats in the shape", archive(positions(2, "(24,)"), f));
-  expect_bad("a.npz[V]: not floats in the shape", archive(f, f));
-  expect_bad("a.npz[F]: faces are not integers", archive(v, npy_bytes(kFrame, Precision::kFloat64, "")));
-  expect_bad("a.npz[F]: face 1 names vertex 4 of 4", archive(v, npy_bytes(Triangles{{0, 1, 2}, {0, 2, 4}})));
-  expect_bad("a.npz[group]: 2 numbers for 3 faces", archive(v, f, group_numbers({0, 1})));
-  expect_bad("a.npz[group]: face 2 has the number 7", archive(v, f, group_numbers({0, 1, 7})));
-  expect_bad("a.npz[V]: in Fortran order", archive(positions(2, "(2, 4, 3)", true), f));
+  expect_bad_npz("a.npz[V]: the shape does not fit", archive(positions(2, "(3, 4, 3)"), f));
+  expect_bad_npz("a.npz[V]: the shape does not fit", archive(v + "x", f));
+  expect_bad_npz("a.npz[V]: no vertices", archive(positions(0, "(1000000000000, 0, 3)"), f));
+  expect_bad_npz("a.npz[V]: not floats in the shape", archive(positions(2, "(2, 3, 4)"), f));
+  expect_bad_npz("a.npz[V]: not floats in the shape", archive(positions(2, "(24,)"), f));
+  expect_bad_npz("a.npz[V]: not floats in the shape", archive(f, f));
+  expect_bad_npz("a.npz[F]: faces are not integers", archive(v, npy_bytes(kFrame, Precision::kFloat64, "")));
+  expect_bad_npz("a.npz[F]: face 1 names vertex 4 of 4", archive(v, npy_bytes(Triangles{{0, 1, 2}, {0, 2, 4}})));
+  expect_bad_npz("a.npz[group]: 2 numbers for 3 faces", archive(v, f, group_numbers({0, 1})));
+  expect_bad_npz("a.npz[group]: face 2 has the number 7", archive(v, f, group_numbers({0, 1, 7})));
+  expect_bad_npz("a.npz[V]: in Fortran order", archive(positions(2, "(2, 4, 3)", true), f));
   std::string nan = v;
   nan.replace(nan.size() - 8, 8, std::string("\0\0\0\0\0\0\xf8\x7f", 8));
   const auto reader = open_bytes(archive(nan, f));

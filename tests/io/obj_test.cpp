@@ -20,7 +20,7 @@ using testing::same_bits;
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 Triangles faces_of(const std::string& text) { return parse_obj(text, "a.obj").triangles; }
-void expect_bad(const std::string& fragment, const std::string& text) {
+void expect_bad_obj(const std::string& fragment, const std::string& text) {
   expect_error(ErrorKind::kBadInput, fragment, [&] { (void)parse_obj(text, "a.obj"); });
 }
 
@@ -39,7 +39,7 @@ TEST(Obj, CornersInAllForms) {
 TEST(Obj, AByteOrderMarkIsNoPartOfTheText) {
   const Triangles expected = {{0, 1, 2}};
   EXPECT_EQ(faces_of("\xef\xbb\xbf" + kSquare + "f 1 2 3\n"), expected);
-  expect_bad("a.obj:2: '???v' is not part", "v 0 0 0\n\xef\xbb\xbf" + kSquare + "f 1 2 3\n");
+  expect_bad_obj("a.obj:2: '???v' is not part", "v 0 0 0\n\xef\xbb\xbf" + kSquare + "f 1 2 3\n");
 }
 
 TEST(Obj, BackslashContinuesNumbersOnly) {
@@ -61,8 +61,8 @@ TEST(Obj, ACommentMayEndALineOfNumbers) {
 
 TEST(Obj, WhatIsNoSurfaceIsSkippedOrRefused) {
   EXPECT_EQ(faces_of("mtllib a.mtl\n" + kSquare + "vt 0 0\nvn 0 0 1\nusemtl red\ns off\nf 1 2 3\n").size(), 1u);
-  expect_bad("a.obj:5: 'l' is not part of a surface", kSquare + "l 1 2\nf 1 2 3\n");
-  expect_bad("a.obj:1: 'vp' is not part", "vp 0 0\n" + kSquare + "f 1 2 3\n");
+  expect_bad_obj("a.obj:5: 'l' is not part of a surface", kSquare + "l 1 2\nf 1 2 3\n");
+  expect_bad_obj("a.obj:1: 'vp' is not part", "vp 0 0\n" + kSquare + "f 1 2 3\n");
 }
 
 TEST(Obj, ObjectsAndGroupsAreRangesOfFaces) {
@@ -93,15 +93,15 @@ TEST(Obj, NumbersAreCorrectlyRoundedAndBounded) {
 }
 
 TEST(Obj, IndicesAreCheckedAgainstTheFinalCount) {
-  expect_bad("a.obj:5: vertex 5 of 4", kSquare + "f 1 2 5\n");
-  expect_bad("a.obj:1: vertex 5 of 4", "f 1 2 5\n" + kSquare + "f 1 2 4\n");
-  expect_bad("a.obj:5: vertex '0' of 4", kSquare + "f 0 1 2\n");
-  expect_bad("a.obj:5: vertex '-5' of 4", kSquare + "f -5 1 2\n");
-  expect_bad("a.obj:2: vertex '-2' of 1", "v 0 0 0\nf -1 -2 -3\nv 1 1 1\nv 2 2 2\n");
-  expect_bad("a.obj:5: vertex '99999999999' of 4", kSquare + "f 1 2 99999999999\n");
-  expect_bad("is not v, v/vt", kSquare + "f 1 2 99999999999999999999\n");
+  expect_bad_obj("a.obj:5: vertex 5 of 4", kSquare + "f 1 2 5\n");
+  expect_bad_obj("a.obj:1: vertex 5 of 4", "f 1 2 5\n" + kSquare + "f 1 2 4\n");
+  expect_bad_obj("a.obj:5: vertex '0' of 4", kSquare + "f 0 1 2\n");
+  expect_bad_obj("a.obj:5: vertex '-5' of 4", kSquare + "f -5 1 2\n");
+  expect_bad_obj("a.obj:2: vertex '-2' of 1", "v 0 0 0\nf -1 -2 -3\nv 1 1 1\nv 2 2 2\n");
+  expect_bad_obj("a.obj:5: vertex '99999999999' of 4", kSquare + "f 1 2 99999999999\n");
+  expect_bad_obj("is not v, v/vt", kSquare + "f 1 2 99999999999999999999\n");
   for (const char* corner : {"1/", "1//", "1/a", "/1", "1/1/", "1/1/1/1", "1.0", "1//a", "x"}) {
-    expect_bad("a.obj:5: '" + std::string(corner) + "' is not v", kSquare + "f " + corner + " 2 3\n");
+    expect_bad_obj("a.obj:5: '" + std::string(corner) + "' is not v", kSquare + "f " + corner + " 2 3\n");
   }
 }
 

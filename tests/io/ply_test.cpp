@@ -22,7 +22,7 @@ const std::string kTriangleElements =
     "element face 1\nproperty list uchar int vertex_indices\n";
 const std::string kTriangleData = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-void expect_bad(const std::string& fragment, const std::string& bytes) {
+void expect_bad_ply(const std::string& fragment, const std::string& bytes) {
   expect_error(ErrorKind::kBadInput, fragment, [&] { (void)parse_ply(bytes, "a.ply"); });
 }
 
@@ -148,7 +148,7 @@ TEST(Ply, OtherPropertiesAndElementsAreSkipped) {
   const MeshData binary = parse_ply(ply("binary_big_endian", elements, data), "a.ply");
   EXPECT_EQ(binary.points, points);
   EXPECT_EQ(binary.triangles, triangles);
-  expect_bad("bytes follow the last record", ply("binary_big_endian", elements, data + "x"));
+  expect_bad_ply("bytes follow the last record", ply("binary_big_endian", elements, data + "x"));
   for (std::size_t length = 0; length < data.size(); ++length) {
     EXPECT_THROW((void)parse_ply(ply("binary_big_endian", elements, data.substr(0, length)), "a.ply"), Error) << length;
   }
@@ -187,7 +187,7 @@ TEST(Ply, PolygonsThatBecomeTenTimesTheFileAreRefusedWhereTheyAreMany) {
                data);
   };
   EXPECT_EQ(parse_ply(polygons(200), "a.ply").triangles.size(), 200U * 253);
-  expect_bad("the polygons become more than ten times the file; export triangles", polygons(400));
+  expect_bad_ply("the polygons become more than ten times the file; export triangles", polygons(400));
 }
 
 TEST(Ply, ALastNumberThatMayBeCutIsRefused) {
@@ -199,7 +199,7 @@ TEST(Ply, ALastNumberThatMayBeCutIsRefused) {
                "element face 1\nproperty list uchar int vertex_indices\n",
                points + last_line);
   };
-  expect_bad("a.ply:24: the last line has no end and its number may be cut", cut("3 3 4 1"));
+  expect_bad_ply("a.ply:24: the last line has no end and its number may be cut", cut("3 3 4 1"));
   EXPECT_EQ(parse_ply(cut("3 3 4 1\n"), "a.ply").triangles, (Triangles{{3, 4, 1}}));
   for (const char* end : {" ", "\r"})
     EXPECT_EQ(parse_ply(cut(std::string("3 3 4 1") + end), "a.ply").triangles[0][2], 1);
@@ -210,7 +210,7 @@ TEST(Ply, ALastNumberThatMayBeCutIsRefused) {
   const std::string faces_first =
       "element face 1\nproperty list uchar int vertex_indices\n"
       "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-  expect_bad("its number may be cut", ply("ascii", faces_first, "3 0 1 2\n0 0 0\n1 0 0\n0 1 0.1"));
+  expect_bad_ply("its number may be cut", ply("ascii", faces_first, "3 0 1 2\n0 0 0\n1 0 0\n0 1 0.1"));
   EXPECT_EQ(parse_ply(ply("ascii", kTriangleElements + "property float quality\n", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.1"),
                       "a.ply")
                 .triangles.size(),
@@ -220,20 +220,21 @@ TEST(Ply, ALastNumberThatMayBeCutIsRefused) {
 
 TEST(Ply, MalformedHeadersAreNamedByLine) {
   const auto with = [](const std::string& elements) { return ply("ascii", elements, kTriangleData); };
-  expect_bad("a.ply:4: 'strange' does not belong here", with("strange\n"));
-  expect_bad("a.ply:4: 'property' does not belong here", with("property float x\n"));
-  expect_bad("a.ply:4: an element needs a name and a count", with("element vertex -3\n"));
-  expect_bad("a.ply:6: two properties are named 'x'", with("element vertex 3\nproperty int x\nproperty float x\n"));
-  expect_bad("a second element 'vertex'", with(kTriangleElements + "element vertex 0\nproperty int x\n"));
-  expect_bad("no element \"face\"", with("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"));
-  expect_bad("no numbers x, y, z", with("element vertex 1\nproperty float x\nelement face 1\nproperty float y\n"));
-  expect_bad("a.ply:8: the faces have both \"vertex_indices\" and \"vertex_index\"; remove one of the two lists",
-             with(kTriangleElements + "property list uchar int vertex_index\n"));
-  expect_bad("'tristrips' is not supported",
-             with(kTriangleElements + "element tristrips 1\nproperty list int int vertex_indices\n"));
-  expect_bad("a.ply:2: the format is not version 1.0", "ply\nformat ascii 2.0\nend_header\n");
-  expect_bad("has no \"format\" line", "ply\nend_header\n");
-  expect_bad("an element has no property", with(kTriangleElements + "element odd 0\n"));
+  expect_bad_ply("a.ply:4: 'strange' does not belong here", with("strange\n"));
+  expect_bad_ply("a.ply:4: 'property' does not belong here", with("property float x\n"));
+  expect_bad_ply("a.ply:4: an element needs a name and a count", with("element vertex -3\n"));
+  expect_bad_ply("a.ply:6: two properties are named 'x'", with("element vertex 3\nproperty int x\nproperty float x\n"));
+  expect_bad_ply("a second element 'vertex'", with(kTriangleElements + "element vertex 0\nproperty int x\n"));
+  expect_bad_ply("no element \"face\"",
+                 with("element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"));
+  expect_bad_ply("no numbers x, y, z", with("element vertex 1\nproperty float x\nelement face 1\nproperty float y\n"));
+  expect_bad_ply("a.ply:8: the faces have both \"vertex_indices\" and \"vertex_index\"; remove one of the two lists",
+                 with(kTriangleElements + "property list uchar int vertex_index\n"));
+  expect_bad_ply("'tristrips' is not supported",
+                 with(kTriangleElements + "element tristrips 1\nproperty list int int vertex_indices\n"));
+  expect_bad_ply("a.ply:2: the format is not version 1.0", "ply\nformat ascii 2.0\nend_header\n");
+  expect_bad_ply("has no \"format\" line", "ply\nend_header\n");
+  expect_bad_ply("an element has no property", with(kTriangleElements + "element odd 0\n"));
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ using testing::expect_error;
 using testing::TemporaryFolder;
 using testing::write_plainly;
 
-const char* const kSquare = "o left\nv 9 9 9\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 1 1 0\no right\nf 3 2 4\n";
+const char* const kLeftAndRight = "o left\nv 9 9 9\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 1 1 0\no right\nf 3 2 4\n";
 
-MeshData square() { return parse_obj(kSquare, "square"); }
+MeshData square() { return parse_obj(kLeftAndRight, "square"); }
 
 void expect_frames(const SequenceReader& reader) {
   ASSERT_EQ(reader.frame_count(), 3u);
@@ -53,7 +53,7 @@ void expect_frames(const SequenceReader& reader) {
 TEST(PointCache, Pc2IsReadWithTheMeshBesideIt) {
   const TemporaryFolder folder;
   write_plainly(folder / "cloth.pc2", testing::pc2(4, 3));
-  write_plainly(folder / "cloth.obj", kSquare);
+  write_plainly(folder / "cloth.obj", kLeftAndRight);
   const auto reader = open_sequence({folder / "cloth.pc2"});
   expect_frames(*reader);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(reader->time(i), 2.5 + 0.5 * static_cast<double>(i));
@@ -63,7 +63,7 @@ TEST(PointCache, Pc2IsReadWithTheMeshBesideIt) {
 TEST(PointCache, MddIsReadWithTheMeshThatIsNamed) {
   const TemporaryFolder folder;
   write_plainly(folder / "run.MDD", testing::mdd(4, {-1, 0.04f, 7}));
-  write_plainly(folder / "other.obj", kSquare);
+  write_plainly(folder / "other.obj", kLeftAndRight);
   const auto reader = open_sequence({folder / "run.MDD"}, folder / "other.obj");
   expect_frames(*reader);
   EXPECT_EQ(reader->time(0), -1);

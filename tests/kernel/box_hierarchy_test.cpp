@@ -18,13 +18,13 @@ namespace selvage {
 
 namespace {
 
-constexpr std::array kKinds = {HierarchyKind::kAutomatic, HierarchyKind::kSpatial, HierarchyKind::kTopology};
+constexpr std::array kHierarchies = {HierarchyKind::kAutomatic, HierarchyKind::kSpatial, HierarchyKind::kTopology};
 
 void expect_counts(const char* scene, const char* frame_t0, const char* frame_t1, std::size_t vf, std::size_t ee) {
   const auto frames = testing::public_frames(scene, frame_t0, frame_t1);
   if (!frames) GTEST_SKIP() << "the public frames of " << scene << " are not here (SELVAGE_DATA)";
   std::vector<Candidates> found;
-  for (const HierarchyKind kind : kKinds) {
+  for (const HierarchyKind kind : kHierarchies) {
     BoxHierarchy hierarchy(frames->mesh, kind);
     hierarchy.refit(frames->V_t0, frames->V_t1, {});
     found.push_back(hierarchy.candidates());
@@ -70,7 +70,7 @@ Candidates visited(const BoxHierarchy& hierarchy) {
 void expect_brute_force(const Mesh& mesh, const Positions& V_t0, const Positions& V_t1,
                         const CandidateOptions& options) {
   const Candidates expected = find_candidates_brute_force(mesh, V_t0, V_t1, options);
-  for (const HierarchyKind kind : kKinds) {
+  for (const HierarchyKind kind : kHierarchies) {
     BoxHierarchy hierarchy(mesh, kind);
     hierarchy.refit(V_t0, V_t1, options);
     EXPECT_EQ(hierarchy.candidates(), expected);
@@ -90,8 +90,8 @@ TEST(BoxHierarchy, PropEqualsBruteForce) {
     const auto shape = testing::random_shape();
     RC_LOG() << shape << '\n';
     const Mesh mesh = make_mesh(shape.vertex_count, shape.F);
-    std::array hierarchies = {BoxHierarchy(mesh, kKinds[0]), BoxHierarchy(mesh, kKinds[1]),
-                              BoxHierarchy(mesh, kKinds[2])};
+    std::array hierarchies = {BoxHierarchy(mesh, kHierarchies[0]), BoxHierarchy(mesh, kHierarchies[1]),
+                              BoxHierarchy(mesh, kHierarchies[2])};
     const int thread_count = *rc::gen::element(1, 2, 3, 8);
     const int refit_count = *rc::gen::inRange(1, 4);
     for (int refit = 0; refit < refit_count; ++refit) {
@@ -149,7 +149,8 @@ TEST(BoxHierarchy, NoFacesAndOneFace) {
   expect_brute_force(make_mesh(3, F), three, -three, {});
 }
 
-/// Of 1058 faces each of the widest nodes has 132 or 133, and so both clusters, of 16 faces, and nodes, of 17, below it.
+/// Of 1058 faces each of the widest nodes has 132 or 133, and so both clusters, of 16 faces, and nodes, of 17, below
+/// it.
 TEST(BoxHierarchy, ClustersOfDifferentDepths) {
   const auto [mesh, V] = sheet(23, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i, j, i * j % 3); });
   ASSERT_EQ(mesh.faces.size(), 1058U);

@@ -5,6 +5,7 @@
 
 #include "kernel/ccd.h"
 #include "tests/kernel/constructed_contact.h"
+#include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage::testing {
@@ -12,7 +13,6 @@ namespace selvage::testing {
 using Points = std::array<Vec3, 4>;
 
 inline constexpr CcdOptions kNoTolerance{0, 4096};
-inline constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe, PairKind::kSelf};
 
 inline CcdResult ccd(PairKind kind, const Points& x_t0, const Points& x_t1, const CcdOptions& options) {
   switch (kind) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/kernel/exact_answer.h"
+#include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage {
@@ -16,8 +17,6 @@ using testing::Random;
 using Points = std::array<Vec3, 4>;
 
 namespace {
-
-constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe};
 
 /// The environment variable SELVAGE_EXACT_TOUCH_CASES sets the number of cases of the exact touches.
 int touch_cases() {
@@ -72,7 +71,7 @@ TEST(ExactTouch, AtTheEndIsNeverMissed) {
   int missed = 0, unresolved = 0, late = 0;
   const int cases = touch_cases();
   for (int i = 0; i < cases; ++i) {
-    const PairKind kind = kKinds[i % 2];
+    const PairKind kind = testing::kMeshKinds[i % 2];
     Touch touch = random_touch(random, kind);
     turn(touch.x_t0, i % 3);
     turn(touch.x_t1, i % 3);
@@ -89,7 +88,7 @@ TEST(ExactTouch, AtTheEndIsNeverMissed) {
 TEST(ExactTouch, ConstructedTouchesAreTouches) {
   Random random(92);
   for (int i = 0; i < 300; ++i) {
-    const PairKind kind = kKinds[i % 2];
+    const PairKind kind = testing::kMeshKinds[i % 2];
     const Touch touch = random_touch(random, kind);
     const auto truth = testing::exact_answer(kind, touch.x_t0, touch.x_t1, verify::Detail::kFirstTime);
     EXPECT_TRUE(truth.touches);
@@ -101,7 +100,7 @@ TEST(NearMiss, ByTheLastBitOfTheEndIsSeparated) {
   Random random(93);
   for (int i = 0; i < 4000; ++i) {
     // Down to a height that is next to nothing over the inside of the other feature, or up from it.
-    const PairKind kind = kKinds[i % 2];
+    const PairKind kind = testing::kMeshKinds[i % 2];
     const double x = 0.25 * random.uniform(), y = 0.25 * random.uniform(),
                  low = std::ldexp(1.0, -random.integer(30, 80));
     Points above = kind == PairKind::kVf ? Points{Vec3(x, y, 1), Vec3(-1, -1, 0), Vec3(2, -1, 0), Vec3(-1, 2, 0)}
@@ -122,7 +121,7 @@ TEST(NearMiss, ByTheRoundingOfTheEndIsToldFromATouch) {
   constexpr int kCases = 4000;
   for (int i = 0; i < kCases; ++i) {
     // A vertex arrives at a rounded point of a face, an edge at one of an edge, before the plane or behind it.
-    const PairKind kind = kKinds[i % 2];
+    const PairKind kind = testing::kMeshKinds[i % 2];
     const double size = std::ldexp(1.0, random.integer(-6, 0));
     Points x_t1;
     for (Vec3& p : x_t1) p = detail::to_vec3(random.point()) + Vec3(random.chance(2) ? 5 : 0, 0, 0);

@@ -5,6 +5,7 @@
 
 #include "kernel/power_of_two.h"
 #include "tests/kernel/exact.h"
+#include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"
 #include "verify/exact_distance.h"
 #include "verify/exact_motion.h"
@@ -20,8 +21,6 @@ using testing::Rational;
 using testing::Rational3;
 
 namespace {
-
-constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe};
 
 struct Query {
   PairKind kind = PairKind::kVf;
@@ -81,7 +80,7 @@ TEST(PlanePassage, SaysNothingThatIsNotExactlySo) {
   Random random(71);
   std::array<int, 3> count = {};
   for (int i = 0; i < 12000; ++i) {
-    const Query query = random_query(random, kKinds[i % 2]);
+    const Query query = random_query(random, testing::kMeshKinds[i % 2]);
     const PlanePassage passage = query.passage();
     ++count[static_cast<std::size_t>(passage.passage)];
     EXPECT_LE(passage.intervals, 48);

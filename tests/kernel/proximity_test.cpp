@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/kernel/exact_proximity.h"
+#include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage {
@@ -87,7 +88,6 @@ Points random_points(Random& random) {
   return x;
 }
 
-constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe};
 /// Width of a bracket that nothing has spoilt, relative to the largest difference.
 constexpr double kSharp = 0x1p-46;
 
@@ -95,7 +95,7 @@ constexpr double kSharp = 0x1p-46;
 
 TEST(Proximity, BracketsTheExactDistanceOfRandomFeatures) {
   Random random(21);
-  for (int i = 0; i < 1500; ++i) expect_bracket(kKinds[i % 2], random_points(random), kSharp);
+  for (int i = 0; i < 1500; ++i) expect_bracket(testing::kMeshKinds[i % 2], random_points(random), kSharp);
 }
 
 TEST(Proximity, BracketsTheExactDistanceOnTheLattice) {
@@ -103,7 +103,7 @@ TEST(Proximity, BracketsTheExactDistanceOnTheLattice) {
   for (int i = 0; i < 3000; ++i) {
     Points x;
     for (Vec3& p : x) p = Vec3(random.integer(-2, 2), random.integer(-2, 2), random.integer(-2, 2));
-    expect_bracket(kKinds[i % 2], x, kSharp);
+    expect_bracket(testing::kMeshKinds[i % 2], x, kSharp);
   }
 }
 
@@ -120,7 +120,7 @@ TEST(Proximity, BracketsTheExactDistanceOfNearlyTouchingFeatures) {
       x[2] = x[0] + (x[1] - x[0]) / 4 - (x[3] - x[2]);
       x[2][random.integer(0, 2)] += lift;
     }
-    expect_bracket(kKinds[i % 2], x, kSharp);
+    expect_bracket(testing::kMeshKinds[i % 2], x, kSharp);
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Proximity, BracketsTheExactDistanceOfNeedlesAndSlivers) {
       p[2] = std::ldexp(p[2], -squeeze) - 0.25 * p[0];
     }
     if (random.chance(2)) x[0] = x[0] + detail::to_vec3(random.point());
-    expect_bracket(kKinds[i % 2], x, 0x1p-40);
+    expect_bracket(testing::kMeshKinds[i % 2], x, 0x1p-40);
   }
 }
 
@@ -147,7 +147,7 @@ TEST(Proximity, BracketsTheExactDistanceOfDegenerateFeatures) {
       x[static_cast<std::size_t>(random.integer(0, 3))] = x[static_cast<std::size_t>(random.integer(0, 3))];
     }
     if (random.chance(3)) x[3] = x[1] + 0.5 * (x[2] - x[1]);
-    expect_bracket(kKinds[i % 2], x, kSharp);
+    expect_bracket(testing::kMeshKinds[i % 2], x, kSharp);
   }
 }
 
@@ -161,7 +161,7 @@ TEST(Proximity, BracketsTheExactDistanceAtEveryScaleAndOffset) {
     for (Vec3& p : x) {
       for (int axis = 0; axis < 3; ++axis) p[axis] = std::ldexp(p[axis] + offset[axis], exponent);
     }
-    expect_bracket(kKinds[i % 2], x, kSharp);
+    expect_bracket(testing::kMeshKinds[i % 2], x, kSharp);
   }
 }
 
@@ -171,7 +171,7 @@ TEST(Proximity, BracketsTheExactDistanceOfMixedExponents) {
     Points x;
     const int spread = random.integer(1, 1000);
     for (Vec3& p : x) p = detail::to_vec3(random.point(-spread, spread));
-    expect_bracket(kKinds[i % 2], x, 0x1p-34);  // features 2^30 times as long as they are apart
+    expect_bracket(testing::kMeshKinds[i % 2], x, 0x1p-34);  // features 2^30 times as long as they are apart
   }
 }
 
@@ -197,7 +197,7 @@ TEST(Proximity, TiesBetweenFeaturesOfVeryDifferentSizesAreBracketed) {
     Points x;
     const int spread = random.integer(1, 1000);
     for (Vec3& p : x) p = detail::to_vec3(random.point(-spread, spread));
-    const PairKind kind = kKinds[i % 2];
+    const PairKind kind = testing::kMeshKinds[i % 2];
     const Proximity answer = proximity(kind, x);
     EXPECT_LE(answer.distance_upper - answer.distance_lower, 0x1p-34 * largest_difference(kind, x));
   }
@@ -265,7 +265,7 @@ TEST(Proximity, ScalingByAPowerOfTwoScalesTheAnswer) {
   Random random(29);
   for (int i = 0; i < 2000; ++i) {
     const Points x = random_points(random);
-    const PairKind kind = kKinds[i % 2];
+    const PairKind kind = testing::kMeshKinds[i % 2];
     const int exponent = random.integer(-900, 900);
     Points scaled = x;
     for (Vec3& p : scaled) p *= std::ldexp(1.0, exponent);
@@ -285,7 +285,7 @@ TEST(Proximity, OutsideTheDomainNothingIsClaimed) {
     for (std::size_t i = 0; i < 4; ++i) {
       Points x = {Vec3(0.25, 0.5, 2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
       x[i][1] = value;
-      for (const PairKind kind : kKinds) {
+      for (const PairKind kind : testing::kMeshKinds) {
         EXPECT_EQ(proximity(kind, x).distance_lower, 0);
         EXPECT_EQ(proximity(kind, x).distance_upper, std::numeric_limits<double>::infinity());
       }

@@ -13,6 +13,7 @@
 #include "kernel/power_of_two.h"
 #include "kernel/separation.h"
 #include "tests/kernel/exact.h"
+#include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage {
@@ -27,8 +28,6 @@ using testing::Rational;
 using testing::Rational3;
 
 namespace {
-
-constexpr PairKind kKinds[] = {PairKind::kVf, PairKind::kEe, PairKind::kSelf};
 
 /// The largest share of a bound that was observed.
 class Sharpness {
@@ -66,7 +65,7 @@ struct Sample {
 
 Sample random_sample(Random& random, int first_exponent, int last_exponent) {
   const int exponent = random.integer(first_exponent, last_exponent);
-  return {kKinds[random.integer(0, 2)], random_points(random, exponent), random_points(random, exponent)};
+  return {testing::kKinds[random.integer(0, 2)], random_points(random, exponent), random_points(random, exponent)};
 }
 
 template <class Real>

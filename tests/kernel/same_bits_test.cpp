@@ -27,16 +27,16 @@ namespace {
 
 constexpr std::uint64_t kGoldenHash = 0x67e3652a30d63a2aU;
 
-struct Query {
+struct AnyQuery {
   Points x_t0, x_t1;
 };
 
 /// Far and near, generic and on the lattice, at all scales: built from integers and powers of two alone.
-std::vector<Query> queries() {
+std::vector<AnyQuery> queries() {
   const FpEnvGuard guard;  // the queries themselves must not depend on the caller's environment
   Random random(61);
-  std::vector<Query> result(3000);
-  for (Query& query : result) {
+  std::vector<AnyQuery> result(3000);
+  for (AnyQuery& query : result) {
     const int kind = random.integer(0, 3), exponent = random.chance(4) ? random.integer(-1000, 900) : 0;
     for (Points* x : {&query.x_t0, &query.x_t1}) {
       for (Vec3& p : *x) {
@@ -55,9 +55,9 @@ std::vector<Query> queries() {
   return result;
 }
 
-std::uint64_t hash_of_answers(const std::vector<Query>& all) {
+std::uint64_t hash_of_answers(const std::vector<AnyQuery>& all) {
   Hash hash;
-  for (const Query& q : all) {
+  for (const AnyQuery& q : all) {
     hash.add(vf_ccd(q.x_t0, q.x_t1, CcdOptions{}));
     hash.add(ee_ccd(q.x_t0, q.x_t1, CcdOptions{}));
     hash.add(self_ccd({q.x_t0[0], q.x_t0[1], q.x_t0[2]}, {q.x_t1[0], q.x_t1[1], q.x_t1[2]}, CcdOptions{}));
@@ -72,7 +72,7 @@ std::uint64_t hash_of_answers(const std::vector<Query>& all) {
 TEST(SameBits, TheHashOfTheAnswersIsTheGoldenOne) { EXPECT_EQ(hash_of_answers(queries()), kGoldenHash); }
 
 TEST(SameBits, DirectedRoundingOfTheCallerChangesNothing) {
-  const std::vector<Query> all = queries();
+  const std::vector<AnyQuery> all = queries();
   for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(direction);
     const std::uint64_t hash = hash_of_answers(all);
@@ -83,10 +83,10 @@ TEST(SameBits, DirectedRoundingOfTheCallerChangesNothing) {
 
 #if defined(__SSE2__)
 TEST(SameBits, FlushingOfTheCallerChangesNothing) {
-  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-  const std::vector<Query> all = queries();
+  constexpr unsigned kFtz = 0x8000, kDaz = 0x0040;
+  const std::vector<AnyQuery> all = queries();
   const unsigned clean = _mm_getcsr();
-  _mm_setcsr(clean | kFlushToZero | kDenormalsAreZero);
+  _mm_setcsr(clean | kFtz | kDaz);
   const std::uint64_t hash = hash_of_answers(all);
   _mm_setcsr(clean);
   EXPECT_EQ(hash, kGoldenHash);

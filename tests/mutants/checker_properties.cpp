@@ -16,19 +16,19 @@ namespace selvage::mutants {
 namespace {
 
 using verify::Point;
-using verify::testing::Draw;
-using verify::testing::MotionCase;
+using verify::testbed::Draw;
+using verify::testbed::MotionCase;
 
 MotionCase any_whole_motion(Draw& draw) {
-  const auto families = verify::testing::lattice_families();
+  const auto families = verify::testbed::lattice_families();
   const int range = draw.integer(1, 5), which = draw.integer(0, static_cast<int>(families.size()) + 1);
   if (which < static_cast<int>(families.size())) return families[static_cast<std::size_t>(which)].draw(draw, range);
   const bool vf = which == static_cast<int>(families.size());
-  return (vf ? verify::testing::planted_vf_hit(draw, range) : verify::testing::planted_ee_hit(draw, range)).motion;
+  return (vf ? verify::testbed::planted_vf_hit(draw, range) : verify::testbed::planted_ee_hit(draw, range)).motion;
 }
 
 MotionCase any_motion(Draw& draw) {
-  const auto families = verify::testing::double_families();
+  const auto families = verify::testbed::double_families();
   const int which = draw.integer(0, 2 * static_cast<int>(families.size()) - 1);
   if (which >= static_cast<int>(families.size())) return any_whole_motion(draw);
   return families[static_cast<std::size_t>(which)].draw(draw, draw.integer(1, 5));
@@ -38,21 +38,21 @@ std::string broken_relation(std::uint64_t seed) {
   Draw draw(seed);
   const MotionCase motion = any_whole_motion(draw);
   for (std::string what :
-       {verify::testing::broken_by_time_reversal(motion), verify::testing::broken_by_order(motion),
-        verify::testing::broken_by_maps(motion), verify::testing::broken_by_common_motion(motion, draw),
-        verify::testing::broken_by_split(motion)}) {
+       {verify::testbed::broken_by_time_reversal(motion), verify::testbed::broken_by_order(motion),
+        verify::testbed::broken_by_maps(motion), verify::testbed::broken_by_common_motion(motion, draw),
+        verify::testbed::broken_by_split(motion)}) {
     if (!what.empty()) return what;
   }
   return "";
 }
 
 /// The touch is found, not after the time that it was planted at.
-bool is_found(const verify::testing::PlantedHit& hit, const verify::MotionAnswer& answer) {
+bool is_found(const verify::testbed::PlantedHit& hit, const verify::MotionAnswer& answer) {
   return answer.touches && answer.first.lower_approx * hit.denominator <= hit.numerator;
 }
 
 std::string judge_planted_motions(std::uint64_t seed) {
-  using namespace verify::testing;
+  using namespace verify::testbed;
   constexpr auto kDetail = verify::Detail::kFirstTime;
   Draw draw(seed);
   const int range = draw.integer(1, 6);
@@ -111,7 +111,7 @@ verify::CheckResult check(const io::MeshData& mesh) {
 
 /// A clean sheet, then the same with one or two things planted: what is reported is what was planted.
 std::string judge_plants(std::uint64_t seed) {
-  using verify::testing::kPlants;
+  using verify::testbed::kPlants;
   Draw draw(seed);
   io::MeshData mesh = testing::sheet(draw.integer(3, 24));
   if (check(mesh).violations_total.total() != 0) return "a clean sheet is not clean";
@@ -125,11 +125,11 @@ std::string judge_plants(std::uint64_t seed) {
   const verify::CheckResult result = check(mesh);
   if (result.violations_total.total() < static_cast<std::int64_t>(expected.size()))
     return "a planted violation is lost";
-  return verify::testing::texts(result) == expected ? "" : "other violations than planted";
+  return verify::testbed::texts(result) == expected ? "" : "other violations than planted";
 }
 
 std::string judge_overlap(std::uint64_t seed) {
-  using namespace verify::testing;
+  using namespace verify::testbed;
   std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
   const OverlapFamily family = kOverlapFamilies[random() % std::size(kOverlapFamilies)];
   const int range = 1 + static_cast<int>(random() % 4), shared = static_cast<int>(random() % 3);
@@ -151,7 +151,7 @@ std::string judge_long_touches(std::uint64_t seed) {
   mesh.points.push_back({touch[0] + 1, touch[1], touch[2] + 0x1p+28});
   mesh.points.push_back({touch[0], touch[1] + 1, touch[2] + 0x1p+28});
   mesh.triangles.push_back({3, 4, 5});
-  return verify::testing::texts(check(mesh)) == std::set<std::string>{"overlap touch 0 1"} ? "" : "a touch is lost";
+  return verify::testbed::texts(check(mesh)) == std::set<std::string>{"overlap touch 0 1"} ? "" : "a touch is lost";
 }
 
 /// Sheets one after another, at rest; one of them may be spoilt, or not be made of numbers.

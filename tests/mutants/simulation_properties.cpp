@@ -110,7 +110,9 @@ Positions end_with(std::uint64_t seed, int threads) {
   });
 }
 
-std::string compare_threads(std::uint64_t seed) { return end_with(seed, 1) == end_with(seed, 3) ? "" : "other bits"; }
+std::string compare_run_threads(std::uint64_t seed) {
+  return end_with(seed, 1) == end_with(seed, 3) ? "" : "other bits";
+}
 
 /// A folder of this process, gone at the end.
 class Folder {
@@ -166,7 +168,7 @@ std::vector<Property> simulation_properties() {
   return {{"simulation", "every step is exactly free, on script, with the velocities of its motion (S1, S3, S4)",
            falsify<judge_simulation>},
           {"simulation-threads", "a simulation gives the same bits for 1 and for 3 threads (K7)",
-           falsify<compare_threads>, true},
+           falsify<compare_run_threads>, true},
           {"recording", "what is recorded and resumed has the bits of a run in one go (S5)", falsify<judge_recording>}};
 }
 

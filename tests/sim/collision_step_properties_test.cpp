@@ -5,7 +5,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 using selvage::testing::check_property;
@@ -256,4 +256,4 @@ TEST(CollisionStepProperties, ImpulsesAndFrictionKeepMomentumAndAddNoEnergy) {
   EXPECT_GT(steps_with_impulses, 10);  // else the property says nothing
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -12,7 +12,7 @@
 
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 /// A single triangle of about `size_m`, in the plane z = 0, around the origin.
@@ -390,4 +390,4 @@ TEST(CollisionStep, EmptyAndTinyMeshesAreSteps) {
   EXPECT_EQ(exact_defect(one, one.step()), "");
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -6,7 +6,7 @@
 #include "tests/sim/failing_allocations.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 TEST(FailedAllocation, LeavesAStepThatAnswersAsANewOne) {
@@ -46,4 +46,4 @@ TEST(FailedAllocation, LeavesAStepThatAnswersAsANewOne) {
 }
 
 }  // namespace
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

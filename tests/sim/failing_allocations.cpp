@@ -6,7 +6,7 @@
 
 namespace {
 
-std::atomic<long> until_failure = selvage::sim::testing::kNone;
+std::atomic<long> until_failure = selvage::sim::testbed::kNone;
 
 }  // namespace
 
@@ -19,8 +19,8 @@ void* operator new(std::size_t size) {
 void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 void fail_allocation(long before) { until_failure = before; }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

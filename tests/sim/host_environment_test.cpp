@@ -14,7 +14,7 @@
 #include "tests/sim/small_scene.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 constexpr unsigned kFlushAndDenormalsAreZero = 0x8040;
@@ -114,4 +114,4 @@ TEST(HostEnvironment, ThatFlushesSubnormalsLosesNoThickness) {
 }
 
 }  // namespace
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -10,7 +10,7 @@
 #include "sim/contact/interaction.h"
 #include "sim/contact/repulsion_contact.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 struct Mechanics {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
@@ -113,4 +113,4 @@ inline PairVectors sum(const PairVectors& a, const PairVectors& b, double factor
   return result;
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -6,7 +6,7 @@
 
 #include "sim/step.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 inline constexpr double kGravity = 9.81;
 
@@ -38,4 +38,4 @@ inline const Positions& run_to(Simulation& simulation, double end_s) {
   return simulation.x();
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

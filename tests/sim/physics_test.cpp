@@ -16,7 +16,7 @@
 namespace selvage {
 
 using namespace sim;
-using namespace sim::testing;
+using namespace sim::testbed;
 
 namespace {
 

@@ -8,14 +8,16 @@
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "tests/kernel/with_threads.h"
+#include "tests/sim/physics_support.h"
 
 namespace selvage {
 
 using namespace sim;
+using sim::testbed::kGravity;
 
 namespace {
 
-constexpr double kThickness = 0.004, kGravity = 9.81;
+constexpr double kSheetThickness = 0.004;
 
 std::string start(double friction, double duration_s, const std::string& solver = "explicit") {
   return "solver = \"" + solver +
@@ -63,8 +65,8 @@ TEST(Sliding, OverSmallFacesWithoutFrictionKeepsTheVelocity) {
   Slide slide(start(0, 0.3) + sheet("position_m = [-0.9, 0.007, 0.0041]\nvelocity_m_s = [2, 0.3, 0]") + ground());
   slide.run_to(0.3);
   EXPECT_LT(slide.largest_error_m_s({2, 0.3, 0}), 1e-3);
-  EXPECT_GT(slide.x().col(2).minCoeff(), 0.99 * kThickness);
-  EXPECT_LT(slide.x().col(2).maxCoeff(), 1.02 * kThickness);
+  EXPECT_GT(slide.x().col(2).minCoeff(), 0.99 * kSheetThickness);
+  EXPECT_LT(slide.x().col(2).maxCoeff(), 1.02 * kSheetThickness);
 }
 
 TEST(Sliding, OverSmallFacesIsSlowedAsFrictionSays) {
@@ -83,8 +85,8 @@ TEST(Sliding, UnderTheImplicitSolverIsAsTheLawsSay) {
   Slide freely(start(0, kEnd_s, "implicit") + moving);
   freely.run_to(kEnd_s);
   EXPECT_LT(freely.largest_error_m_s({2, 0.3, 0}), 1e-3);
-  EXPECT_GT(freely.x().col(2).minCoeff(), 0.99 * kThickness);
-  EXPECT_LT(freely.x().col(2).maxCoeff(), 1.05 * kThickness);
+  EXPECT_GT(freely.x().col(2).minCoeff(), 0.99 * kSheetThickness);
+  EXPECT_LT(freely.x().col(2).maxCoeff(), 1.05 * kSheetThickness);
   Slide rubbing(start(kFriction, kEnd_s, "implicit") + moving);
   const Vec3 start_m = rubbing.x().colwise().mean();
   rubbing.run_to(kEnd_s);
@@ -152,8 +154,8 @@ TEST(Sliding, OnClothThatLiesOnTheGroundIsAsOnTheGround) {
               kMaterial + "[[body]]\nsheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}\n");
   slide.run_to(0.3);
   EXPECT_LT(slide.largest_error_m_s({1.5, 0, 0}), 0.01);
-  EXPECT_GT(slide.x().col(2).minCoeff(), 1.95 * kThickness);
-  EXPECT_LT(slide.x().col(2).maxCoeff(), 2.5 * kThickness);
+  EXPECT_GT(slide.x().col(2).minCoeff(), 1.95 * kSheetThickness);
+  EXPECT_LT(slide.x().col(2).maxCoeff(), 2.5 * kSheetThickness);
 }
 
 /// More contacts than one group has (contact_groups.h); they go on to faces that are of other groups.

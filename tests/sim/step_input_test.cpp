@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -95,4 +95,4 @@ TEST(StepInput, OptionsOutsideTheirRangesAreRefused) {
   EXPECT_EQ(error_after([](CollisionOptions& o) { o.max_intervals = 0; }), InputError::kBadOption);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -11,7 +11,7 @@
 #include "sim/scene/shapes.h"
 #include "verify/check.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 inline Shape sheet(std::int32_t side, double width_m = 0.1) { return make_sheet(side, side, width_m, width_m); }
 
@@ -107,4 +107,4 @@ inline std::string exact_defect(const StepScene& scene, const CollisionStepResul
   return exact_defect(scene, result.x);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

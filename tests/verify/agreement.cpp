@@ -11,18 +11,18 @@
 #include "tests/verify/motion_families.h"
 #include "verify/second_opinion.h"
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 namespace {
 
-enum class Question { kVf, kEe, kSelf };
-constexpr Question kQuestions[] = {Question::kVf, Question::kEe, Question::kSelf};
+enum class DeciderQuestion { kVf, kEe, kSelf };
+constexpr DeciderQuestion kQuestions[] = {DeciderQuestion::kVf, DeciderQuestion::kEe, DeciderQuestion::kSelf};
 
 /// A motion, and what is known of it from how it was made.
 struct Drawn {
   MotionCase motion;
-  std::optional<Question> hit;      ///< touches at this time or before
-  double hit_time = 0;              ///< rounded
-  std::vector<Question> miss = {};  ///< do not touch
+  std::optional<DeciderQuestion> hit;      ///< touches at this time or before
+  double hit_time = 0;                     ///< rounded
+  std::vector<DeciderQuestion> miss = {};  ///< do not touch
 };
 
 struct CaseClass {
@@ -43,21 +43,22 @@ std::vector<CaseClass> case_classes() {
                          divisor, is_lattice});
     }
   };
-  const auto add_hit = [&classes](const char* name, Question question, PlantedHit (*plant)(Draw&, int)) {
+  const auto add_hit = [&classes](const char* name, DeciderQuestion question, PlantedHit (*plant)(Draw&, int)) {
     classes.push_back({name, [=](Draw& source, int range) {
                          const PlantedHit hit = plant(source, range);
                          return Drawn{hit.motion, question, static_cast<double>(hit.numerator) / hit.denominator};
                        }});
   };
   add(lattice_families(), 1, true);
-  add_hit("planted vf hit", Question::kVf, planted_vf_hit);
-  add_hit("planted ee hit", Question::kEe, planted_ee_hit);
-  add_hit("planted self hit", Question::kSelf, planted_self_hit);
-  classes.push_back({"planted vf gap", [](Draw& source, int range) {
-                       return Drawn{planted_miss(source, range, 1), {}, 0, {Question::kVf, Question::kSelf}};
-                     }});
+  add_hit("planted vf hit", DeciderQuestion::kVf, planted_vf_hit);
+  add_hit("planted ee hit", DeciderQuestion::kEe, planted_ee_hit);
+  add_hit("planted self hit", DeciderQuestion::kSelf, planted_self_hit);
+  classes.push_back(
+      {"planted vf gap", [](Draw& source, int range) {
+         return Drawn{planted_miss(source, range, 1), {}, 0, {DeciderQuestion::kVf, DeciderQuestion::kSelf}};
+       }});
   classes.push_back({"planted ee gap", [](Draw& source, int range) {
-                       return Drawn{planted_miss(source, range, 2), {}, 0, {Question::kEe}};
+                       return Drawn{planted_miss(source, range, 2), {}, 0, {DeciderQuestion::kEe}};
                      }});
   add(double_families(), 20, false);
   add(whole_range_families(), 1000, false);
@@ -71,14 +72,14 @@ struct Answers {
   SecondOpinion second;
 };
 
-Answers ask(Question question, const MotionCase& motion) {
+Answers ask(DeciderQuestion question, const MotionCase& motion) {
   constexpr auto kDetail = Detail::kFirstTime;
   switch (question) {
-    case Question::kVf:
+    case DeciderQuestion::kVf:
       return {exact_vf_motion(motion.x_t0, motion.x_t1, kDetail), second_opinion_vf(motion.x_t0, motion.x_t1)};
-    case Question::kEe:
+    case DeciderQuestion::kEe:
       return {exact_ee_motion(motion.x_t0, motion.x_t1, kDetail), second_opinion_ee(motion.x_t0, motion.x_t1)};
-    case Question::kSelf:
+    case DeciderQuestion::kSelf:
       return {exact_self_motion(motion.three_t0(), motion.three_t1(), kDetail),
               second_opinion_self(motion.three_t0(), motion.three_t1())};
   }
@@ -91,13 +92,13 @@ bool overlap(double a_lower, double a_upper, double b_lower, double b_upper) {
 }
 
 /// The labels under which the features stay the same.
-MotionCase relabelled(Draw& draw, Question question, const MotionCase& motion) {
+MotionCase relabelled(Draw& draw, DeciderQuestion question, const MotionCase& motion) {
   static constexpr std::array<std::size_t, 4> kVf[] = {
       {0, 2, 1, 3}, {0, 1, 3, 2}, {0, 3, 2, 1}, {0, 2, 3, 1}, {0, 3, 1, 2}};
   static constexpr std::array<std::size_t, 4> kEe[] = {
       {1, 0, 2, 3}, {0, 1, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}, {1, 0, 3, 2}};
-  if (question == Question::kSelf) return reordered(motion, {0, 2, 1, 3});
-  return reordered(motion, (question == Question::kVf ? kVf : kEe)[draw.integer(0, 4)]);
+  if (question == DeciderQuestion::kSelf) return reordered(motion, {0, 2, 1, 3});
+  return reordered(motion, (question == DeciderQuestion::kVf ? kVf : kEe)[draw.integer(0, 4)]);
 }
 
 /// One class with one draw: asks, compares, counts; stops at the first disagreement.
@@ -114,7 +115,7 @@ class Comparison {
           for (Point& p : *points) p = {2 * p[0], 2 * p[1], 2 * p[2]};
         }
       }
-      for (const Question question : kQuestions) check(question, drawn, i);
+      for (const DeciderQuestion question : kQuestions) check(question, drawn, i);
     }
     tally_.cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
@@ -124,7 +125,7 @@ class Comparison {
  private:
   static constexpr int kRanges[] = {1, 2, 3, 5, 10};
 
-  void check(Question question, const Drawn& drawn, int round) {
+  void check(DeciderQuestion question, const Drawn& drawn, int round) {
     const Answers base = both(question, drawn.motion, tally_.drawn, "drawn");
     if (drawn.hit == question) {
       require(base.first.touches && base.first.first.lower_approx <= drawn.hit_time, question, drawn.motion,
@@ -140,13 +141,13 @@ class Comparison {
     if (round % 4 == 2 && class_.is_lattice) check_halves(question, drawn.motion, base);
   }
 
-  void check_reversed(Question question, const MotionCase& motion, const Answers& base) {
+  void check_reversed(DeciderQuestion question, const MotionCase& motion, const Answers& base) {
     const Answers back = both(question, {motion.x_t1, motion.x_t0}, tally_.related, "reversed");
     require(back.first.touches == base.first.touches, question, motion, "time reversal");
     require(back.second.touches == base.second.touches, question, motion, "time reversal, second");
   }
 
-  void check_relabelled(Question question, const MotionCase& motion, const Answers& base) {
+  void check_relabelled(DeciderQuestion question, const MotionCase& motion, const Answers& base) {
     const Answers other = both(question, relabelled(draw_, question, motion), tally_.related, "relabelled");
     require(other.first.touches == base.first.touches && other.first.kind == base.first.kind &&
                 other.first.first.lower == base.first.first.lower && other.first.first.upper == base.first.first.upper,
@@ -158,7 +159,7 @@ class Comparison {
   }
 
   /// The whole touches iff a half does; first in the first half that does.
-  void check_halves(Question question, const MotionCase& motion, const Answers& base) {
+  void check_halves(DeciderQuestion question, const MotionCase& motion, const Answers& base) {
     const Answers first = both(question, half(motion, false), tally_.related, "first half");
     const Answers second = both(question, half(motion, true), tally_.related, "second half");
     require(base.first.touches == (first.first.touches || second.first.touches), question, motion, "halves");
@@ -175,7 +176,7 @@ class Comparison {
             question, motion, "time in a half, second");
   }
 
-  Answers both(Question question, const MotionCase& motion, std::int64_t& count, const char* what) {
+  Answers both(DeciderQuestion question, const MotionCase& motion, std::int64_t& count, const char* what) {
     const Answers answers = ask(question, motion);
     const auto& [first, second] = answers;
     ++count;
@@ -189,7 +190,7 @@ class Comparison {
     return answers;
   }
 
-  void require(bool holds, Question question, const MotionCase& motion, const char* what) {
+  void require(bool holds, DeciderQuestion question, const MotionCase& motion, const char* what) {
     if (holds || !message_.empty()) return;
     std::ostringstream text;
     text << class_.name << ": " << what << ", question " << static_cast<int>(question) << ", after "
@@ -216,4 +217,4 @@ Agreement compare_deciders(std::uint64_t seed, int cases) {
   return agreement;
 }
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 
 struct ClassTally {
   std::string name;
@@ -27,4 +27,4 @@ struct Agreement {
 /// edge-edge and a self query. Depends on the seed and the number alone, but for the times.
 [[nodiscard]] Agreement compare_deciders(std::uint64_t seed, int cases);
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

@@ -9,7 +9,7 @@
 #include "tests/verify/agreement.h"
 
 int main(int argc, char** argv) {
-  using selvage::verify::testing::Agreement;
+  using selvage::verify::testbed::Agreement;
   if (argc != 4) {
     std::fprintf(stderr, "usage: agreement_campaign FIRST_SEED CHUNKS CASES\n");
     return 2;
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   const int cases = std::atoi(argv[3]);
   for (long chunk = 0; chunk < chunks; ++chunk) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(chunk);
-    const Agreement agreement = selvage::verify::testing::compare_deciders(seed, cases);
+    const Agreement agreement = selvage::verify::testbed::compare_deciders(seed, cases);
     nlohmann::ordered_json line = {{"seed", seed}, {"cases", cases}, {"disagreements", agreement.disagreements}};
     for (const auto& tally : agreement.classes) {
       line["classes"][tally.name] = {{"drawn", tally.drawn},           {"related", tally.related},

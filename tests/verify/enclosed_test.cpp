@@ -33,14 +33,14 @@ class Cells {
   std::map<std::array<int, 3>, bool> is_full_;
 };
 
-struct Surface {
+struct CellFaces {
   std::vector<Point> V;
   std::vector<std::array<std::int32_t, 3>> F;
 };
 
 /// Its faces, two a square, anyhow turned; each with corners of its own: only where they are matters.
-Surface surface_of(const Cells& cells) {
-  Surface surface;
+CellFaces faces_of_cells(const Cells& cells) {
+  CellFaces surface;
   const auto add = [&](Point origin, std::size_t axis) {
     const auto n = static_cast<std::int32_t>(surface.V.size());
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -72,7 +72,7 @@ TEST(Enclosed, PointsAreOnTheirSideWhateverTheirRayRunsThrough) {
   int inside = 0, through_edges = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Cells cells(seed);
-    const Surface surface = surface_of(cells);
+    const CellFaces surface = faces_of_cells(cells);
     // In cells, and on lattice lines, planes and vertices about which all cells are alike; a half a lattice unit apart.
     for (int x = 1; x < 2 * kSide; ++x) {
       for (int y = 1; y < 2 * kSide; ++y) {

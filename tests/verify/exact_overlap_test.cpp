@@ -15,11 +15,11 @@
 namespace selvage::verify {
 namespace {
 
-using testing::draw;
-using testing::from_points;
-using testing::kOverlapFamilies;
-using testing::OverlapFamily;
-using testing::TwoTriangles;
+using testbed::draw;
+using testbed::from_points;
+using testbed::kOverlapFamilies;
+using testbed::OverlapFamily;
+using testbed::TwoTriangles;
 
 OverlapKind decide(const TwoTriangles& c) { return exact_overlap(c.face_a, c.a, c.face_b, c.b).kind; }
 OverlapKind refer(const TwoTriangles& c) { return reference::overlap(c.face_a, c.a, c.face_b, c.b); }

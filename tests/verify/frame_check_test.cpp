@@ -22,10 +22,10 @@ using selvage::testing::add_vertex;
 using selvage::testing::point_on;
 using selvage::testing::sheet;
 using selvage::testing::surface;
-using testing::kPlants;
-using testing::Plant;
-using testing::text;
-using testing::texts;
+using testbed::kPlants;
+using testbed::Plant;
+using testbed::text;
+using testbed::texts;
 
 CheckResult check(const io::MeshData& mesh, CheckOptions options = {}) {
   options.max_violations = 1000000;

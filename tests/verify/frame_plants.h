@@ -6,7 +6,7 @@
 
 #include "tests/verify/sheet.h"
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 
 using selvage::testing::add_vertex;
 using selvage::testing::point_on;
@@ -111,4 +111,4 @@ inline const Plant kPlants[] = {
      }},
 };
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 namespace {
 
 Point combine(const Point& a, double s, const Point& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
@@ -314,4 +314,4 @@ MotionCase planted_miss(Draw& draw, int range, int first_count) {
   return motion;
 }
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

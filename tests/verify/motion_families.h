@@ -8,7 +8,7 @@
 
 #include "verify/exact_motion.h"
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 
 struct MotionCase {
   std::array<Point, 4> x_t0{}, x_t1{};
@@ -63,4 +63,4 @@ struct PlantedHit {
 /// Motions whose features stay on different sides of a plane. The first `first_count` points are on one side.
 [[nodiscard]] MotionCase planted_miss(Draw& draw, int range, int first_count);
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

@@ -12,9 +12,9 @@
 namespace selvage::verify {
 namespace {
 
-using testing::Draw;
-using testing::Family;
-using testing::MotionCase;
+using testbed::Draw;
+using testbed::Family;
+using testbed::MotionCase;
 
 struct Tally {
   long cases = 0, apart = 0, crosses = 0, wrong = 0;
@@ -44,9 +44,9 @@ void check_all(const MotionCase& motion, Tally& tally) {
 
 TEST(MotionFilter, NeverContradictsTheExactDecision) {
   const FpGuard guard;
-  for (const auto& [families, count] : {std::pair{testing::lattice_families(), 1000},
-                                        {testing::double_families(), 1000},
-                                        {testing::whole_range_families(), 100}}) {
+  for (const auto& [families, count] : {std::pair{testbed::lattice_families(), 1000},
+                                        {testbed::double_families(), 1000},
+                                        {testbed::whole_range_families(), 100}}) {
     for (const Family& family : families) {
       SCOPED_TRACE(family.name);
       Draw draw(11);

@@ -11,9 +11,9 @@
 namespace selvage::verify {
 namespace {
 
-using testing::Draw;
-using testing::MotionCase;
-using testing::PlantedHit;
+using testbed::Draw;
+using testbed::MotionCase;
+using testbed::PlantedHit;
 
 /// The planted touch is found, at the planted time or before.
 void expect_hit(const PlantedHit& hit, const MotionAnswer& answer, const char* what) {
@@ -52,15 +52,15 @@ TEST(PlantedHits, AreFound) {
   constexpr int kCases = 3000;
   for (int i = 0; i < kCases; ++i) {
     const int range = 1 + i % 6;
-    const PlantedHit vf = testing::planted_vf_hit(draw, range);
+    const PlantedHit vf = testbed::planted_vf_hit(draw, range);
     const MotionAnswer vf_answer = exact_vf_motion(vf.motion.x_t0, vf.motion.x_t1, Detail::kFirstTime);
     ASSERT_NO_FATAL_FAILURE(expect_hit(vf, vf_answer, "vertex-face")) << i;
     ASSERT_NO_FATAL_FAILURE(expect_comparison(vf, vf_answer, true)) << i;
-    const PlantedHit ee = testing::planted_ee_hit(draw, range);
+    const PlantedHit ee = testbed::planted_ee_hit(draw, range);
     const MotionAnswer ee_answer = exact_ee_motion(ee.motion.x_t0, ee.motion.x_t1, Detail::kFirstTime);
     ASSERT_NO_FATAL_FAILURE(expect_hit(ee, ee_answer, "edge-edge")) << i;
     ASSERT_NO_FATAL_FAILURE(expect_comparison(ee, ee_answer, false)) << i;
-    const PlantedHit self = testing::planted_self_hit(draw, range);
+    const PlantedHit self = testbed::planted_self_hit(draw, range);
     const MotionAnswer self_answer =
         exact_self_motion(self.motion.three_t0(), self.motion.three_t1(), Detail::kFirstTime);
     ASSERT_NO_FATAL_FAILURE(expect_hit(self, self_answer, "self")) << i;
@@ -91,9 +91,9 @@ TEST(PlantedMisses, AreNotReported) {
   Draw draw(22);
   for (int i = 0; i < 5000; ++i) {
     const int range = 1 + i % 6;
-    const MotionCase vf = testing::planted_miss(draw, range, 1);
+    const MotionCase vf = testbed::planted_miss(draw, range, 1);
     ASSERT_FALSE(exact_vf_motion(vf.x_t0, vf.x_t1, Detail::kDecision).touches) << i << vf;
-    const MotionCase ee = testing::planted_miss(draw, range, 2);
+    const MotionCase ee = testbed::planted_miss(draw, range, 2);
     ASSERT_FALSE(exact_ee_motion(ee.x_t0, ee.x_t1, Detail::kDecision).touches) << i << ee;
     ASSERT_FALSE(exact_self_motion(vf.three_t0(), vf.three_t1(), Detail::kDecision).touches) << i << vf;
   }
@@ -107,7 +107,7 @@ TEST(ExactMotion, RepairsAHostileEnvironmentAndRestoresIt) {
   constexpr unsigned kFtz = 0x8000, kDaz = 0x0040, kUp = 0x4000, kDown = 0x2000, kZero = 0x6000;
   for (const unsigned hostile : {kFtz | kDaz, kUp, kDown, kZero, kFtz | kDaz | kZero}) {
     for (int i = 0; i < 200; ++i) {
-      MotionCase motion = i % 2 == 0 ? testing::planted_miss(draw, 3, 1) : testing::planted_vf_hit(draw, 3).motion;
+      MotionCase motion = i % 2 == 0 ? testbed::planted_miss(draw, 3, 1) : testbed::planted_vf_hit(draw, 3).motion;
       for (auto* points : {&motion.x_t0, &motion.x_t1}) {
         for (Point& point : *points) {
           for (double& coordinate : point) coordinate = std::ldexp(coordinate, -1074);

@@ -4,13 +4,13 @@
 
 #include "verify/contact.h"
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 namespace {
 
 enum class Question { kVf, kEe };
 constexpr std::array<Question, 2> kBoth = {Question::kVf, Question::kEe};
 
-std::optional<FirstTouch> ask(Question question, const MotionCase& motion) {
+std::optional<FirstTouch> first_touch(Question question, const MotionCase& motion) {
   const auto points = moving_points(motion.x_t0, motion.x_t1);
   return question == Question::kVf ? first_vf_touch(points) : first_ee_touch(points);
 }
@@ -21,7 +21,7 @@ std::string broken(Question question, const char* relation) {
 
 /// The same touches at the same time.
 std::string difference(Question question, const MotionCase& a, const MotionCase& b, const char* relation) {
-  auto first = ask(question, a), second = ask(question, b);
+  auto first = first_touch(question, a), second = first_touch(question, b);
   const bool same = first.has_value() == second.has_value() &&
                     (!first || (compare(first->instant, second->instant) == 0 && first->is_cross == second->is_cross));
   return same ? "" : broken(question, relation);
@@ -49,7 +49,7 @@ MotionCase until_two_thirds(const MotionCase& motion) {
 
 std::string broken_by_time_reversal(const MotionCase& motion) {
   for (const Question question : kBoth) {
-    if (ask(question, motion).has_value() != ask(question, {motion.x_t1, motion.x_t0}).has_value()) {
+    if (first_touch(question, motion).has_value() != first_touch(question, {motion.x_t1, motion.x_t0}).has_value()) {
       return broken(question, "time reversal");
     }
   }
@@ -118,10 +118,10 @@ std::string broken_by_common_motion(const MotionCase& motion, Draw& shifts) {
 std::string broken_by_split(const MotionCase& drawn) {
   const MotionCase motion = mapped(drawn, [](const Point& p) { return Point{6 * p[0], 6 * p[1], 6 * p[2]}; });
   for (const Question question : kBoth) {
-    const auto whole = ask(question, motion);
-    auto first = ask(question, half(motion, false)), second = ask(question, half(motion, true));
+    const auto whole = first_touch(question, motion);
+    auto first = first_touch(question, half(motion, false)), second = first_touch(question, half(motion, true));
     if (whole.has_value() != (first || second)) return broken(question, "split");
-    auto two_thirds = ask(question, until_two_thirds(motion));
+    auto two_thirds = first_touch(question, until_two_thirds(motion));
     if (two_thirds && !whole) return broken(question, "split at 2/3");
     if (!whole) continue;
     // The whole one's first time, against the middle.
@@ -138,4 +138,4 @@ std::string broken_by_split(const MotionCase& drawn) {
   return "";
 }
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

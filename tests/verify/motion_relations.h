@@ -6,7 +6,7 @@
 
 #include "tests/verify/motion_families.h"
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 
 [[nodiscard]] std::string broken_by_time_reversal(const MotionCase& motion);
 /// Corners of the face in another order, ends of an edge exchanged, the edges exchanged.
@@ -18,4 +18,4 @@ namespace selvage::verify::testing {
 /// [0, 1/2], [1/2, 1] and [0, 2/3] against the whole. REQUIRES whole coordinates of few bits.
 [[nodiscard]] std::string broken_by_split(const MotionCase& motion);
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

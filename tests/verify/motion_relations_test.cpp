@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 namespace {
 
 /// Calls broken(motion) on every lattice family, and on planted hits, which the families hold too few of.
@@ -33,4 +33,4 @@ TEST(MotionRelations, CommonMotionIsInvisible) {
 TEST(MotionRelations, SplitInHalves) { for_all(35, 300, broken_by_split); }
 
 }  // namespace
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

@@ -14,7 +14,7 @@ namespace selvage::verify {
 namespace {
 
 using Face = std::array<std::int32_t, 3>;
-using Triangle = std::array<Point, 3>;
+using Corners = std::array<Point, 3>;
 using Size = std::array<int, 3>;
 
 std::vector<Point> lattice(const Size& size) {
@@ -28,7 +28,7 @@ std::vector<Point> lattice(const Size& size) {
 }
 
 /// The first `shared` corners in ascending order, and the others. Both are sets: order does not tell triangles apart.
-Triangle sorted(Triangle triangle, std::size_t shared) {
+Corners sorted(Corners triangle, std::size_t shared) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = i + 1; j < 3; ++j) {
       if ((i < shared) == (j < shared) && triangle[j] < triangle[i]) std::swap(triangle[i], triangle[j]);
@@ -38,12 +38,12 @@ Triangle sorted(Triangle triangle, std::size_t shared) {
 }
 
 /// Whether no symmetry of the lattice (reflections, exchanges of equal sides) makes it smaller: one of each orbit.
-bool is_representative(const Triangle& triangle, std::size_t shared, const Size& size) {
+bool is_representative(const Corners& triangle, std::size_t shared, const Size& size) {
   std::array<std::size_t, 3> axes = {0, 1, 2};
   do {
     if (size[axes[0]] != size[0] || size[axes[1]] != size[1]) continue;
     for (unsigned reflections = 0; reflections < 8; ++reflections) {
-      Triangle image = triangle;
+      Corners image = triangle;
       for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
           const double x = triangle[i][axes[k]];
@@ -57,12 +57,12 @@ bool is_representative(const Triangle& triangle, std::size_t shared, const Size&
 }
 
 /// All triangles of lattice points that begin with the given corners; zero area and coinciding corners included.
-std::vector<Triangle> triangles(const std::vector<Point>& points, const Triangle& given, std::size_t given_count,
-                                std::size_t shared) {
-  std::vector<Triangle> found = {given};
+std::vector<Corners> triangles(const std::vector<Point>& points, const Corners& given, std::size_t given_count,
+                               std::size_t shared) {
+  std::vector<Corners> found = {given};
   for (std::size_t i = given_count; i < 3; ++i) {
-    std::vector<Triangle> longer;
-    for (Triangle triangle : found) {
+    std::vector<Corners> longer;
+    for (Corners triangle : found) {
       for (const Point& p : points) {
         triangle[i] = p;
         if (i == 0 || i == shared || !(p < triangle[i - 1])) longer.push_back(triangle);
@@ -89,7 +89,7 @@ std::set<std::string> expected_violations(OverlapKind kind, const std::array<boo
   return expected;
 }
 
-void examine(std::size_t shared, const Triangle& a, const Triangle& b, Enumeration& all) {
+void examine(std::size_t shared, const Corners& a, const Corners& b, Enumeration& all) {
   std::array<Face, 2> faces = {{{0, 1, 2}, {3, 4, 5}}};
   std::vector<Point> V(a.begin(), a.end());
   V.insert(V.end(), b.begin(), b.end());
@@ -117,9 +117,9 @@ void examine(std::size_t shared, const Triangle& a, const Triangle& b, Enumerati
 void enumerate(const Size& size, Enumeration& all) {
   const std::vector<Point> points = lattice(size);
   for (std::size_t shared = 0; shared <= 3; ++shared) {
-    for (const Triangle& a : triangles(points, {}, 0, shared)) {
+    for (const Corners& a : triangles(points, {}, 0, shared)) {
       if (!is_representative(a, shared, size)) continue;
-      for (const Triangle& b : triangles(points, a, shared, shared)) {
+      for (const Corners& b : triangles(points, a, shared, shared)) {
         ASSERT_NO_FATAL_FAILURE(examine(shared, a, b, all))
             << ::testing::PrintToString(a) << ::testing::PrintToString(b);
       }

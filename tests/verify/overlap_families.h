@@ -5,7 +5,7 @@
 
 #include "verify/exact_overlap.h"
 
-namespace selvage::verify::testing {
+namespace selvage::verify::testbed {
 
 struct TwoTriangles {
   std::array<std::int32_t, 3> face_a, face_b;
@@ -64,4 +64,4 @@ inline constexpr OverlapFamily kOverlapFamilies[] = {OverlapFamily::kAny,       
                                                      OverlapFamily::kFlatFirst, OverlapFamily::kFlatBoth,
                                                      OverlapFamily::kCollinear, OverlapFamily::kCoincident};
 
-}  // namespace selvage::verify::testing
+}  // namespace selvage::verify::testbed

@@ -13,13 +13,13 @@
 namespace selvage::verify {
 namespace {
 
-using testing::Draw;
-using testing::MotionCase;
+using testbed::Draw;
+using testbed::MotionCase;
 
 TEST(SecondOpinion, AgreesOnEveryClassAndOnTheirRelations) {
-  const testing::Agreement agreement = testing::compare_deciders(1, 60);
+  const testbed::Agreement agreement = testbed::compare_deciders(1, 60);
   for (const std::string& disagreement : agreement.disagreements) ADD_FAILURE() << disagreement;
-  for (const testing::ClassTally& tally : agreement.classes) {
+  for (const testbed::ClassTally& tally : agreement.classes) {
     // A class that never touches, or always does, compares nothing; nor does one that the filter decides.
     const std::int64_t queries = tally.drawn + tally.related;
     EXPECT_GE(tally.touches * 100, queries) << tally.name;
@@ -49,7 +49,7 @@ TEST(SecondOpinion, LeavesTheRoundingMode) {
   Draw draw(5);
   for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(mode);
-    const MotionCase motion = testing::lattice_families()[0].draw(draw, 2);
+    const MotionCase motion = testbed::lattice_families()[0].draw(draw, 2);
     const SecondOpinion second = second_opinion_vf(motion.x_t0, motion.x_t1);
     const int after = std::fegetround();
     std::fesetround(FE_TONEAREST);

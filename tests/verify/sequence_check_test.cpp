@@ -45,14 +45,14 @@ io::MeshData sheet_and_triangle(double height, double foot) {
 }
 io::MeshData sheet_and_triangle(double height) { return sheet_and_triangle(height, height); }
 
-SequenceReport check(const std::vector<io::MeshData>& frames, const SequenceOptions& options = {}) {
+SequenceReport check_frames(const std::vector<io::MeshData>& frames, const SequenceOptions& options = {}) {
   return check_sequence(Frames(frames), options);
 }
 
 }  // namespace
 
 TEST(SequenceCheck, CleanNeedsEveryFrameAndEveryMotion) {
-  const SequenceReport report = check({sheet(4), lifted(sheet(4), 0.5), lifted(sheet(4), 2)});
+  const SequenceReport report = check_frames({sheet(4), lifted(sheet(4), 0.5), lifted(sheet(4), 2)});
   EXPECT_EQ(report.verdict, Verdict::kClean);
   EXPECT_EQ(report.frames.checked, 3);
   EXPECT_EQ(report.frames_expected, 3);
@@ -67,7 +67,7 @@ TEST(SequenceCheck, CleanNeedsEveryFrameAndEveryMotion) {
 
 TEST(SequenceCheck, NamesTheFrameAndTheMotionThatAreViolated) {
   const SequenceReport motion =
-      check({sheet_and_triangle(2), sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(-4)});
+      check_frames({sheet_and_triangle(2), sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(-4)});
   EXPECT_EQ(motion.verdict, Verdict::kViolated);
   EXPECT_EQ(motion.frames.violated, 0);
   EXPECT_EQ(motion.motions.violated, 1);
@@ -75,8 +75,8 @@ TEST(SequenceCheck, NamesTheFrameAndTheMotionThatAreViolated) {
   EXPECT_EQ(motion.violations.front().frame, 1);
   EXPECT_TRUE(motion.violations.front().motion);
 
-  const SequenceReport frame =
-      check({sheet_and_triangle(2), sheet_and_triangle(3), sheet_and_triangle(3, -3)}, {{}, true, false, nullptr});
+  const SequenceReport frame = check_frames({sheet_and_triangle(2), sheet_and_triangle(3), sheet_and_triangle(3, -3)},
+                                            {{}, true, false, nullptr});
   EXPECT_EQ(frame.verdict, Verdict::kViolated);
   EXPECT_EQ(frame.frames.violated, 1);
   ASSERT_FALSE(frame.violations.empty());
@@ -85,22 +85,23 @@ TEST(SequenceCheck, NamesTheFrameAndTheMotionThatAreViolated) {
 }
 
 TEST(SequenceCheck, FramesAloneDoNotSeeWhatHappensBetween) {
-  const SequenceReport report = check({sheet_and_triangle(3), sheet_and_triangle(-3)}, {{}, true, false, nullptr});
+  const SequenceReport report =
+      check_frames({sheet_and_triangle(3), sheet_and_triangle(-3)}, {{}, true, false, nullptr});
   EXPECT_EQ(report.verdict, Verdict::kClean);
   EXPECT_EQ(report.motions_expected, 0);
 }
 
 TEST(SequenceCheck, NothingToCheckIsAnError) {
-  EXPECT_THROW(check({}), io::Error);
+  EXPECT_THROW(check_frames({}), io::Error);
   io::MeshData no_faces = sheet(3);
   no_faces.triangles.clear();
-  EXPECT_THROW(check({sheet(3), no_faces}), io::Error);
+  EXPECT_THROW(check_frames({sheet(3), no_faces}), io::Error);
 }
 
 TEST(SequenceCheck, ChangingFacesAreUnknownAndNamed) {
   io::MeshData other = sheet(4);
   std::swap(other.triangles[3], other.triangles[4]);
-  const SequenceReport report = check({sheet(4), other, other});
+  const SequenceReport report = check_frames({sheet(4), other, other});
   EXPECT_EQ(report.verdict, Verdict::kUnknown);
   EXPECT_EQ(report.frames.checked, 3);
   EXPECT_EQ(report.motions.checked, 1);
@@ -109,22 +110,22 @@ TEST(SequenceCheck, ChangingFacesAreUnknownAndNamed) {
 
   SequenceOptions frames_only;
   frames_only.motions = false;
-  const SequenceReport frames = check({sheet(4), sheet(4), other, other}, frames_only);
+  const SequenceReport frames = check_frames({sheet(4), sheet(4), other, other}, frames_only);
   EXPECT_EQ(frames.verdict, Verdict::kClean);
   EXPECT_EQ(first_surface_change(frames), 2);
   EXPECT_NE(text_report(frames, {}, 0).find("change, first at frame 2;"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(json_report(frames, {}))["surface"]["first_change"], 2);
-  EXPECT_EQ(first_surface_change(check({sheet(4), sheet(4)})), std::nullopt);
+  EXPECT_EQ(first_surface_change(check_frames({sheet(4), sheet(4)})), std::nullopt);
 
   io::MeshData more_vertices = sheet(4);
   testing::add_vertex(more_vertices, {9, 9, 9});
-  EXPECT_EQ(check({sheet(4), more_vertices}).verdict, Verdict::kUnknown);
+  EXPECT_EQ(check_frames({sheet(4), more_vertices}).verdict, Verdict::kUnknown);
 }
 
 TEST(SequenceCheck, AViolationOutweighsWhatWasNotChecked) {
   io::MeshData other = sheet_and_triangle(3, -3);
   std::swap(other.triangles[3], other.triangles[4]);
-  EXPECT_EQ(check({sheet(4), other}).verdict, Verdict::kViolated);
+  EXPECT_EQ(check_frames({sheet(4), other}).verdict, Verdict::kViolated);
 }
 
 TEST(SequenceCheck, StoppedIsUnknown) {
@@ -136,7 +137,7 @@ TEST(SequenceCheck, StoppedIsUnknown) {
       last_done = done;
       return done < stop;
     };
-    const SequenceReport report = check({sheet(4), sheet(4), sheet(4)}, options);
+    const SequenceReport report = check_frames({sheet(4), sheet(4), sheet(4)}, options);
     EXPECT_EQ(report.verdict, Verdict::kUnknown) << stop;
     EXPECT_EQ(report.frames.checked + report.motions.checked, static_cast<std::int64_t>(last_done));
     EXPECT_EQ(last_done, stop);
@@ -158,7 +159,7 @@ TEST(SequenceCheck, IsStoppedWithinAFrameThatCollapsed) {
       return true;
     };
     options.check.stop = [&] { return ++asked > asked_in_first + kFew && asked_in_first > 0; };
-    const SequenceReport report = check({sheet(40), collapsed}, options);
+    const SequenceReport report = check_frames({sheet(40), collapsed}, options);
     EXPECT_EQ(report.verdict, Verdict::kUnknown);
     EXPECT_EQ(report.frames.checked, 1);
     EXPECT_EQ(report.motions.checked, 0);
@@ -173,9 +174,9 @@ TEST(SequenceCheck, BodiesAloneAreUnknownUnlessAskedFor) {
   io::MeshData body = sheet(4);
   body.groups = {{"table", io::Group::Role::kBody, 0, 32}};
   SequenceOptions options;
-  EXPECT_EQ(check({body, body}, options).verdict, Verdict::kUnknown);
+  EXPECT_EQ(check_frames({body, body}, options).verdict, Verdict::kUnknown);
   options.check.check_bodies = true;
-  const SequenceReport report = check({body, body}, options);
+  const SequenceReport report = check_frames({body, body}, options);
   EXPECT_EQ(report.verdict, Verdict::kClean);
   EXPECT_EQ(report.body_faces, 32);
 }
@@ -185,7 +186,7 @@ TEST(SequenceCheck, AFaceHasOneRole) {
   io::MeshData mesh = sheet_and_triangle(3, -3);
   mesh.groups = {{"shirt", io::Group::Role::kCloth, 0, 51}, {"ball", io::Group::Role::kBody, 10, 51}};
   try {
-    (void)check({mesh});
+    (void)check_frames({mesh});
     FAIL() << "two roles";
   } catch (const io::Error& error) {
     EXPECT_EQ(error.kind(), io::ErrorKind::kBadInput);
@@ -194,11 +195,11 @@ TEST(SequenceCheck, AFaceHasOneRole) {
                  "both groups one role, or ranges that have no face in common");
   }
   mesh.groups[1].role = io::Group::Role::kCloth;
-  EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "groups of one role may overlap";
+  EXPECT_EQ(check_frames({mesh}).verdict, Verdict::kViolated) << "groups of one role may overlap";
   mesh.groups = {{"shirt", io::Group::Role::kCloth, 0, 10}, {"ball", io::Group::Role::kBody, 10, 50}};
-  EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "neighbours; the last face is in no group and cloth";
+  EXPECT_EQ(check_frames({mesh}).verdict, Verdict::kViolated) << "neighbours; the last face is in no group and cloth";
   mesh.groups[0].face_begin = mesh.groups[0].face_end = 20;
-  EXPECT_EQ(check({mesh}).verdict, Verdict::kViolated) << "a group without faces overlaps nothing";
+  EXPECT_EQ(check_frames({mesh}).verdict, Verdict::kViolated) << "a group without faces overlaps nothing";
 }
 
 // Where every pair was exempt nothing was examined, also not what exemptions leave owed.
@@ -208,11 +209,11 @@ TEST(SequenceCheck, AreasAreCheckedWhateverMayTouch) {
   for (io::MeshData* m : {&mesh, &flat}) m->groups = {{"a", io::Group::Role::kCloth, 0, 18}};
   SequenceOptions options;
   options.rules.exempt = {{"a", "a"}};
-  const SequenceReport fine = check({mesh, mesh}, options);
+  const SequenceReport fine = check_frames({mesh, mesh}, options);
   EXPECT_EQ(fine.verdict, Verdict::kUnknown) << "no pair was looked at";
   EXPECT_EQ(fine.unchecked.size(), 3U);
   EXPECT_EQ(fine.pairs.self, 2 * 18 + 3 * 18);
-  const SequenceReport report = check({mesh, flat}, options);
+  const SequenceReport report = check_frames({mesh, flat}, options);
   EXPECT_EQ(report.verdict, Verdict::kViolated);
   EXPECT_EQ(report.frames.violated, 1);
   EXPECT_EQ(report.motions.violated, 1);
@@ -226,7 +227,7 @@ TEST(SequenceCheck, FacesThatAllCollapseAreViolated) {
   mesh.triangles = {{0, 1, 2}};
   SequenceOptions options;
   options.weld = true;
-  const SequenceReport report = check({mesh, mesh}, options);
+  const SequenceReport report = check_frames({mesh, mesh}, options);
   EXPECT_EQ(report.verdict, Verdict::kViolated);
   EXPECT_EQ(report.frames.violated, 2);
   EXPECT_EQ(report.motions.violated, 1);
@@ -250,7 +251,7 @@ TEST(SequenceCheck, TheGapIsOfANearestPairOfAllFrames) {
     std::int64_t nearest;
   } cases[] = {{{one, less, least}, 2}, {{least, one, less}, 0}, {{one, less, one}, 1}, {{less, least, least}, 1}};
   for (const auto& [frames, nearest] : cases) {
-    const std::optional<Gap> gap = check(frames, options).gap;
+    const std::optional<Gap> gap = check_frames(frames, options).gap;
     ASSERT_TRUE(gap);
     EXPECT_EQ(gap->frame, nearest);
     EXPECT_EQ(gap->upper, 1);
@@ -261,7 +262,7 @@ TEST(SequenceCheck, TheGapIsOfANearestPairOfAllFrames) {
 TEST(SequenceCheck, UnreferencedVerticesAreCountedNotChecked) {
   io::MeshData mesh = sheet(4);
   testing::add_vertex(mesh, testing::point_on(mesh, 3, {1, 1, 2}));
-  const SequenceReport report = check({mesh, mesh});
+  const SequenceReport report = check_frames({mesh, mesh});
   EXPECT_EQ(report.verdict, Verdict::kClean);
   EXPECT_EQ(report.unreferenced_vertices, 1);
 }
@@ -269,8 +270,8 @@ TEST(SequenceCheck, UnreferencedVerticesAreCountedNotChecked) {
 TEST(SequenceCheck, ListIsCappedOverTheWholeSequence) {
   SequenceOptions options;
   options.check.max_violations = 4;
-  const SequenceReport report =
-      check({sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
+  const SequenceReport report = check_frames(
+      {sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
   EXPECT_EQ(report.violations.size(), 4U);
   EXPECT_GT(report.violations_total.total(), 4);
   EXPECT_EQ(report.motions.violated, 3);
@@ -293,7 +294,7 @@ TEST(Report, TheReplayCommandIsTypedAsItStands) {
 TEST(Report, TextAndJsonTellTheSame) {
   SequenceOptions options;
   options.check.max_violations = 2;
-  const SequenceReport report = check({sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
+  const SequenceReport report = check_frames({sheet_and_triangle(3), sheet_and_triangle(-3)}, options);
   const ReportContext context{"selvage test", {"a\xff.obj"}, {{0, "first"}, {1, "second"}}};
   const auto json = nlohmann::json::parse(json_report(report, context));
   EXPECT_EQ(json["schema"], "selvage.verify/1");

@@ -14,7 +14,7 @@
 namespace selvage::verify {
 namespace {
 
-using testing::Draw;
+using testbed::Draw;
 
 struct Complex {
   const char* name;
@@ -74,11 +74,11 @@ std::optional<int> instant_of(const ExactTime& t) {
   return numerator * (kInstants / denominator);
 }
 
-struct Tally {
+struct TheoremTally {
   long motions = 0, clean = 0, broken_at_an_instant = 0, self_only = 0, events_at_instants = 0;
 };
 
-void check_theorem(const Complex& complex, Draw& draw, int range, Tally& tally) {
+void check_theorem(const Complex& complex, Draw& draw, int range, TheoremTally& tally) {
   const std::vector<Point> first = draw_points(draw, complex.vertex_count, range);
   if (!is_embedded(complex, first)) return;
   std::vector<Point> last = first;  // some vertices stay
@@ -111,7 +111,7 @@ TEST(TheoremD, EmbeddedForAllTimesIffNoEvent) {
   long self_only = 0;
   for (const Complex& complex : complexes()) {
     SCOPED_TRACE(complex.name);
-    Tally tally;
+    TheoremTally tally;
     for (int i = 0; i < 400 && !::testing::Test::HasFailure(); ++i) {
       SCOPED_TRACE(i);
       check_theorem(complex, draw, 1 + i % 3, tally);

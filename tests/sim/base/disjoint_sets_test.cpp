@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 TEST(DisjointSets, AreNamedByTheirSmallestElementWhateverTheOrderOfJoins) {
   // Against labels that are painted over: each join makes one label of two.
@@ -24,4 +24,4 @@ TEST(DisjointSets, AreNamedByTheirSmallestElementWhateverTheOrderOfJoins) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 TEST(LaneVectors, WholeBlocksCanBeReadAroundAnyNumberOfRows) {
   for (const Eigen::Index rows : {0, 1, 8, 9}) {
@@ -19,4 +19,4 @@ TEST(LaneVectors, WholeBlocksCanBeReadAroundAnyNumberOfRows) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -8,7 +8,7 @@
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 /// Of any orientation.
@@ -52,4 +52,4 @@ TEST(PseudoInverse, OfZeroIsZero) {
   EXPECT_EQ(pseudo_inverse(Eigen::Matrix3d::Zero()), Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

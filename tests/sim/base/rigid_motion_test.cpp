@@ -6,7 +6,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/response/response_properties.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 using selvage::testing::check_property;
@@ -14,20 +14,20 @@ using selvage::testing::check_property;
 }  // namespace
 
 TEST(MomentumMotion, KeepsDistancesMomentumAndNeverAddsEnergy) {
-  for (const Shape shape : {Shape::kSpread, Shape::kLine, Shape::kPoint}) {
+  for (const ZoneShape shape : {ZoneShape::kSpread, ZoneShape::kLine, ZoneShape::kPoint}) {
     check_property(200, 41, [&] { prop_zone_keeps_distances_and_momentum(shape); });
   }
 }
 
 TEST(MomentumMotion, InstantaneousVelocityKeepsAngularMomentum) {
-  for (const Shape shape : {Shape::kSpread, Shape::kLine, Shape::kPoint}) {
+  for (const ZoneShape shape : {ZoneShape::kSpread, ZoneShape::kLine, ZoneShape::kPoint}) {
     check_property(200, 42, [&] { prop_zone_keeps_angular_momentum(shape); });
   }
 }
 
 TEST(MomentumMotion, TurnsARigidlyTurningZoneByItsOwnAngle) {
   check_property(200, 43, [] {
-    Nodes nodes = random_nodes(Shape::kSpread, 1);
+    Nodes nodes = random_nodes(ZoneShape::kSpread, 1);
     const Vec3 omega = vector_within(0.8);
     RC_PRE(nodes.x.size() >= 4U && omega.norm() > 1e-3);
     Vec3 center = Vec3::Zero();
@@ -55,7 +55,7 @@ TEST(MomentumMotion, TurnsARigidlyTurningZoneByItsOwnAngle) {
 
 TEST(MomentumMotion, TurnsByNoMoreThan120Degrees) {
   check_property(100, 44, [] {
-    const Nodes nodes = random_nodes(Shape::kSpread, std::exp2(number_between(0, 990)));
+    const Nodes nodes = random_nodes(ZoneShape::kSpread, std::exp2(number_between(0, 990)));
     const RigidMotion rigid = momentum_motion(nodes.x, nodes.displacement, nodes.inverse_mass);
     const double cosine = (rigid.turn.trace() + 2) / 2;  // trace(R) = 1 + 2 cos
     RC_ASSERT(cosine >= std::cos(kMaxZoneAngle) - 1e-12);
@@ -65,7 +65,7 @@ TEST(MomentumMotion, TurnsByNoMoreThan120Degrees) {
 
 TEST(BestFitMotion, FindsARigidScript) {
   check_property(200, 45, [] {
-    Nodes nodes = random_nodes(Shape::kSpread, 1);
+    Nodes nodes = random_nodes(ZoneShape::kSpread, 1);
     RC_PRE(nodes.x.size() >= 3U);
     const Vec3 axis = vector_within(1);
     RC_PRE(axis.norm() > 0.1);
@@ -89,7 +89,7 @@ TEST(BestFitMotion, FindsARigidScript) {
 
 TEST(BestFitMotion, TurnsNoMoreThanThePointsAskFor) {
   check_property(100, 46, [] {
-    const Nodes nodes = random_nodes(*rc::gen::element(Shape::kLine, Shape::kPoint), 1);
+    const Nodes nodes = random_nodes(*rc::gen::element(ZoneShape::kLine, ZoneShape::kPoint), 1);
     const Vec3 shift = vector_within(1);
     std::vector<Vec3> end;
     for (const Vec3& x : nodes.x) end.emplace_back(x + shift);
@@ -99,4 +99,4 @@ TEST(BestFitMotion, TurnsNoMoreThanThePointsAskFor) {
   EXPECT_EQ(best_fit_motion(still, still).turn.norm(), 0);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -17,7 +17,7 @@
 namespace selvage::sim {
 namespace {
 
-constexpr int kFrames = 13;  // 12 a second
+constexpr int kBodyFrames = 13;  // 12 a second
 constexpr double kFrame_s = 1.0 / 12;
 
 /// A ball that rises, swells and leans over: no rigid motion.
@@ -41,7 +41,7 @@ class BodySequenceTest : public ::testing::Test {
   void spit(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
   [[nodiscard]] std::filesystem::path scene_file() const { return folder_.path() / "scene.toml"; }
   void write_frames() const {
-    for (int i = 0; i < kFrames; ++i) spit("ball_" + std::to_string(i) + ".obj", obj(ball(i * kFrame_s)));
+    for (int i = 0; i < kBodyFrames; ++i) spit("ball_" + std::to_string(i) + ".obj", obj(ball(i * kFrame_s)));
   }
   [[nodiscard]] SequenceSpec spec() const {
     return {.file = "ball_*.obj", .base = {}, .scale = 1, .frames_per_s = 12, .start_s = 0, .line = 7};
@@ -87,11 +87,11 @@ TEST_F(BodySequenceTest, IsAtItsFramesToTheBitAndStraightBetweenThem) {
   moved.start_s = 0.5;
   moved.scale = 0.5;
   const BodySequence sequence(moved, scene_file());
-  ASSERT_EQ(sequence.frame_count(), kFrames);
+  ASSERT_EQ(sequence.frame_count(), kBodyFrames);
   const auto frame = [](int i) { return Positions(0.5 * ball(i * kFrame_s)); };
   EXPECT_EQ(sequence.at(-1), frame(0)) << "stands still before the first frame";
-  EXPECT_EQ(sequence.at(100), frame(kFrames - 1)) << "and after the last";
-  for (const int i : {0, 7, 3, kFrames - 1}) EXPECT_EQ(sequence.at(0.5 + i / 12.0), frame(i)) << i;
+  EXPECT_EQ(sequence.at(100), frame(kBodyFrames - 1)) << "and after the last";
+  for (const int i : {0, 7, 3, kBodyFrames - 1}) EXPECT_EQ(sequence.at(0.5 + i / 12.0), frame(i)) << i;
   const Positions between = sequence.at(0.5 + 3.25 / 12);
   EXPECT_LT((between - (0.75 * frame(3) + 0.25 * frame(4))).cwiseAbs().maxCoeff(), 1e-15);
 }

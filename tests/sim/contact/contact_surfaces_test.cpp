@@ -9,7 +9,7 @@
 #include "tests/sim/step_scene.h"
 #include "verify/distance_check.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 std::int32_t surface_of(const StepScene& scene, VertexId v) {
@@ -26,9 +26,9 @@ StepScene::Part add(StepScene& scene, const ContactProperties& properties, const
   return part;
 }
 
-class Noise {
+class Dice {
  public:
-  explicit Noise(std::uint32_t seed) : engine_(seed) {}
+  explicit Dice(std::uint32_t seed) : engine_(seed) {}
   double between(double lower, double upper) { return lower + (upper - lower) * (double(engine_()) * 0x1p-32); }
   bool one_in(std::uint32_t n) { return engine_() % n == 0; }
 
@@ -38,7 +38,7 @@ class Noise {
 
 /// Crumpled layers over a body, thrown together: pairs of all kinds end near each other. Every part is a surface.
 StepScene random_stack(std::uint32_t seed) {
-  Noise noise(seed);
+  Dice noise(seed);
   StepScene scene;
   scene.options.impulse_iterations = static_cast<std::int32_t>(noise.between(0, 8));
   const double gap_m = std::exp2(noise.between(-14, -8));
@@ -93,7 +93,7 @@ TEST(ContactProperties, OfAPairAreTheMeanTheLargerAndTheGeometricMean) {
 }
 
 TEST(ContactProperties, CombineSymmetricallyStayInRangeAndKeepWhatIsEqual) {
-  Noise noise(1);
+  Dice noise(1);
   for (int n = 0; n < 10000; ++n) {
     const auto draw = [&] {
       const double friction = std::exp2(noise.between(-40, 4));
@@ -320,4 +320,4 @@ TEST(RestPairs, KeepASheetThatIsThickerThanItsEdgesAsItIs) {
   EXPECT_NEAR(scene.step().x.bottomRows(4).col(2).mean(), 0.025, 5e-4);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -10,7 +10,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 using selvage::testing::check_property;
@@ -39,7 +39,7 @@ Pair make_pair(const Mesh& mesh, const PairProximity& pair) {
   return {pair.kind, feature_of(mesh.edges[i]), feature_of(mesh.edges[j]), pair.proximity};
 }
 
-constexpr double kSpacing = 0x1p-3, kThickness = kSpacing / 2;
+constexpr double kSpacing = 0x1p-3, kLayerThickness = kSpacing / 2;
 
 /// Which of the header's rules leaves a pair out.
 enum Rule : std::size_t { kByFace, kByEdge, kByEnd, kByParallelEnd, kRuleCount };
@@ -65,7 +65,7 @@ void hold_vf_against(const Pair& pair, const Pair& other, const Positions& V, Ru
     const auto& w = other.proximity.weights;
     const VertexId vertex = pair.first.front();
     const bool stands_higher = cosine > 0.9 && pair.proximity.distance * cosine > (1 + 1e-6) * other.proximity.distance;
-    const double longest_along = stands_higher ? kThickness : std::numeric_limits<double>::infinity();
+    const double longest_along = stands_higher ? kLayerThickness : std::numeric_limits<double>::infinity();
     rules[kByEdge] |= covers && distance_along(other.first, w[0], w[1], vertex, V) <= longest_along;
     rules[kByEdge] |= covers_swapped && distance_along(other.second, w[2], w[3], vertex, V) <= longest_along;
   }
@@ -186,7 +186,8 @@ TEST(LocalProximities, prop_are_those_of_the_plain_reading) {
       if (count != 1) continue;
       ++by_one_rule_alone[static_cast<std::size_t>(std::ranges::find(rules[i], true) - rules[i].begin())];
     }
-    for (const PairProximity& pair : local_proximities(mesh, scene.V_t0, all, kThickness)) local.push_back(name(pair));
+    for (const PairProximity& pair : local_proximities(mesh, scene.V_t0, all, kLayerThickness))
+      local.push_back(name(pair));
     kept += std::ssize(local);
     RC_ASSERT(local == expected);
   });
@@ -196,4 +197,4 @@ TEST(LocalProximities, prop_are_those_of_the_plain_reading) {
 }
 
 }  // namespace
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -6,7 +6,7 @@
 
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 constexpr double kThickness = 0.025, kReach = 2 * kThickness;
@@ -103,4 +103,4 @@ TEST(LocalProximities, KeepsTheNearestPairAndWhatIsInsideAFace) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

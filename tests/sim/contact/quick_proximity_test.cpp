@@ -7,7 +7,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/vector_units.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 /// Lattice points tie, coincide, and make features of no size.
@@ -106,4 +106,4 @@ TEST(QuickProximity, PropOnePairAndManyHaveTheSameBitsOnEveryVectorUnit) {
   });
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -12,7 +12,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 using Name = std::tuple<PairKind, std::int32_t, std::int32_t>;
@@ -166,4 +166,4 @@ TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
   EXPECT_TRUE(near.find(lifted + (scene.V_candidate - scene.V_t0)).empty());
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

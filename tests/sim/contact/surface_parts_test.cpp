@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 TEST(SurfaceParts, PinnedClothIsClothAndABodyIsNot) {
   // Faces 0-1-2 and 1-2-3 are cloth with 1, 2, 3 pinned by body 0; 4-5-6 is body 0; 7-8-9 has no mass and no body.
@@ -39,4 +39,4 @@ TEST(SurfaceParts, AreConnectedWhateverTheOrderOfEdges) {
   EXPECT_EQ(flags, std::vector<std::uint8_t>(kCount, 1));
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

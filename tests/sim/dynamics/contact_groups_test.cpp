@@ -13,7 +13,7 @@
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 constexpr VertexId kVertexCount = 3000;
@@ -268,4 +268,4 @@ TEST(ContactGroups, TakeAnyPlaces) {
 }
 
 }  // namespace
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -10,10 +10,10 @@
 #include "tests/sim/mechanics.h"
 #include "tests/vector_units.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
-constexpr double kThickness = 0.25, kStep = 0.125;
+constexpr double kPackThickness = 0.25, kPackStep = 0.125;
 constexpr Lanes kAll = 0xff;
 
 /// Eight pairs of one kind, of whose vertices some are not cloth and some lie on a line.
@@ -36,14 +36,14 @@ struct EightPairs {
       if (integer_in(0, 8) == 0) {
         for (Vec3& x : pair.x_t0) x = x.z() * Vec3(1, 2, 3);
       }
-      const bool is_of_kind = contact_of(pair, kThickness).kind == kind;
+      const bool is_of_kind = contact_of(pair, kPackThickness).kind == kind;
       if (is_of_kind && effective_mobility(pair.interaction) > 0) return pair;
     }
   }
 
   void add(std::size_t lane) {
     const RandomPair pair = pair_of_kind();
-    const RepulsionContact contact = contact_of(pair, kThickness);
+    const RepulsionContact contact = contact_of(pair, kPackThickness);
     for (std::size_t i = 0; i < 4; ++i) {
       const auto row = static_cast<std::int32_t>(4 * lane + i);
       const bool is_cloth = pair.inverse_mass[i] > 0;
@@ -51,7 +51,7 @@ struct EightPairs {
       pack.weights[i][lane] = pair.interaction.weights[i];
       pack.mobility[i][lane] = pair.interaction.mobility[i];
       x_t1.row(row) = pair.x_t0[i] + pair.displacement[i];
-      v.row(row) = pair.displacement[i] / kStep;
+      v.row(row) = pair.displacement[i] / kPackStep;
       scripted_x.row(row) = pair.x_t0[i];
       scripted_way.row(row) = pair.displacement[i];
     }
@@ -60,14 +60,14 @@ struct EightPairs {
       pack.normal[k][lane] = contact.normal[axis];
       pack.friction_m_s2[k][lane] = number_between(-20, 20);
     }
-    pack.thickness_m[lane] = kThickness;
+    pack.thickness_m[lane] = kPackThickness;
     pack.friction_static[lane] = friction_static;
     pack.friction_kinetic[lane] = friction_kinetic;
     pack.load_m_s2[lane] = integer_in(0, 2) == 0 ? number_between(0, 40) : 0;
     pairs.push_back(pair);
   }
 
-  ContactMotion motion() { return {x_t1, v, scripted_x, scripted_way, kStep, 0, 1, creep_m}; }
+  ContactMotion motion() { return {x_t1, v, scripted_x, scripted_way, kPackStep, 0, 1, creep_m}; }
 
   /// A step of the dynamics, of those given.
   void step(Lanes lanes) {
@@ -83,7 +83,7 @@ struct EightPairs {
     read_motion(pack, lanes, motion(), read);
     const Lanes pressed = take_nearest(nearest, newly_pressed(pack, read, lanes), pack);
     press(read, (lanes & loaded) | pressed, 1, true, pack, motion());
-    learn_loads(0.5, kStep, pack);
+    learn_loads(0.5, kPackStep, pack);
   }
 };
 
@@ -145,9 +145,9 @@ TEST(ContactPack, PropPressesAndRubsAsOnePairDoes) {
     press(read, kAll, 1, true, eight.pack, eight.motion());
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const RandomPair& pair = eight.pairs[lane];
-      const RepulsionContact contact = contact_of(pair, kThickness);
+      const RepulsionContact contact = contact_of(pair, kPackThickness);
       const double displacement = relative(pair.interaction, pair.displacement).dot(contact.normal);
-      const double missing = std::min(kThickness - contact.distance - displacement, -displacement);
+      const double missing = std::min(kPackThickness - contact.distance - displacement, -displacement);
       PairVectors expected = pair.displacement;
       if (missing > 0) {
         FrictionLoad load;
@@ -161,7 +161,7 @@ TEST(ContactPack, PropPressesAndRubsAsOnePairDoes) {
       for (std::size_t i = 0; i < 4; ++i) {
         if (pair.inverse_mass[i] == 0) continue;
         const auto row = static_cast<Eigen::Index>(4 * lane + i);
-        RC_ASSERT((kStep * eight.v.row(row).transpose() - expected[i]).norm() <= 1e-9);
+        RC_ASSERT((kPackStep * eight.v.row(row).transpose() - expected[i]).norm() <= 1e-9);
         RC_ASSERT((eight.x_t1.row(row).transpose() - pair.x_t0[i] - expected[i]).norm() <= 1e-9);
       }
     }
@@ -187,21 +187,21 @@ struct OnePair {
       x_t1.row(row) = x[i];
     }
     pack.normal[2][kLane] = 1;
-    pack.load_m_s2[kLane] = pressed / (kStep * kStep);
+    pack.load_m_s2[kLane] = pressed / (kPackStep * kPackStep);
   }
   void set_friction(double most, const Vec3& friction_m) {
     pack.friction_static[kLane] = pack.friction_kinetic[kLane] = most;
     for (std::size_t k = 0; k < 3; ++k) {
-      pack.friction_m_s2[k][kLane] = friction_m[static_cast<Eigen::Index>(k)] / (kStep * kStep);
+      pack.friction_m_s2[k][kLane] = friction_m[static_cast<Eigen::Index>(k)] / (kPackStep * kPackStep);
     }
   }
   PackMotion read() {
     PackMotion result;
-    read_motion(pack, only_lane(kLane), {x_t1, v, none, none, kStep, 0, 1}, result);
+    read_motion(pack, only_lane(kLane), {x_t1, v, none, none, kPackStep, 0, 1}, result);
     return result;
   }
-  void bear() { bear_loads(read(), only_lane(kLane), pack, {x_t1, v, none, none, kStep, 0, 1}); }
-  [[nodiscard]] Vec3 moved(std::size_t i) const { return kStep * v.row(static_cast<Eigen::Index>(i)).transpose(); }
+  void bear() { bear_loads(read(), only_lane(kLane), pack, {x_t1, v, none, none, kPackStep, 0, 1}); }
+  [[nodiscard]] Vec3 moved(std::size_t i) const { return kPackStep * v.row(static_cast<Eigen::Index>(i)).transpose(); }
   [[nodiscard]] Vec3 rubbed() const { return {pack.rubbed[0][kLane], pack.rubbed[1][kLane], pack.rubbed[2][kLane]}; }
 };
 
@@ -255,10 +255,11 @@ TEST(ContactPack, PropFrictionAddsNoEnergy) {
     one.pack.thickness_m[OnePair::kLane] = relative(pair.interaction, pair.x_t0).z();
     for (std::size_t i = 0; i < 4; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      one.v.row(row) = level[i] / kStep;
+      one.v.row(row) = level[i] / kPackStep;
       one.x_t1.row(row) = pair.x_t0[i] + level[i];
     }
-    press(one.read(), only_lane(OnePair::kLane), 1, true, one.pack, {one.x_t1, one.v, one.none, one.none, kStep, 0, 1});
+    press(one.read(), only_lane(OnePair::kLane), 1, true, one.pack,
+          {one.x_t1, one.v, one.none, one.none, kPackStep, 0, 1});
     if (one.rubbed() == Vec3::Zero()) return;
     ++rubbed;
     const auto& mobility = pair.interaction.mobility;
@@ -273,4 +274,4 @@ TEST(ContactPack, PropFrictionAddsNoEnergy) {
   EXPECT_GT(rubbed, 500);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

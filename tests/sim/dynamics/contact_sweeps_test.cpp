@@ -4,7 +4,7 @@
 
 #include "tests/sim/dynamics/held_contact_scenes.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 /// Faces that touch nowhere, each of one mass, and contacts among them.
@@ -125,4 +125,4 @@ TEST(ContactSweeps, OneClothIsAlikeHoweverItsMassIsSharedOut) {
 }
 
 }  // namespace
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -6,9 +6,9 @@
 #include "sim/dynamics/held_contacts.h"
 #include "tests/sim/mechanics.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
-inline constexpr double kThickness = 0.25, kStep = 0.125;
+inline constexpr double kHeldThickness = 0.25, kHeldStep = 0.125;
 
 /// What contacts are on: `faces` over all vertices, of which those with mass come first.
 struct Ground {
@@ -24,7 +24,7 @@ struct Ground {
         inverse_mass(std::move(inverse_masses)) {}
   static CollisionOptions options() {
     CollisionOptions options;
-    options.thickness_m = kThickness;
+    options.thickness_m = kHeldThickness;
     return options;
   }
   [[nodiscard]] HeldSurface surface(Eigen::Index cloth_count) const {
@@ -51,7 +51,7 @@ struct OneContact {
   OneContact(const RandomPair& pair, Eigen::Index cloth_vertices) : V_t0(4, 3), cloth_count(cloth_vertices) {
     for (Eigen::Index i = 0; i < 4; ++i) V_t0.row(i) = pair.x_t0[static_cast<std::size_t>(i)];
     V_t1 = V_t0;
-    contact = contact_of(pair, kThickness);
+    contact = contact_of(pair, kHeldThickness);
     x.copy(V_t0.topRows(cloth_count));
     v.resize(cloth_count);
     for (Eigen::Index i = 0; i < cloth_count; ++i) v.row(i) = pair.displacement[static_cast<std::size_t>(i)];
@@ -59,13 +59,13 @@ struct OneContact {
 
   /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with.
   RepulsionCount step(double load_m_s2 = 0, int sweeps = 1, const Vec3& friction_m_s2 = Vec3::Zero()) {
-    for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kStep * v.row(i);
+    for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kHeldStep * v.row(i);
     const std::vector<RepulsionContact> contacts{contact};
     const Ground ground = one_face();
     const ContactLoad load{
         contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
-    HeldContacts held(contacts, {load}, ground.surface(cloth_count), V_t0, V_t1, kStep, sweeps);
-    act(held, {kStep, 1, x, v});
+    HeldContacts held(contacts, {load}, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
+    act(held, {kHeldStep, 1, x, v});
     loads = held.loads();
     return held.count();
   }
@@ -90,14 +90,14 @@ inline Vec3 friction_of(const ContactLoad& load) { return Vec3(load.friction_m_s
 /// One step of the dynamics in which the first vertex moves at v, m/s.
 inline void move_and_hold(OneContact& one, HeldContacts& held, const Eigen::RowVector3d& v, double share) {
   one.v.row(0) = v;
-  one.x.row(0) += kStep * v;
-  act(held, {kStep, share, one.x, one.v});
+  one.x.row(0) += kHeldStep * v;
+  act(held, {kHeldStep, share, one.x, one.v});
 }
 
 /// A vertex a thickness above the middle of a face of a body, which moves by `moved` within the step.
 inline OneContact vertex_over_body(const Vec3& velocity, const Vec3& moved = Vec3::Zero()) {
   RandomPair pair;
-  pair.x_t0 = {Vec3(0, 0, kThickness), Vec3(-2, -2, 0), Vec3(2, -2, 0), Vec3(0, 4, 0)};
+  pair.x_t0 = {Vec3(0, 0, kHeldThickness), Vec3(-2, -2, 0), Vec3(2, -2, 0), Vec3(0, 4, 0)};
   pair.displacement = {velocity, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   pair.interaction =
       make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, std::array<double, 4>{1, 0, 0, 0});
@@ -108,4 +108,4 @@ inline OneContact vertex_over_body(const Vec3& velocity, const Vec3& moved = Vec
   return one;
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -3,18 +3,18 @@
 
 #include "tests/sim/dynamics/held_contact_scenes.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
   // The body's vertex has come to be over a held corner of the face; the contact was that of the middle.
   Positions V(4, 3);
-  V << 0, 2, 0, -2, 0, 0, 2, 0, 0, 2, 0, kThickness / 2;
+  V << 0, 2, 0, -2, 0, 0, 2, 0, 0, 2, 0, kHeldThickness / 2;
   RepulsionContact contact;
   contact.interaction =
       make_interaction(PairKind::kVf, {3, 0, 1, 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, std::array<double, 4>{1, 0, 0, 0});
   contact.x_t0 = gather(contact.interaction, V);
   contact.normal = Vec3::UnitZ();
-  contact.properties.thickness_m = kThickness;
+  contact.properties.thickness_m = kHeldThickness;
   const Ground ground(Faces{{0, 1, 2}}, {1, 0, 0, 0});
   for (const double load_m_s2 : {0.0, 5.0}) {
     LaneVectors x, v;
@@ -22,9 +22,9 @@ TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
     v.resize(3);
     v.set_zero();
     v.row(0) = Eigen::RowVector3d(0, 0, 1);
-    x.row(0) += kStep * v.row(0);
-    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(3), V, V, kStep, 1);
-    act(held, {kStep, 1, x, v});
+    x.row(0) += kHeldStep * v.row(0);
+    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(3), V, V, kHeldStep, 1);
+    act(held, {kHeldStep, 1, x, v});
     EXPECT_EQ(Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(0, 0, 1));
     EXPECT_EQ(held.count().repulsions, 0);
   }
@@ -32,21 +32,21 @@ TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
 
 TEST(HeldContacts, AreGivenOnAsTheyWereLastLookedAt) {
   // It slides over the border of the face at y = -2, and is pressed there: along the line to the border.
-  OneContact one = vertex_over_body({0, -2.1 / kStep, 0});
+  OneContact one = vertex_over_body({0, -2.1 / kHeldStep, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
   const Ground ground = one_face();
-  HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kStep, 1);
+  HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
   EXPECT_EQ(held.contacts().front().normal, one.contact.normal);
-  one.x.row(0) += kStep * one.v.row(0);
-  act(held, {kStep, 0.5, one.x, one.v});
+  one.x.row(0) += kHeldStep * one.v.row(0);
+  act(held, {kHeldStep, 0.5, one.x, one.v});
   one.v.row(0) = Eigen::RowVector3d(0, 0, -1);
-  one.x.row(0) += kStep * one.v.row(0);
-  act(held, {kStep, 1, one.x, one.v});
+  one.x.row(0) += kHeldStep * one.v.row(0);
+  act(held, {kHeldStep, 1, one.x, one.v});
   const RepulsionContact now = held.contacts().front();
-  EXPECT_LT((now.normal - Vec3(0, -0.1, kThickness).normalized()).norm(), 1e-12);
-  EXPECT_NEAR(now.distance, (Vec3(0, 0, kThickness) - Vec3(0, -2, 0)).dot(now.normal), 1e-12);
+  EXPECT_LT((now.normal - Vec3(0, -0.1, kHeldThickness).normalized()).norm(), 1e-12);
+  EXPECT_NEAR(now.distance, (Vec3(0, 0, kHeldThickness) - Vec3(0, -2, 0)).dot(now.normal), 1e-12);
   const Vec3 moved = one.x.row(0) - one.V_t0.row(0);
-  EXPECT_GE(now.distance + moved.dot(now.normal), kThickness - 1e-12);
+  EXPECT_GE(now.distance + moved.dot(now.normal), kHeldThickness - 1e-12);
 }
 
 /// A vertex, and a flat body of two faces that meet at y = -2: the first as in vertex_over_body().
@@ -68,20 +68,20 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
     TwoFaces scene;
     OneContact& one = scene.one;
     const std::vector<RepulsionContact> contacts{one.contact};
-    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, 3 * kStep, 1);
-    move_and_hold(one, held, {to_x / kStep, -2.5 / kStep, 0}, 1.0 / 3);
+    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, 3 * kHeldStep, 1);
+    move_and_hold(one, held, {to_x / kHeldStep, -2.5 / kHeldStep, 0}, 1.0 / 3);
     for (const double share : {2.0 / 3, 1.0}) move_and_hold(one, held, {0, 0, -0.5}, share);
     if (to_x == -2.5) {  // beside both faces: 0.6 m to the border, nothing holds it
       EXPECT_EQ(held.count().repulsions, 0);
       continue;
     }
     EXPECT_EQ(held.count().repulsions, 1);
-    EXPECT_NEAR(one.x.row(0).z(), kThickness, 1e-15);
+    EXPECT_NEAR(one.x.row(0).z(), kHeldThickness, 1e-15);
     const RepulsionContact now = held.contacts().front();
     EXPECT_EQ(now.second, 1);
     EXPECT_EQ(now.second_t0, 0) << "the pair that was met";
     EXPECT_EQ(now.interaction.vertices, (std::array<VertexId, 4>{0, 2, 1, 4}));
-    EXPECT_NEAR(now.distance, kThickness, 1e-15);
+    EXPECT_NEAR(now.distance, kHeldThickness, 1e-15);
     ASSERT_EQ(held.loads().size(), 1U);
     EXPECT_EQ(held.loads()[0].face, 1);
   }
@@ -96,7 +96,7 @@ TEST(HeldContacts, WhatHasPassedThroughBesideTheBorderIsHeldAsItWas) {
     scene.V.row(0) = Eigen::RowVector3d(0, y, -0.1);
     one.x.row(0) = scene.V.row(0);
     const std::vector<RepulsionContact> contacts{one.contact};
-    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kStep, 1);
+    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
     move_and_hold(one, held, {0, 0, -1}, 1);
     EXPECT_EQ(one.v.row(0), Eigen::RowVector3d(0, 0, 0));
     EXPECT_EQ(held.contacts().front().normal, Vec3::UnitZ());
@@ -114,16 +114,16 @@ TEST(HeldContacts, DoNotGoOnToAFaceThatCannotMove) {
   contact.first = 4;
   contact.interaction = make_interaction(PairKind::kVf, {4, 0, 1, 2}, {1, 0.3, 0.35, 0.35}, ground.inverse_mass);
   contact.normal = Vec3::UnitZ();
-  contact.properties.thickness_m = kThickness;
+  contact.properties.thickness_m = kHeldThickness;
   LaneVectors x, v;
   x.copy(V.topRows(4));
   v.resize(4);
   v.set_zero();
   constexpr int kSteps = 6;
-  HeldContacts held({contact}, {}, ground.surface(4), V, V_t1, kSteps * kStep, 1);
+  HeldContacts held({contact}, {}, ground.surface(4), V, V_t1, kSteps * kHeldStep, 1);
   for (int step = 1; step <= kSteps; ++step) {
-    for (Eigen::Index i = 0; i < 4; ++i) x.row(i) += kStep * v.row(i);
-    act(held, {kStep, double(step) / kSteps, x, v});
+    for (Eigen::Index i = 0; i < 4; ++i) x.row(i) += kHeldStep * v.row(i);
+    act(held, {kHeldStep, double(step) / kSteps, x, v});
     for (Eigen::Index i = 1; i < 4; ++i) EXPECT_EQ(x.row(i), V.row(i)) << step;
     EXPECT_TRUE(x.row(0).allFinite()) << step;
     EXPECT_GT(held.contacts().front().mobility, 0) << step;
@@ -143,7 +143,7 @@ TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
     contact.interaction =
         make_interaction(PairKind::kVf, {vertex, f[0], f[1], f[2]}, {1, 0.2, 0.4, 0.4}, ground.inverse_mass);
     contact.normal = Vec3::UnitZ();
-    contact.properties.thickness_m = kThickness;
+    contact.properties.thickness_m = kHeldThickness;
     return contact;
   };
   const RepulsionContact first = contact_on(0, 0, {2, 4, 3}), second = contact_on(1, 2, {5, 7, 6});
@@ -155,12 +155,12 @@ TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
     v.set_zero();
     for (const VertexId i : {0, 1}) {
       v.row(i).z() = -0.5;
-      x.row(i) += kStep * v.row(i);
+      x.row(i) += kHeldStep * v.row(i);
     }
     std::int64_t repulsions = 0;
     for (const std::vector<RepulsionContact>& contacts : one_after_the_other) {
-      HeldContacts held(contacts, {}, ground.surface(8), V, V, 2 * kStep, 1);
-      act(held, {kStep, 1, x, v});
+      HeldContacts held(contacts, {}, ground.surface(8), V, V, 2 * kHeldStep, 1);
+      act(held, {kHeldStep, 1, x, v});
       repulsions += held.count().repulsions;
     }
     EXPECT_EQ(repulsions, 2);
@@ -177,7 +177,7 @@ TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
   constexpr double kLoad = 7;
   TwoFaces scene;
   const auto learnt = [&](const std::vector<ContactLoad>& loads) {
-    HeldContacts held({scene.one.contact}, loads, scene.ground.surface(1), scene.V, scene.V, kStep, 1);
+    HeldContacts held({scene.one.contact}, loads, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
     const std::vector<ContactLoad> begun = held.loads();
     return begun.empty() ? 0 : begun.front().acceleration_m_s2;
   };
@@ -193,8 +193,8 @@ TEST(HeldContacts, DoNotGoOnToAFaceThatHoldsTheVertex) {
   OneContact one = vertex_over_body(Vec3::Zero());
   const Ground ground(Faces{{1, 2, 3}, {2, 1, 0}}, {1, 0, 0, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
-  HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kStep, 1);
-  move_and_hold(one, held, {0, -2.1 / kStep, 0}, 0.5);
+  HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
+  move_and_hold(one, held, {0, -2.1 / kHeldStep, 0}, 0.5);
   move_and_hold(one, held, {0, 0, -0.5}, 1);
   EXPECT_EQ(held.contacts().front().second, 0);
 }
@@ -204,11 +204,11 @@ TEST(HeldContacts, TakeTheSideOnWhichFarFeaturesAre) {
   // passed through, and may not go farther.
   for (const double thicknesses : {10.0, 0.5}) {
     OneContact one = vertex_over_body(Vec3::Zero());
-    one.x.row(0).z() = one.V_t0(0, 2) = thicknesses * kThickness;
+    one.x.row(0).z() = one.V_t0(0, 2) = thicknesses * kHeldThickness;
     one.contact.normal = -Vec3::UnitZ();
     const std::vector<RepulsionContact> contacts{one.contact};
     const Ground ground = one_face();
-    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, kStep, 1);
+    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, kHeldStep, 1);
     move_and_hold(one, held, {0, 0, 1}, 1);
     EXPECT_EQ(one.v.row(0), Eigen::RowVector3d(0, 0, thicknesses > 1 ? 1 : 0));
     EXPECT_EQ(held.contacts().front().normal, Vec3(0, 0, thicknesses > 1 ? 1 : -1));
@@ -221,12 +221,12 @@ TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
     OneContact one = vertex_over_body(Vec3::Zero());
     const std::vector<RepulsionContact> contacts{one.contact};
     const Ground ground = one_face();
-    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kStep, 1);
-    move_and_hold(one, held, {0, to_y / kStep, 0}, 0.5);
+    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
+    move_and_hold(one, held, {0, to_y / kHeldStep, 0}, 0.5);
     move_and_hold(one, held, {0, 0, -0.5}, 1);
     EXPECT_EQ(held.count().repulsions, to_y > -2 ? 1 : 0);
-    EXPECT_EQ(one.distance() < kThickness, to_y < -2);
+    EXPECT_EQ(one.distance() < kHeldThickness, to_y < -2);
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -4,7 +4,7 @@
 #include "tests/property.h"
 #include "tests/sim/dynamics/held_contact_scenes.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 /// Vertices one above the other over a face of a body, a thickness apart: each lies on the one below by a contact of
@@ -20,7 +20,7 @@ struct Column {
   double highest = 0, lowest = 1;  ///< of the distances of neighbours over the thickness, ever
 
   Column() {
-    for (int i = 0; i < kCount; ++i) V.row(i) = Eigen::RowVector3d(0, 0, (i + 1) * kThickness);
+    for (int i = 0; i < kCount; ++i) V.row(i) = Eigen::RowVector3d(0, 0, (i + 1) * kHeldThickness);
     V.bottomRows(3) << -2, -2, 0, 2, -2, 0, 0, 4, 0;
     add({0, kCount, kCount + 1, kCount + 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3});
     // The nearest point of the next one's face is its corner below: the others have no weight.
@@ -48,7 +48,7 @@ struct Column {
     contact.interaction = make_interaction(PairKind::kVf, vertices, weights, ground.inverse_mass);
     contact.x_t0 = gather(contact.interaction, V);
     contact.normal = Vec3::UnitZ();
-    contact.properties.thickness_m = kThickness;
+    contact.properties.thickness_m = kHeldThickness;
     contacts.push_back(contact);
   }
 
@@ -63,7 +63,7 @@ struct Column {
       }
       act(held, {kShort, double(step) / kSteps, x, v});
       for (int i = 0; i < kCount; ++i) {
-        const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kThickness;
+        const double gap = (x.row(i).z() - (i > 0 ? double(x.row(i - 1).z()) : 0)) / kHeldThickness;
         highest = std::max(highest, gap);
         lowest = std::min(lowest, gap);
       }
@@ -86,10 +86,10 @@ TEST(HeldContacts, ComeNoNearerThanTheThicknessAndAddNeitherMomentumNorEnergy) {
     RC_ASSERT((m1.linear - m0.linear).norm() <= 1e-12 * m0.linear_scale);
     RC_ASSERT(m1.energy <= m0.energy * (1 + 1e-12));
     for (Eigen::Index i = 0; i < 4; ++i) {
-      RC_ASSERT((one.x.row(i) - one.V_t0.row(i) - kStep * one.v.row(i)).norm() <= 1e-12);  // x follows v
+      RC_ASSERT((one.x.row(i) - one.V_t0.row(i) - kHeldStep * one.v.row(i)).norm() <= 1e-12);  // x follows v
     }
     RC_CLASSIFY(count.repulsions > 0);
-    if (count.repulsions > 0) RC_ASSERT(one.distance() >= std::min(kThickness, one.contact.distance) - 1e-12);
+    if (count.repulsions > 0) RC_ASSERT(one.distance() >= std::min(kHeldThickness, one.contact.distance) - 1e-12);
   });
 }
 
@@ -128,8 +128,8 @@ TEST(HeldContacts, LearnHalfOfWhatTheyHadToAddByPair) {
   ASSERT_EQ(one.loads.size(), 1U);
   EXPECT_EQ(one.loads[0].vertex, 3);
   EXPECT_EQ(one.loads[0].face, 7);
-  EXPECT_NEAR(one.loads[0].acceleration_m_s2, 0.5 / kStep, 1e-12);  // half of the 1 m/s that it took away in a step
-  EXPECT_LT((friction_of(one.loads[0]) - Vec3(-0.1, -0.15, 0) / kStep).norm(), 1e-12);  // and of the slip
+  EXPECT_NEAR(one.loads[0].acceleration_m_s2, 0.5 / kHeldStep, 1e-12);  // half of the 1 m/s that it took away in a step
+  EXPECT_LT((friction_of(one.loads[0]) - Vec3(-0.1, -0.15, 0) / kHeldStep).norm(), 1e-12);  // and of the slip
   OneContact leaves = vertex_over_body({0, 0, 1});
   leaves.step(5);
   EXPECT_TRUE(leaves.loads.empty());
@@ -177,7 +177,7 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
     SCOPED_TRACE(::testing::Message() << sweeps << " sweeps, the lever is " << (is_found_late ? "found" : "known")
                                       << ", it bore " << load_m_s2);
     Positions V(4, 3), V_t1(4, 3);
-    V << 0, 1, kThickness, 0, 1 / kLever, 0, -2, 0, kThickness, 2, 0, kThickness;
+    V << 0, 1, kHeldThickness, 0, 1 / kLever, 0, -2, 0, kHeldThickness, 2, 0, kHeldThickness;
     V_t1 = V;
     V_t1(1, 2) += kRise;
     RepulsionContact contact;
@@ -188,14 +188,14 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
     if (is_found_late) contact.interaction.weights = {1, -1.0 / 3, -1.0 / 3, -1.0 / 3};
     contact.x_t0 = gather(contact.interaction, V);
     contact.normal = -Vec3::UnitZ();
-    contact.properties.thickness_m = kThickness;
+    contact.properties.thickness_m = kHeldThickness;
     LaneVectors x, v;
     x.copy(V.topRows(1));
     v.resize(1);
     v.set_zero();
     const Ground ground(Faces{{2, 3, 0}}, {1, 0, 0, 0});
-    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(1), V, V_t1, kStep, sweeps);
-    act(held, {kStep, 1, x, v});
+    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(1), V, V_t1, kHeldStep, sweeps);
+    act(held, {kHeldStep, 1, x, v});
     const double moved = x.row(0).z() - V(0, 2);
     EXPECT_NEAR(moved, kMaxLever * kMaxLever / kLever * kRise, 1e-3 * kRise) << sweeps;
     EXPECT_TRUE(held.loads().empty());
@@ -223,10 +223,10 @@ TEST(HeldContacts, StickWithinTheConeAndSlideBeyond) {
 }
 
 TEST(HeldContacts, FollowTheBodyTheyLieOn) {
-  OneContact one = vertex_over_body({0, 0, 0}, kStep * Vec3(0.2, 0, 1));
+  OneContact one = vertex_over_body({0, 0, 0}, kHeldStep * Vec3(0.2, 0, 1));
   one.step();
   EXPECT_LT((one.v.row(0) - Eigen::RowVector3d(0.2, 0, 1)).norm(), 1e-14);
-  EXPECT_NEAR(one.distance(), kThickness, 1e-15);
+  EXPECT_NEAR(one.distance(), kHeldThickness, 1e-15);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -4,13 +4,13 @@
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
-constexpr double kThickness = 0.25, kStep = 0.125;
+constexpr double kStageThickness = 0.25, kStageStep = 0.125;
 
 /// One contact of four vertices, of which the first `cloth_count` are cloth, and what a stage adds for it.
-struct OneContact {
+struct OneStageContact {
   Mesh mesh = make_mesh(4, Faces{{1, 2, 3}});
   VertexFaces faces{mesh};
   ContactTable properties{mesh, {}, {}};
@@ -19,14 +19,14 @@ struct OneContact {
   HeldContacts held;
   StageContacts stage;
 
-  OneContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, double load_m_s2)
+  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, double load_m_s2)
       : inverse_mass(pair.inverse_mass.begin(), pair.inverse_mass.end()),
         resistance_kg(resistances(pair)),
         x(rows(pair.x_t0)),
         x_t1(x),
         held({contact(pair, friction)}, {{0, 0, load_m_s2}},
-             HeldSurface{mesh, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()}, x, x_t1, kStep, 1),
-        stage(held, x.topRows(cloth_count), inverse_mass, resistance_kg, {0, 1, kStep}) {}
+             HeldSurface{mesh, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()}, x, x_t1, kStageStep, 1),
+        stage(held, x.topRows(cloth_count), inverse_mass, resistance_kg, {0, 1, kStageStep}) {}
 
   static std::vector<double> resistances(const RandomPair& pair) {
     std::vector<double> result;
@@ -39,7 +39,7 @@ struct OneContact {
     return result;
   }
   static RepulsionContact contact(const RandomPair& pair, double friction) {
-    RepulsionContact result = contact_of(pair, kThickness);
+    RepulsionContact result = contact_of(pair, kStageThickness);
     result.properties.friction_static = result.properties.friction_kinetic = friction;
     return result;
   }
@@ -58,7 +58,7 @@ Positions random_displacements(Eigen::Index count, double bound) {
 }
 
 RandomPair pressed_pair() {
-  const RandomPair pair = random_contact(number_between(0.5, 1.5) * kThickness);
+  const RandomPair pair = random_contact(number_between(0.5, 1.5) * kStageThickness);
   RC_PRE(lever_share(pair.interaction) == 1);
   return pair;
 }
@@ -68,7 +68,7 @@ RandomPair pressed_pair() {
 /// Forces are the slope of the potential, which is convex, and the matrix is the slope of the forces.
 TEST(StageContacts, PropForcesAndMatrixAreThoseOfOneConvexPotential) {
   selvage::testing::check_property(500, 11, [] {
-    OneContact one(pressed_pair(), 4, number_between(0, 1), number_between(0, 100));
+    OneStageContact one(pressed_pair(), 4, number_between(0, 1), number_between(0, 100));
     const Positions u = random_displacements(4, 0.2), step = random_displacements(4, 1e-4);
     for (int round = 0; round < 3; ++round) {  // the cone opens with what the contact bears
       const Positions before = one.forces(u);
@@ -111,7 +111,7 @@ TEST(StageContacts, PropForcesAndMatrixAreThoseOfOneConvexPotential) {
 TEST(StageContacts, PropForcesKeepBothMomenta) {
   selvage::testing::check_property(500, 12, [] {
     const RandomPair pair = pressed_pair();
-    OneContact one(pair, 4, 0.5, number_between(1, 100));
+    OneStageContact one(pair, 4, 0.5, number_between(1, 100));
     for (int round = 0; round < 2; ++round) {
       const Positions forces = one.forces(random_displacements(4, 0.2));
       Vec3 torque = Vec3::Zero();
@@ -133,7 +133,7 @@ TEST(StageContacts, MultipliersFindWhatHoldsAVertex) {
   const Vec3 push(0.1, 0, -0.4);  // of which 0.35 m is too much
   const double mass = 0.5;
   for (const double friction : {0.0, 0.2, 0.5}) {
-    OneContact one(pair, 1, friction, 0);
+    OneStageContact one(pair, 1, friction, 0);
     Vec3 u = Vec3::Zero();
     double left = 1;
     for (int round = 0; round < 60 && left > 1e-12; ++round) {
@@ -144,10 +144,10 @@ TEST(StageContacts, MultipliersFindWhatHoldsAVertex) {
       }
       left = one.stage.update().share();
     }
-    EXPECT_NEAR(u.z(), -(0.3 - kThickness), 1e-9) << friction;
+    EXPECT_NEAR(u.z(), -(0.3 - kStageThickness), 1e-9) << friction;
     EXPECT_NEAR(u.x(), std::max(0.0, 0.1 - friction * 0.35), 1e-9) << friction;
     one.stage.finish();
-    EXPECT_NEAR(one.held.loads().front().acceleration_m_s2, 0.35 / (kStep * kStep), 1e-6);
+    EXPECT_NEAR(one.held.loads().front().acceleration_m_s2, 0.35 / (kStageStep * kStageStep), 1e-6);
     EXPECT_EQ(one.held.count().repulsions, 1);
     EXPECT_EQ(one.held.count().frictions, friction > 0 ? 1 : 0);
   }
@@ -160,16 +160,16 @@ TEST(StageContacts, WhatWasNotSolvedGoesNoFartherThanItDid) {
   pair.inverse_mass = {1e10, 1e10, 1e10, 1e10};
   pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.25, 0.25, 0.5}, pair.inverse_mass);
   pair.x_t0 = {Vec3(0, 0, 0.3), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
-  OneContact one(pair, 4, 0.5, 0);
+  OneStageContact one(pair, 4, 0.5, 0);
   const SpringSystem springs({Spring{1, 2, SpringKind::kStructural, 1, 1e300, 0}}, 4);  // forces beyond any double
   ImplicitDynamicsOptions options;
-  options.step_s = kStep;
+  options.step_s = kStageStep;
   Motion motion{one.x, Positions::Constant(4, 3, 0.1)};
   const DynamicsReport report =
-      ImplicitDynamics(springs, options).advance(motion, one.x, one.inverse_mass, kStep, &one.held);
+      ImplicitDynamics(springs, options).advance(motion, one.x, one.inverse_mass, kStageStep, &one.held);
   EXPECT_EQ(report.unconverged, 1);
   EXPECT_TRUE(motion.v.allFinite());
-  EXPECT_EQ(motion.v, Positions((motion.x - one.x) / kStep));
+  EXPECT_EQ(motion.v, Positions((motion.x - one.x) / kStageStep));
   EXPECT_TRUE(one.held.loads().empty());
 }
 
@@ -183,7 +183,7 @@ TEST(StageContacts, AContactOfALimitedLeverKeepsNoLoad) {
     pair.x_t0[0] = relative(pair.interaction, pair.x_t0) * -1 + 0.2 * Vec3::UnitZ();
     const bool has_term = lever_share(pair.interaction) == 1;
     EXPECT_EQ(has_term, weight == 0.5);
-    OneContact one(pair, 4, 0.5, 7);
+    OneStageContact one(pair, 4, 0.5, 7);
     (void)one.forces(Positions::Zero(4, 3));
     (void)one.stage.update();
     one.stage.finish();
@@ -191,4 +191,4 @@ TEST(StageContacts, AContactOfALimitedLeverKeepsNoLoad) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -5,7 +5,7 @@
 namespace selvage::sim {
 namespace {
 
-const std::string kScene = R"(gravity_m_s2 = [0, 0, -9.81]
+const std::string kBefore = R"(gravity_m_s2 = [0, 0, -9.81]
 [time]
 frames = 10 # enough
 [[cloth]]
@@ -20,7 +20,7 @@ time_s = 1
 )";
 
 std::string with(const std::string& old, const std::string& replacement) {
-  std::string text = kScene;
+  std::string text = kBefore;
   return text.replace(text.find(old), old.size(), replacement);
 }
 
@@ -35,17 +35,17 @@ TEST(ChangedSetting, IsNamedWithBothValuesAndItsLine) {
       {with("name = \"ball\"\n", "name = \"ball\"\nrepeat = 3\n"), "body[0].repeat (line 9) is 3 and was not there"},
       {with("stretch_n_m = 40\n", ""), "cloth[0].stretch_n_m was 40 and is not there any more"},
   };
-  for (const auto& [now, words] : kChanges) EXPECT_EQ(changed_setting(kScene, now), words);
+  for (const auto& [now, words] : kChanges) EXPECT_EQ(changed_setting(kBefore, now), words);
 }
 
 TEST(ChangedSetting, IsTheFirstFromTheTopAndNoneOfLayout) {
   std::string now = "# of the moon\n" + with("stretch_n_m = 40", "stretch_n_m =  40.0");
-  EXPECT_EQ(changed_setting(kScene, now), "no setting differs, but the text does, from line 1 on");
-  EXPECT_EQ(changed_setting(kScene, with("# enough", "# few")),
+  EXPECT_EQ(changed_setting(kBefore, now), "no setting differs, but the text does, from line 1 on");
+  EXPECT_EQ(changed_setting(kBefore, with("# enough", "# few")),
             "no setting differs, but the text does, from line 3 on");
   now.replace(now.find("time_s = 1"), 10, "time_s = 2");
   now.replace(now.find("frames = 10"), 11, "frames = 11");
-  EXPECT_EQ(changed_setting(kScene, now), "time.frames (line 4) was 10 and is 11");
+  EXPECT_EQ(changed_setting(kBefore, now), "time.frames (line 4) was 10 and is 11");
 }
 
 TEST(ChangedSetting, ALongValueIsCut) {

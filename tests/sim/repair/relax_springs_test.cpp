@@ -9,7 +9,7 @@
 #include "sim/springs/spring_strain.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 constexpr double kLimit = 0.1;
@@ -123,4 +123,4 @@ TEST(RelaxSprings, EndsWhereAStepGainsLittle) {
 }
 
 }  // namespace
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -8,7 +8,7 @@
 
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 FindIntersections exact_judge(const StepScene& scene) {
@@ -236,4 +236,4 @@ TEST(Untangle, PartsKeepTheTolerancesThatTheyHave) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -4,7 +4,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/response/response_properties.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 using selvage::testing::check_property;
@@ -141,4 +141,4 @@ TEST(Friction, StaysFiniteForHugeAndTinyMotions) {
   });
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 /// Eight vertices on a line; 6 belongs to body 0 and moves, 7 to body 1 and rests.
@@ -72,4 +72,4 @@ TEST(ImpactZones, DoNotJoinTwoScriptsThatMoveDifferently) {
   EXPECT_FALSE(zones.merge({4, 5, 4, 5}));  // would join them through cloth
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -6,7 +6,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/response/response_properties.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 using selvage::testing::check_property;
@@ -183,4 +183,4 @@ TEST(ParallelUpdate, NodeBetweenTwoApproachingTrianglesIsStoppedInOneRound) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

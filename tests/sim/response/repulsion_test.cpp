@@ -6,7 +6,7 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/response/response_properties.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 TEST(Repulsion, TakesAwayTheApproachAndNothingElseWithoutASpring) {
   const CollisionOptions options;
@@ -85,4 +85,4 @@ TEST(Repulsion, KeepsTheLimitOfALeverInAllItsSweeps) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -4,7 +4,7 @@
 #include "sim/response/repulsion.h"
 #include "tests/sim/mechanics.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
 void expect_distances_kept(const Nodes& nodes, const std::vector<Vec3>& moved, double error) {
@@ -19,14 +19,14 @@ void expect_distances_kept(const Nodes& nodes, const std::vector<Vec3>& moved, d
 
 }  // namespace
 
-Nodes random_nodes(Shape shape, double speed) {
+Nodes random_nodes(ZoneShape shape, double speed) {
   Nodes nodes;
   const Vec3 direction = vector_within(1);
   const int count = integer_in(4, 12);
   for (int i = 0; i < count; ++i) {
     Vec3 x = vector_within(1);
-    if (shape == Shape::kLine) x = number_between(-1, 1) * direction;
-    if (shape == Shape::kPoint) x = direction;
+    if (shape == ZoneShape::kLine) x = number_between(-1, 1) * direction;
+    if (shape == ZoneShape::kPoint) x = direction;
     nodes.x.push_back(x);
     nodes.displacement.push_back(vector_within(speed));
     nodes.inverse_mass.push_back(std::exp2(number_between(-6, 6)));
@@ -108,7 +108,7 @@ void prop_friction_keeps_momenta_and_the_cone() {
   RC_ASSERT(slowed.norm() <= on_static * normal_change * (1 + 1e-12));
 }
 
-void prop_zone_keeps_distances_and_momentum(Shape shape) {
+void prop_zone_keeps_distances_and_momentum(ZoneShape shape) {
   const Nodes nodes = random_nodes(shape, 3);
   const RigidMotion rigid = momentum_motion(nodes.x, nodes.displacement, nodes.inverse_mass);
   const std::vector<Vec3> moved = displacements(rigid, nodes.x);
@@ -119,7 +119,7 @@ void prop_zone_keeps_distances_and_momentum(Shape shape) {
   RC_ASSERT(m1.energy <= m0.energy * (1 + 1e-12));
 }
 
-void prop_zone_keeps_angular_momentum(Shape shape) {
+void prop_zone_keeps_angular_momentum(ZoneShape shape) {
   const double speed = 1e-9;
   const Nodes nodes = random_nodes(shape, speed);
   const RigidMotion rigid = momentum_motion(nodes.x, nodes.displacement, nodes.inverse_mass);
@@ -131,4 +131,4 @@ void prop_zone_keeps_angular_momentum(Shape shape) {
   RC_ASSERT((m1.angular - m0.angular).norm() <= (1e-6 + angle) * 1e-3 * m0.angular_scale + 1e-12 * m0.angular_scale);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -6,7 +6,7 @@
 #include "sim/collision_step.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 TEST(ScriptedBodies, FastBodyPushesTheSheetAhead) {
   for (const double speed_m_s : {0.5, 5.0, 50.0}) {
@@ -151,4 +151,4 @@ TEST(ScriptedBodies, ABodyThatDeformsCarriesAHeapByTheFailSafeAlone) {
   }
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

@@ -4,10 +4,10 @@
 #include "tests/sim/mechanics.h"
 #include "tests/sim/step_scene.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 namespace {
 
-Shape triangle(double size_m) {
+Shape lone_triangle(double size_m) {
   Shape shape;
   shape.x.resize(3, 3);
   shape.x << 0, 0, 0, size_m, 0, 0, 0, size_m, 0;
@@ -19,8 +19,8 @@ Shape triangle(double size_m) {
 
 TEST(Clearance, IsTheLeastDistanceToWhatAVertexMustNotMeet) {
   StepScene scene;
-  scene.add(triangle(1), Vec3::Zero());
-  scene.add(triangle(0.1), Vec3(0.2, 0.2, 0.05));
+  scene.add(lone_triangle(1), Vec3::Zero());
+  scene.add(lone_triangle(0.1), Vec3(0.2, 0.2, 0.05));
   const Mesh mesh = scene.mesh();
   BoxHierarchy hierarchy(mesh);
   const std::vector<std::uint8_t> all(6, 1);
@@ -29,7 +29,8 @@ TEST(Clearance, IsTheLeastDistanceToWhatAVertexMustNotMeet) {
   scene.V_t0.bottomRows(3).col(2).setConstant(0.5);
   const std::vector<double> far = clearance(mesh, hierarchy, scene.V_t0, 1, all);
   for (std::size_t v = 0; v < 3; ++v) EXPECT_NEAR(far[v], 0.5, 1e-12);
-  for (std::size_t v = 3; v < 6; ++v) EXPECT_NEAR(far[v], 0.1 / std::sqrt(2), 1e-12);  // its own triangle's altitude
+  for (std::size_t v = 3; v < 6; ++v)
+    EXPECT_NEAR(far[v], 0.1 / std::sqrt(2), 1e-12);  // its own lone_triangle's altitude
   for (const double distance : clearance(mesh, hierarchy, scene.V_t0, 0.01, all)) EXPECT_EQ(distance, 0.01);
   const std::vector<std::uint8_t> one{1, 0, 0, 0, 0, 0};
   const std::vector<double> flagged = clearance(mesh, hierarchy, scene.V_t0, 1, one);
@@ -63,8 +64,8 @@ TEST(Clearance, VerticesWithinABallOfHalfOfItNeverTouch) {
 
 TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
   StepScene scene;
-  scene.add(triangle(1), Vec3::Zero());
-  const StepScene::Part above = scene.add(triangle(0.5), Vec3(0.1, 0.1, 0.05));
+  scene.add(lone_triangle(1), Vec3::Zero());
+  const StepScene::Part above = scene.add(lone_triangle(0.5), Vec3(0.1, 0.1, 0.05));
   scene.push(above, Vec3(0.01, 0, -1));
   const Mesh mesh = scene.mesh();
   BoxHierarchy hierarchy(mesh);
@@ -110,4 +111,4 @@ TEST(FailSafe, LimitsOnlyWhatCollides) {
   EXPECT_LE(std::abs(result.x(40, 2) - scene.V_t0(40, 2)), kBallShare * scene.options.thickness_m);
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

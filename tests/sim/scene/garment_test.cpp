@@ -12,7 +12,7 @@
 namespace selvage {
 
 using namespace sim;
-using testing::directed_edges;
+using testbed::directed_edges;
 
 namespace {
 

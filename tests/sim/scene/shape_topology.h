@@ -7,7 +7,7 @@
 
 #include "sim/scene/shapes.h"
 
-namespace selvage::sim::testing {
+namespace selvage::sim::testbed {
 
 // Number of faces at each directed edge; a closed oriented surface has every edge once in each direction.
 inline std::map<std::array<std::int32_t, 2>, int> directed_edges(const Shape& shape) {
@@ -26,4 +26,4 @@ inline bool closed_and_oriented(const Shape& shape) {
   return true;
 }
 
-}  // namespace selvage::sim::testing
+}  // namespace selvage::sim::testbed

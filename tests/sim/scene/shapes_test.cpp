@@ -12,8 +12,8 @@
 namespace selvage {
 
 using namespace sim;
-using testing::closed_and_oriented;
-using testing::directed_edges;
+using testbed::closed_and_oriented;
+using testbed::directed_edges;
 
 namespace {
 

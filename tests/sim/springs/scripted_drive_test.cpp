@@ -18,7 +18,7 @@
 namespace selvage {
 
 using namespace sim;
-using namespace sim::testing;
+using namespace sim::testbed;
 using selvage::testing::check_property;
 using selvage::testing::from_lanes;
 using selvage::testing::to_lanes;

@@ -27,7 +27,7 @@ testing::LaneForces forces(const std::vector<Stabilizer>& stabilizers, const Pos
   return testing::lane_forces(SpringSystem({}, count), &system, x, v);
 }
 
-void expect_no_net_force_or_torque(const Positions& x, const Positions& force) {
+void expect_stabilizers_balance(const Positions& x, const Positions& force) {
   Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     sum += force.row(i).transpose();
@@ -66,7 +66,7 @@ TEST(Stabilizer, ForcesAreMinusTheGradientOfTheEnergyAndKeepMomenta) {
     moved(i, 1) -= 2e-4;
     EXPECT_NEAR(force(i, 1), -(up - energy(stabilizers, moved)) / 2e-4, 1e-8) << "quadratic: exact but for rounding";
   }
-  expect_no_net_force_or_torque(cloth.x, force);
+  expect_stabilizers_balance(cloth.x, force);
 }
 
 TEST(Stabilizer, DampingTakesEnergyAndKeepsMomenta) {
@@ -75,7 +75,7 @@ TEST(Stabilizer, DampingTakesEnergyAndKeepsMomenta) {
     const std::vector<Stabilizer> stabilizers = testing::sheet_stabilizers(9, 2, 0.5);
     const Positions damping = forces(stabilizers, cloth.x, cloth.v).damping;
     EXPECT_LT((damping.array() * cloth.v.array()).sum(), 0);
-    expect_no_net_force_or_torque(cloth.x, damping);
+    expect_stabilizers_balance(cloth.x, damping);
     Positions turning(cloth.x.rows(), 3);
     for (Eigen::Index i = 0; i < turning.rows(); ++i) {
       turning.row(i) = (Vec3(0.3, -2, 1).cross(Vec3(cloth.x.row(i))) + Vec3(1, 2, 3)).transpose();
