@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build demo test readers pages asan tsan clang coverage docs same-bits fuzz libfuzzer afl mutants agreement cluster bench micro instructions format tidy clean
+.PHONY: help setup build program demo test readers pages asan tsan clang coverage docs same-bits fuzz libfuzzer afl mutants agreement cluster bench micro instructions format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -14,7 +14,11 @@ build: setup  ## build everything, optimised, in build/release
 	cmake --preset release --log-level=WARNING
 	cmake --build --preset release
 
-demo: build  ## simulate a curtain over a moving ball, check every frame and step exactly, draw it
+program: setup  ## build the program alone, optimised: a third of what the tests need
+	cmake --preset release --log-level=WARNING
+	cmake --build --preset release --target selvage
+
+demo: program  ## simulate a curtain over a moving ball, check every frame and step exactly, draw it
 	rm -rf $(DEMO)
 	$(SELVAGE) sim sim/scenes/demo.toml -o $(DEMO)/curtain --record steps
 	$(SELVAGE) render $(DEMO)/curtain -o $(DEMO)/sheet.png
@@ -129,7 +133,7 @@ format:  ## rewrite the sources in the house style
 
 tidy: setup  ## clang-tidy over every source
 	@cmake/setup packages-clang.txt
-	cmake --preset release -B build/tidy -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON --log-level=WARNING
+	cmake --preset dev -B build/tidy --log-level=WARNING
 	git ls-files '*.cpp' | grep -v -e ^tests -e ^examples | xargs -P 2 -n 1 clang-tidy-14 --quiet -p build/tidy
 
 clean:  ## remove everything that was built

@@ -1,10 +1,19 @@
-# selvage_room(NAME SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
+# compile_alone(TARGET FILES...): these sources of the target's stay out of its unity build. Files are relative to the project.
+function(compile_alone target)
+  list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/")
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# selvage_room(NAME SOURCES ... [LANES ...] HEADERS ... PUBLIC ... PRIVATE ...)
 #   Makes the static library selvage_NAME with the alias selvage::NAME from the folder that calls it.
+#   LANES are sources that include themselves, once for each vector unit (Highway).
 #   Inside the tree headers are "NAME/x.h"; for users, installed or not, they are <selvage/NAME/x.h>.
 function(selvage_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LANES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   set(target selvage_${name})
-  add_library(${target} STATIC ${ROOM_SOURCES})
+  add_library(${target} STATIC ${ROOM_SOURCES} ${ROOM_LANES})
+  list(TRANSFORM ROOM_LANES PREPEND "${name}/")
+  compile_alone(${target} ${ROOM_LANES})
   add_library(selvage::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${ROOM_HEADERS})

@@ -27,6 +27,10 @@ endif()
 add_library(selvage_warnings INTERFACE)
 target_compile_options(selvage_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow $<$<BOOL:${SELVAGE_WERROR}>:-Werror>)
+# In a unit of several sources g++ takes what one keeps to itself for another's, and warns of every type that uses it.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(selvage_warnings INTERFACE -Wno-subobject-linkage)
+endif()
 
 # Contraction to FMA changes bits between targets, and the error bounds assume every operation is rounded (K7).
 # The kernel alone passes the option on to its users: inline certified code compiles in their units.
