@@ -17,9 +17,9 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# Precompiled headers are for g++'s optimised builds. Elsewhere every source is compiled with what it includes itself; clang
-# refuses those that ccache has from an earlier build, and what g++ 12 inlines from them it takes for ours, and warns falsely
-# (of which the options in tests/CMakeLists.txt are known to silence what an optimised build has).
+# Precompiled headers are for g++'s optimised builds. clang refuses those that ccache has from an earlier build, and what g++ 12
+# inlines from them it takes for ours, and warns falsely (of which the options in tests/CMakeLists.txt are known to silence what
+# an optimised build has).
 if(PROJECT_IS_TOP_LEVEL AND NOT (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release"))
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
