@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build program demo test readers pages asan tsan clang coverage docs same-bits fuzz libfuzzer afl mutants agreement cluster bench micro instructions format tidy clean
+.PHONY: help setup build program demo test readers pages asan tsan clang coverage docs same-bits fuzz libfuzzer afl mutants names agreement cluster bench micro instructions format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -14,7 +14,7 @@ build: setup  ## build everything, optimised, in build/release
 	cmake --preset release --log-level=WARNING
 	cmake --build --preset release
 
-program: setup  ## build the program alone, optimised: a third of what the tests need
+program: setup  ## build the program alone, optimised
 	cmake --preset release --log-level=WARNING
 	cmake --build --preset release --target selvage
 
@@ -87,6 +87,11 @@ mutants: build  ## plant a hundred defects, one at a time: a property must find 
 	cmake --build --preset release --target selvage_mutants
 	build/release/tests/mutants/selvage_mutants tests/mutants/lists --classes 400 \
 	  --json build/mutants.json --markdown build/mutants.md
+
+names: setup  ## compile each folder as one unit: names that two of its sources keep to themselves clash
+	cmake --preset release -B build/names -D CMAKE_UNITY_BUILD_BATCH_SIZE=0 -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+	  -D CMAKE_CXX_FLAGS_RELEASE=-O0 --log-level=WARNING
+	cmake --build build/names --parallel 2 -- -k 0
 
 docs:  ## the reference of the kernel's public API, in build/docs/html
 	@cmake/setup packages-docs.txt

@@ -15,6 +15,7 @@
 #include "fuzz/step_case.h"
 #include "fuzz/subdivision_case.h"
 #include "io/error.h"
+#include "tests/fuzz/nothing_done.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -35,14 +36,6 @@ std::optional<MeshCase> failing_step(std::uint64_t seed, const StepFunction& ste
   const StepObservation seen = run_steps(source, world, step);
   if (seen.defect != defect) return std::nullopt;
   return step_case(world, seen.x_t0, seen.x_candidate);
-}
-
-sim::CollisionStepResult no_response(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
-  sim::CollisionStepResult result;
-  result.report.status = sim::StepStatus::kSafe;
-  result.x = candidate;
-  result.velocity = (candidate - x_t0) / world.dt_s;
-  return result;
 }
 
 void expect_same_bits(const Positions& a, const Positions& b) {
@@ -153,13 +146,13 @@ TEST(KeptCase, WhatPromisesNothingIsNotRun) {
 TEST(ShrinkMesh, AStepThatDoesNothingIsShownByAHandfulOfVertices) {
   static const MeshKind planted = [] {
     MeshKind kind = step_kind();
-    kind.retry = [](const MeshCase& kept) { return retry_step(kept, no_response); };
+    kind.retry = [](const MeshCase& kept) { return retry_step(kept, nothing_done); };
     return kind;
   }();
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);  // as a worker
   int failures = 0;
   for (std::uint64_t seed = 0; seed < 30 && failures < 3; ++seed) {
-    std::optional<MeshCase> kept = failing_step(seed, no_response, StepDefect::kTouches);
+    std::optional<MeshCase> kept = failing_step(seed, nothing_done, StepDefect::kTouches);
     if (!kept) continue;
     ++failures;
     kept->kind = &planted;

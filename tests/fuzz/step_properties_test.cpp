@@ -6,6 +6,7 @@
 
 #include "fuzz/step_oracle.h"
 #include "fuzz/surface_makers.h"
+#include "tests/fuzz/nothing_done.h"
 #include "tests/property.h"
 
 namespace selvage::fuzz {
@@ -84,13 +85,6 @@ TEST(StepWorlds, EverySurfaceAndCandidateOccursAndEveryStageHasWork) {
   EXPECT_GT(sum.stopped, 0);
 }
 
-sim::CollisionStepResult nothing_done(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
-  sim::CollisionStepResult result;
-  result.report.status = sim::StepStatus::kSafe;
-  result.x = candidate;
-  result.velocity = (candidate - x_t0) / world.dt_s;
-  return result;
-}
 /// Safe, always, and useless.
 sim::CollisionStepResult frozen(const StepWorld& world, const Positions& x_t0, const Positions& candidate) {
   sim::CollisionStepResult result = nothing_done(world, x_t0, candidate);

@@ -38,31 +38,31 @@ class Dice {
 
 /// Crumpled layers over a body, thrown together: pairs of all kinds end near each other. Every part is a surface.
 StepScene random_stack(std::uint32_t seed) {
-  Dice noise(seed);
+  Dice dice(seed);
   StepScene scene;
-  scene.options.impulse_iterations = static_cast<std::int32_t>(noise.between(0, 8));
-  const double gap_m = std::exp2(noise.between(-14, -8));
+  scene.options.impulse_iterations = static_cast<std::int32_t>(dice.between(0, 8));
+  const double gap_m = std::exp2(dice.between(-14, -8));
   const auto properties = [&] {
     ContactProperties p;
-    p.tolerance_m = noise.one_in(4) ? 0 : gap_m * std::exp2(noise.between(-8, 1));
-    p.thickness_m = gap_m * std::exp2(noise.between(-3, 2));
-    p.friction_static = noise.one_in(3) ? 0 : noise.between(0, 1);
-    p.friction_kinetic = p.friction_static * noise.between(0, 1);
+    p.tolerance_m = dice.one_in(4) ? 0 : gap_m * std::exp2(dice.between(-8, 1));
+    p.thickness_m = gap_m * std::exp2(dice.between(-3, 2));
+    p.friction_static = dice.one_in(3) ? 0 : dice.between(0, 1);
+    p.friction_kinetic = p.friction_static * dice.between(0, 1);
     return p;
   };
-  const int layers = noise.one_in(2) ? 2 : 3;
+  const int layers = dice.one_in(2) ? 2 : 3;
   for (int layer = 0; layer < layers; ++layer) {
     const StepScene::Part part = add(scene, properties(), make_sheet(4, 4, 0.1, 0.1),
-                                     Vec3(noise.between(-0.01, 0.01), noise.between(-0.01, 0.01), gap_m * layer));
+                                     Vec3(dice.between(-0.01, 0.01), dice.between(-0.01, 0.01), gap_m * layer));
     for (VertexId v = part.begin; v < part.end; ++v) {
-      for (int axis = 0; axis < 3; ++axis) scene.V_t0(v, axis) += 0.4 * gap_m * noise.between(-1, 1);
+      for (int axis = 0; axis < 3; ++axis) scene.V_t0(v, axis) += 0.4 * gap_m * dice.between(-1, 1);
     }
   }
   add(scene, properties(), make_box(Vec3(0.06, 0.06, 0.02), 1), Vec3(0, 0, -0.01 - gap_m), 0);
   scene.V_candidate = scene.V_t0;
   for (Eigen::Index v = 0; v < scene.V_t0.rows(); ++v) {
     if (scene.body[static_cast<std::size_t>(v)] >= 0) continue;
-    scene.V_candidate(v, 2) *= noise.between(-0.5, 1);
+    scene.V_candidate(v, 2) *= dice.between(-0.5, 1);
   }
   return scene;
 }
@@ -93,12 +93,12 @@ TEST(ContactProperties, OfAPairAreTheMeanTheLargerAndTheGeometricMean) {
 }
 
 TEST(ContactProperties, CombineSymmetricallyStayInRangeAndKeepWhatIsEqual) {
-  Dice noise(1);
+  Dice dice(1);
   for (int n = 0; n < 10000; ++n) {
     const auto draw = [&] {
-      const double friction = std::exp2(noise.between(-40, 4));
-      return ContactProperties{std::exp2(noise.between(-40, 4)), std::exp2(noise.between(-40, 4)), friction,
-                               noise.one_in(3) ? friction : std::nextafter(friction, 0.0)};
+      const double friction = std::exp2(dice.between(-40, 4));
+      return ContactProperties{std::exp2(dice.between(-40, 4)), std::exp2(dice.between(-40, 4)), friction,
+                               dice.one_in(3) ? friction : std::nextafter(friction, 0.0)};
     };
     const ContactProperties a = draw(), b = draw(), pair = combine(a, b);
     ASSERT_EQ(pair, combine(b, a));
