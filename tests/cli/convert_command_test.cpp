@@ -7,6 +7,7 @@ namespace selvage {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::expect_text;
 using testing::run_program;
 using testing::spit;
 using testing::TemporaryFolder;
@@ -23,10 +24,6 @@ void record(const fs::path& folder, const std::vector<io::Points>& frames,
             io::SequenceKind kind = io::SequenceKind::kFrames, const std::vector<io::Group>& groups = {}) {
   io::SequenceWriter writer(folder, {kFaces, groups, kind, io::Precision::kFloat64, "test"});
   for (std::size_t i = 0; i < frames.size(); ++i) writer.append(0.04 * static_cast<double>(i), frames[i]);
-}
-
-void expect_text(const std::string& text, const std::string& fragment) {
-  EXPECT_NE(text.find(fragment), std::string::npos) << "expected: " << fragment << "\nin: " << text;
 }
 
 const std::vector<io::Points> kApart = {two_faces(1, 0), two_faces(0.1, 0), two_faces(0.3, 1)};

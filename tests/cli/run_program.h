@@ -108,4 +108,8 @@ inline ProgramResult run_program(std::vector<std::string> arguments) {
   return run_program(TemporaryFolder{}, std::move(arguments));
 }
 
+inline void expect_text(const std::string& text, const std::string& fragment) {
+  EXPECT_NE(text.find(fragment), std::string::npos) << "expected: " << fragment << "\nin: " << text;
+}
+
 }  // namespace selvage::testing

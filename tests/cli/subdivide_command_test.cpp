@@ -10,15 +10,12 @@ namespace selvage {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::expect_text;
 using testing::run_program;
 using testing::spit;
 using testing::TemporaryFolder;
 
 constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
-void expect_text(const std::string& text, const std::string& fragment) {
-  EXPECT_NE(text.find(fragment), std::string::npos) << "expected: " << fragment << "\nin: " << text;
-}
 
 /// Two tents of four faces, the second one `gap` above the first; below 0 they intersect.
 void record(const std::filesystem::path& folder, double gap) {

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/generators.h"
+#include "io/error.h"
+#include "tests/fuzz/spoilt_text.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -22,20 +24,8 @@ const char* const kGood =
     "c 0x1p+1000 -0x1p+1000 0x1p+0 0x1p+0 0x1p+0 0x1p+0\n"
     "expect touches\n";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-void expect_error(const std::string& text, const std::string& words) {
-  try {
-    (void)parse_case(text, "x.case");
-    ADD_FAILURE() << "accepted:\n" << text;
-  } catch (const io::Error& error) {
-    EXPECT_EQ(error.kind(), io::ErrorKind::kBadInput);
-    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-  }
+void expect_bad_case(const std::string& text, const std::string& words) {
+  testing::expect_bad_input([&] { (void)parse_case(text, "x.case"); }, text, words);
 }
 
 TEST(CaseFile, ReadsWhatPeopleWrite) {
@@ -88,8 +78,10 @@ TEST(CaseFile, KeepsWhichPluginFailed) {
   EXPECT_EQ(again.plugin->library, hostile);
   EXPECT_EQ(again.plugin->failure, "missed");
   EXPECT_TRUE(again.plugin->in_batch);
-  expect_error(replaced(text, "missed batch", "missed often"), "x.case:4: plugin: 'alone' or 'batch' is wanted");
-  expect_error(replaced(kGood, "p 0x1.9", "plugin missed alone\np 0x1.9"), "x.case:5: plugin: its file is missing");
+  expect_bad_case(testing::replaced(text, "missed batch", "missed often"),
+                  "x.case:4: plugin: 'alone' or 'batch' is wanted");
+  expect_bad_case(testing::replaced(kGood, "p 0x1.9", "plugin missed alone\np 0x1.9"),
+                  "x.case:5: plugin: its file is missing");
 }
 
 TEST(CaseFile, KeepsThePropertyAndWhatItChose) {
@@ -104,26 +96,30 @@ TEST(CaseFile, KeepsThePropertyAndWhatItChose) {
 }
 
 TEST(CaseFile, NamesTheLineOfWhatIsWrong) {
-  expect_error(replaced(kGood, "=64", "=64 property=scala"), "x.case:4: there is no property 'scala' of queries");
-  expect_error(replaced(kGood, "=64", "=64 choices=1"), "x.case:4: expected 'property=...'");
-  expect_error(replaced(kGood, "=64", "=64 property=scale choices=1,"), "x.case:4: choices: '' is not an integer");
-  expect_error(replaced(kGood, "=64", "=64 property=scale choices=1,-2"), "x.case:4: choices: '-2' is not an integer");
-  expect_error("", "x.case:0: the case ends too early");
-  expect_error(replaced(kGood, "selvage-case 1", "selvage-case 2"), "x.case:1: expected '1'");
-  expect_error(replaced(kGood, " vf", " fv"), "x.case:1: the kind of pair");
-  expect_error(replaced(kGood, "seed somewhere:7", "seed"), "x.case:3: a word is missing");
-  expect_error(replaced(kGood, "tolerance=0x1p-20", "tolerance="), "x.case:4: ");
-  expect_error(replaced(kGood, "max_intervals=64", "max_intervals=0"), "x.case:4: '0' is not a positive count");
-  expect_error(replaced(kGood, "0x1.9p+6", "0x1.9q+6"), "x.case:5: '0x1.9q+6' is not a finite number");
-  expect_error(replaced(kGood, "0x1.9p+6", "nan"), "x.case:5: ");
-  expect_error(replaced(kGood, "0x1.9p+6", "--1"), "x.case:5: ");
-  expect_error(replaced(kGood, "0x1.9p+6", "1e999"), "x.case:5: ");
-  expect_error(replaced(kGood, "5.5", "5.5 6"), "x.case:6: unexpected '6'");
-  expect_error(replaced(kGood, "a 0 1 2", "b 0 1 2"), "x.case:6: expected 'a'");
-  expect_error(replaced(kGood, "touches", "maybe"), "x.case:9: the answer is");
-  expect_error(replaced(kGood, "touches", "touches apart"), "x.case:9: unexpected 'apart'");
-  expect_error(replaced(kGood, "expect ", "except "), "x.case:9: expected 'expect'");
-  expect_error(kGood + std::string("more\n"), "x.case:10: nothing may follow");
+  expect_bad_case(testing::replaced(kGood, "=64", "=64 property=scala"),
+                  "x.case:4: there is no property 'scala' of queries");
+  expect_bad_case(testing::replaced(kGood, "=64", "=64 choices=1"), "x.case:4: expected 'property=...'");
+  expect_bad_case(testing::replaced(kGood, "=64", "=64 property=scale choices=1,"),
+                  "x.case:4: choices: '' is not an integer");
+  expect_bad_case(testing::replaced(kGood, "=64", "=64 property=scale choices=1,-2"),
+                  "x.case:4: choices: '-2' is not an integer");
+  expect_bad_case("", "x.case:0: the case ends too early");
+  expect_bad_case(testing::replaced(kGood, "selvage-case 1", "selvage-case 2"), "x.case:1: expected '1'");
+  expect_bad_case(testing::replaced(kGood, " vf", " fv"), "x.case:1: the kind of pair");
+  expect_bad_case(testing::replaced(kGood, "seed somewhere:7", "seed"), "x.case:3: a word is missing");
+  expect_bad_case(testing::replaced(kGood, "tolerance=0x1p-20", "tolerance="), "x.case:4: ");
+  expect_bad_case(testing::replaced(kGood, "max_intervals=64", "max_intervals=0"),
+                  "x.case:4: '0' is not a positive count");
+  expect_bad_case(testing::replaced(kGood, "0x1.9p+6", "0x1.9q+6"), "x.case:5: '0x1.9q+6' is not a finite number");
+  expect_bad_case(testing::replaced(kGood, "0x1.9p+6", "nan"), "x.case:5: ");
+  expect_bad_case(testing::replaced(kGood, "0x1.9p+6", "--1"), "x.case:5: ");
+  expect_bad_case(testing::replaced(kGood, "0x1.9p+6", "1e999"), "x.case:5: ");
+  expect_bad_case(testing::replaced(kGood, "5.5", "5.5 6"), "x.case:6: unexpected '6'");
+  expect_bad_case(testing::replaced(kGood, "a 0 1 2", "b 0 1 2"), "x.case:6: expected 'a'");
+  expect_bad_case(testing::replaced(kGood, "touches", "maybe"), "x.case:9: the answer is");
+  expect_bad_case(testing::replaced(kGood, "touches", "touches apart"), "x.case:9: unexpected 'apart'");
+  expect_bad_case(testing::replaced(kGood, "expect ", "except "), "x.case:9: expected 'expect'");
+  expect_bad_case(kGood + std::string("more\n"), "x.case:10: nothing may follow");
 }
 
 TEST(CaseFile, EveryTruncationIsAnError) {

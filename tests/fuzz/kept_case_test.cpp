@@ -14,8 +14,8 @@
 #include "fuzz/shrink_mesh.h"
 #include "fuzz/step_case.h"
 #include "fuzz/subdivision_case.h"
-#include "io/error.h"
 #include "tests/fuzz/nothing_done.h"
+#include "tests/fuzz/spoilt_text.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -85,59 +85,54 @@ TEST(KeptCase, KeepsEveryByteOfAFile) {
   EXPECT_EQ(dynamic_cast<const KeptBytes&>(*parsed.kept).bytes().value, "ply");
 }
 
-void expect_error(const std::string& text, const std::string& words) {
-  try {
-    (void)parse_kept_case(text, "x.case");
-    ADD_FAILURE() << "accepted:\n" << text;
-  } catch (const io::Error& error) {
-    EXPECT_EQ(error.kind(), io::ErrorKind::kBadInput);
-    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-  }
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
+void expect_bad_kept_case(const std::string& text, const std::string& words) {
+  testing::expect_bad_input([&] { (void)parse_kept_case(text, "x.case"); }, text, words);
 }
 
 TEST(KeptCase, NamesLineAndFieldOfWhatIsWrong) {
   ASSERT_NO_THROW((void)parse_kept_case(kStep, "x.case"));
   const std::string step = kStep;
-  expect_error(replaced(step, "1 step", "1 stop"), "x.case:1: there is no kind of case 'stop'");
-  expect_error(replaced(step, "seed", "sed"), "x.case:2: expected 'seed'");
-  expect_error(replaced(step, "set thickness_m 0x1p-3\n", ""), "x.case:4: expected 'thickness_m'");
-  expect_error(replaced(step, "thickness_m 0x1p-3", "thickness_m -1"), "x.case:4: thickness_m: -1 is not from");
-  expect_error(replaced(step, "repulsion 1", "repulsion 2"), "x.case:6: repulsion: '2' is not an integer from 0 to 1");
-  expect_error(replaced(step, "relaxation 1", "relaxation nan"), "x.case:9: 'nan' is not a finite number");
-  expect_error(replaced(step, "vertices 4", "vertices 99999999999"), "x.case:18: vertices: '99999999999' is not");
-  expect_error(replaced(step, "vertices 4", "vertices 5"), "x.case:23: expected 'v'");
-  expect_error(replaced(step, "v 0 0 0 ", "v 0 0 inf "), "x.case:19: 'inf' is not a finite number");
-  expect_error(replaced(step, "  0 2\n", "  0\n"), "x.case:22: a word is missing");
-  expect_error(replaced(step, "  0 2\n", "  0 -2\n"), "x.case:22: body: '-2' is not an integer from -1");
-  expect_error(replaced(step, "f 0 1 2", "f 0 1 4"), "x.case:24: vertex of a face: '4' is not an integer from 0 to 3");
-  expect_error(replaced(step, "f 0 1 2", "f 0 1 1"), "x.case:24: a face names a vertex twice");
-  expect_error(replaced(step, "f 0 1 2\n", ""), "x.case:23: the case ends too early");
-  expect_error(step + "f 0 1 3\n", "x.case:25: nothing may follow the faces");
-  expect_error("selvage-case 1 subdivision\nseed a\nfailure b\nset levels 9\n",
-               "x.case:4: levels: '9' is not an integer");
+  expect_bad_kept_case(testing::replaced(step, "1 step", "1 stop"), "x.case:1: there is no kind of case 'stop'");
+  expect_bad_kept_case(testing::replaced(step, "seed", "sed"), "x.case:2: expected 'seed'");
+  expect_bad_kept_case(testing::replaced(step, "set thickness_m 0x1p-3\n", ""), "x.case:4: expected 'thickness_m'");
+  expect_bad_kept_case(testing::replaced(step, "thickness_m 0x1p-3", "thickness_m -1"),
+                       "x.case:4: thickness_m: -1 is not from");
+  expect_bad_kept_case(testing::replaced(step, "repulsion 1", "repulsion 2"),
+                       "x.case:6: repulsion: '2' is not an integer from 0 to 1");
+  expect_bad_kept_case(testing::replaced(step, "relaxation 1", "relaxation nan"),
+                       "x.case:9: 'nan' is not a finite number");
+  expect_bad_kept_case(testing::replaced(step, "vertices 4", "vertices 99999999999"),
+                       "x.case:18: vertices: '99999999999' is not");
+  expect_bad_kept_case(testing::replaced(step, "vertices 4", "vertices 5"), "x.case:23: expected 'v'");
+  expect_bad_kept_case(testing::replaced(step, "v 0 0 0 ", "v 0 0 inf "), "x.case:19: 'inf' is not a finite number");
+  expect_bad_kept_case(testing::replaced(step, "  0 2\n", "  0\n"), "x.case:22: a word is missing");
+  expect_bad_kept_case(testing::replaced(step, "  0 2\n", "  0 -2\n"),
+                       "x.case:22: body: '-2' is not an integer from -1");
+  expect_bad_kept_case(testing::replaced(step, "f 0 1 2", "f 0 1 4"),
+                       "x.case:24: vertex of a face: '4' is not an integer from 0 to 3");
+  expect_bad_kept_case(testing::replaced(step, "f 0 1 2", "f 0 1 1"), "x.case:24: a face names a vertex twice");
+  expect_bad_kept_case(testing::replaced(step, "f 0 1 2\n", ""), "x.case:23: the case ends too early");
+  expect_bad_kept_case(step + "f 0 1 3\n", "x.case:25: nothing may follow the faces");
+  expect_bad_kept_case("selvage-case 1 subdivision\nseed a\nfailure b\nset levels 9\n",
+                       "x.case:4: levels: '9' is not an integer");
   const std::string file = "selvage-case 1 file\nseed a\nfailure b\n";
-  expect_error(file + "format elf\n", "x.case:4: format: 'elf' is not known");
-  expect_error(file + "format obj\n| a\\qb\n", "x.case:5: '\\' is followed by");
-  expect_error(file + "format obj\n| a\\x4\n", "x.case:5: '\\' is followed by");
-  expect_error(file + "format obj\na\n", "x.case:5: expected '|'");
-  expect_error("selvage-case 1 simulation\nseed a\nfailure b\nsteps 0\n", "x.case:4: steps: '0' is not known");
-  expect_error("selvage-case 1 drawn\nseed step:sup:1:2\nfailure hung\n", "x.case:3: seed: 'step:sup:1:2' is not");
+  expect_bad_kept_case(file + "format elf\n", "x.case:4: format: 'elf' is not known");
+  expect_bad_kept_case(file + "format obj\n| a\\qb\n", "x.case:5: '\\' is followed by");
+  expect_bad_kept_case(file + "format obj\n| a\\x4\n", "x.case:5: '\\' is followed by");
+  expect_bad_kept_case(file + "format obj\na\n", "x.case:5: expected '|'");
+  expect_bad_kept_case("selvage-case 1 simulation\nseed a\nfailure b\nsteps 0\n", "x.case:4: steps: '0' is not known");
+  expect_bad_kept_case("selvage-case 1 drawn\nseed step:sup:1:2\nfailure hung\n",
+                       "x.case:3: seed: 'step:sup:1:2' is not");
 }
 
 TEST(KeptCase, WhatPromisesNothingIsNotRun) {
   const auto unfit = [](const std::string& text) { return parse_kept_case(text, "x.case").kept->retry().unfit; };
-  const std::string step = replaced(replaced(kStep, "0 0 nan", "0 0 0"), "f 0 1 2", "f 0 1 3");
+  const std::string step = testing::replaced(testing::replaced(kStep, "0 0 nan", "0 0 0"), "f 0 1 2", "f 0 1 3");
   EXPECT_EQ(unfit(step), "");
-  EXPECT_EQ(unfit(replaced(step, "  0 2\n", "  1 2\n")), "a vertex of a body has a mass");
-  EXPECT_EQ(unfit(replaced(step, "kinetic 0.5", "kinetic 0.75")), "friction_kinetic is above friction_static");
-  EXPECT_EQ(unfit(replaced(step, "v 0 0 1 ", "v 2 0 0 ")), "the surface intersects itself at the start");
-  EXPECT_EQ(unfit(replaced(replaced(step, "float32 0", "float32 1"), "v 0 0 1 ", "v 0 0 0.1 ")),
+  EXPECT_EQ(unfit(testing::replaced(step, "  0 2\n", "  1 2\n")), "a vertex of a body has a mass");
+  EXPECT_EQ(unfit(testing::replaced(step, "kinetic 0.5", "kinetic 0.75")), "friction_kinetic is above friction_static");
+  EXPECT_EQ(unfit(testing::replaced(step, "v 0 0 1 ", "v 2 0 0 ")), "the surface intersects itself at the start");
+  EXPECT_EQ(unfit(testing::replaced(testing::replaced(step, "float32 0", "float32 1"), "v 0 0 1 ", "v 0 0 0.1 ")),
             "a vertex does not start on the float32 lattice");
   EXPECT_NE(unfit("selvage-case 1 simulation\nseed a\nfailure b\nsteps 2\n| [time\\n\n").find("the case:1"),
             std::string::npos);
