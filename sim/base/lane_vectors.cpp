@@ -1,8 +1,16 @@
 #include "sim/base/lane_vectors.h"
 
+#include <algorithm>
+
 #include "sim/base/parallel.h"
 
 namespace selvage::sim {
+
+void LaneScalars::copy(std::span<const double> values) {
+  rows_ = std::ssize(values);
+  column_.assign(static_cast<std::size_t>((rows_ + kLanes - 1) / kLanes * kLanes), 0);
+  std::ranges::copy(values, column_.begin());
+}
 
 void LaneVectors::copy(const Positions& x) {
   resize(x.rows());

@@ -1,8 +1,10 @@
-// Three numbers a vertex in columns, so that the vertices of a block of lanes are read and written at once.
+// One number a vertex, or three in columns, so that the vertices of a block of lanes are read and written at once.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "kernel/types.h"
 
@@ -15,6 +17,19 @@ inline constexpr Eigen::Index kLanes = 8;
 using Lanes = std::uint8_t;
 [[nodiscard]] inline bool has_lane(Lanes lanes, std::size_t lane) { return (lanes >> lane & 1U) != 0; }
 [[nodiscard]] inline Lanes only_lane(std::size_t lane) { return static_cast<Lanes>(1U << lane); }
+
+/// Whole blocks may be read, zero beyond the last row.
+class LaneScalars {
+ public:
+  void copy(std::span<const double> values);
+  [[nodiscard]] Eigen::Index rows() const { return rows_; }
+  [[nodiscard]] double operator[](Eigen::Index i) const { return column_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const double* data() const { return column_.data(); }
+
+ private:
+  std::vector<double> column_;
+  Eigen::Index rows_ = 0;
+};
 
 /// Zero in rows that were not set. Whole blocks may be read from kLanes rows before the first to kLanes after the last,
 /// and written where they hold one row at least.

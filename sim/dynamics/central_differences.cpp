@@ -28,12 +28,6 @@ constexpr double kLeastShare = 0.35;
 // Beyond what bodies that pull make of cloth all over (0.27, sim/springs/spring_strain.cpp).
 constexpr double kStretched = 0.3;
 
-/// Of the kick of the half step whose drag is explicit: without, drag turned a motion round for rates above 2 / h. With
-/// x the rate times h/2, drag alone leaves 1 - share x = (1 + x) / (1 + 2 x + 2 x^2) of a velocity: never below zero;
-/// to second order 1 - x, which goes with the 1 / (1 + x) of the other half step; and where x is large 1 / (2 x), which
-/// takes a vertex as far in the step as drag lets it.
-double share_of_kick(double x) { return 1 / (1 + x * (2 * x / (1 + 2 * x))); }
-
 }  // namespace
 
 CentralDifferences::CentralDifferences(const SpringSystem& springs, const CentralDifferencesOptions& options)
@@ -48,32 +42,9 @@ int CentralDifferences::step_count_in_contact(double dt_s, const PositionsRef& x
   return step_count(dt_s, std::min(options_.step_s, share * options_.stable_step_s));
 }
 
-// Also takes x_t1_ to where v takes x in the step.
-void CentralDifferences::explicit_half_kick(std::span<const double> inverse_mass, double h) {
-  x_t1_.resize(x_.rows());
-  parallel_each(v_.rows(), [&](Eigen::Index i) {
-    const double w = inverse_mass[static_cast<std::size_t>(i)];
-    Eigen::RowVector3d v = v_.row(i);
-    if (w > 0) {
-      const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * v.norm();
-      const double share = share_of_kick(h / 2 * drag_1_s);
-      const Eigen::RowVector3d kick = h / 2 * (options_.gravity_m_s2.transpose() - drag_1_s * v + w * force_.row(i));
-      const Eigen::RowVector3d damped = w * impulses_.row(i);
-      v += share * (kick - damped);
-      v_.row(i) = v;
-    }
-    x_t1_.row(i) = x_.row(i) + h * v;
-  });
-}
-
-void CentralDifferences::implicit_half_kick(std::span<const double> inverse_mass, double h) {
-  rhs_.resize(v_.rows());
-  parallel_each(rhs_.rows(), [&](Eigen::Index i) {
-    const double w = inverse_mass[static_cast<std::size_t>(i)];
-    rhs_.row(i) = v_.row(i);
-    if (w > 0) rhs_.row(i) += h / 2 * (options_.gravity_m_s2.transpose() + w * force_.row(i));
-  });
-  const VelocitySystem system{springs_, x_, inverse_mass, options_.drag_1_s};
+void CentralDifferences::implicit_half_kick(double h) {
+  elastic_half_kick(half_kick(h), inverse_mass_, force_, v_, rhs_);
+  const VelocitySystem system{springs_, x_, inverse_mass_, options_.drag_1_s};
   if (options_.quadratic_drag_1_m > 0) {
     march(system, h / 2);
   } else {
@@ -85,7 +56,7 @@ void CentralDifferences::implicit_half_kick(std::span<const double> inverse_mass
 void CentralDifferences::march(const VelocitySystem& system, double time_s) {
   double rate_1_s = 0, speed = 0;
   for (Eigen::Index i = 0; i < rhs_.rows(); ++i) {
-    const double w = system.inverse_mass[static_cast<std::size_t>(i)];
+    const double w = system.inverse_mass[i];
     if (w == 0) continue;
     rate_1_s = std::max(rate_1_s, w * springs_.row_sum(static_cast<VertexId>(i)) / time_s);
     speed = std::max(speed, rhs_.row(i).norm());
@@ -96,7 +67,7 @@ void CentralDifferences::march(const VelocitySystem& system, double time_s) {
     springs_.multiply(x_, v_, impulses_);
     a.resize(u.rows(), 3);
     parallel_each(a.rows(), [&](Eigen::Index i) {
-      const double w = system.inverse_mass[static_cast<std::size_t>(i)];
+      const double w = system.inverse_mass[i];
       const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * u.row(i).norm();
       a.row(i) = -(w / time_s) * impulses_.row(i) - (w > 0 ? drag_1_s : 0) * u.row(i);
     });
@@ -121,12 +92,14 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   }
   internal_step_s_ = h;
   strain_.forget();
+  inverse_mass_.copy(inverse_mass);
   x_.copy(motion.x);
   v_.copy(motion.v);
-  springs_.look(x_, inverse_mass, {h / 2, 0}, force_);
+  springs_.set_shares({h / 2, 0}, inverse_mass);
+  springs_.look(x_, force_);
   springs_.multiply(x_, v_, impulses_);
   for (int step = 0; step < count; ++step) {
-    explicit_half_kick(inverse_mass, h);
+    explicit_half_kick(half_kick(h), inverse_mass_, force_, impulses_, x_, v_, x_t1_);
     const LimitedMotion limited{x_, h, v_, x_t1_};
     const MidstepMotion held{h, double(step + 1) / count, x_t1_, v_};
     if (contacts != nullptr) contacts->bear(held);
@@ -135,8 +108,8 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     if (contacts != nullptr) contacts->hold(held);
     std::swap(x_, x_t1_);
     if (step + 1 == count) last_midstep_v_ = v_;
-    springs_.look(x_, inverse_mass, {h / 2, 0}, force_);
-    implicit_half_kick(inverse_mass, h);
+    springs_.look(x_, force_);
+    implicit_half_kick(h);
   }
   const Positions x_t0 = motion.x;
   x_.copy_to(motion.x);
@@ -156,11 +129,13 @@ void CentralDifferences::final_velocity(Motion& motion, std::span<const double> 
       if (inverse_mass[static_cast<std::size_t>(i)] > 0) motion.v.row(i) += last_midstep_v_.row(i) - average_v_.row(i);
     });
   }
+  inverse_mass_.copy(inverse_mass);
   x_.copy(motion.x);
   v_.copy(motion.v);
-  springs_.look(x_, inverse_mass, {h / 2, h / 2 * (h / 2)}, force_);
+  springs_.set_shares({h / 2, h / 2 * (h / 2)}, inverse_mass);
+  springs_.look(x_, force_);
   impulses_.set_zero();  // a guess that does not depend on what was before, so that a run resumes with the same bits
-  implicit_half_kick(inverse_mass, h);
+  implicit_half_kick(h);
   x_t1_.resize(x_.rows());
   parallel_each(x_.rows(), [&](Eigen::Index i) { x_t1_.row(i) = x_.row(i) + h * v_.row(i); });
   strain_.limit_strain_rate(inverse_mass, {x_, h, v_, x_t1_});

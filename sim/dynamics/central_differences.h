@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/dynamics/dynamics.h"
+#include "sim/dynamics/half_kicks.h"
 #include "sim/dynamics/velocity.h"
 #include "sim/springs/spring_lanes.h"
 #include "sim/springs/strain.h"
@@ -60,16 +61,17 @@ class CentralDifferences : public Dynamics {
     return static_cast<int>(std::ceil(dt_s / longest_s));
   }
   [[nodiscard]] int step_count_in_contact(double dt_s, const PositionsRef& x) const;
-  /// Half a step of all forces but springs' elongation within it, from v at x; the limits; and x at the end of the
-  /// step.
-  void explicit_half_kick(std::span<const double> inverse_mass, double h);
+  [[nodiscard]] HalfKick half_kick(double h) const {
+    return {h, options_.gravity_m_s2, options_.drag_1_s, options_.quadratic_drag_1_m};
+  }
   /// Leaves the impulses of B at the new velocity in impulses_.
-  void implicit_half_kick(std::span<const double> inverse_mass, double h);
+  void implicit_half_kick(double h);
   void march(const VelocitySystem& system, double time_s);
 
   CentralDifferencesOptions options_;
   const SpringSystem& system_;
   SpringLanes springs_;
+  LaneScalars inverse_mass_;
   LaneVectors x_, v_;
   LaneVectors force_;     ///< elastic, at x_
   LaneVectors impulses_;  ///< of damping over half a step, at the last velocity

@@ -159,14 +159,17 @@ SpringLanes::SpringLanes(const SpringSystem& springs, const StabilizerSystem* st
   diagonal_.resize(springs.vertex_count());
 }
 
-void SpringLanes::look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,
-                       LaneVectors& force) {
+void SpringLanes::set_shares(const ImpulseShares& shares, std::span<const double> inverse_mass) {
   shares_ = shares;
+  stabilizers_.set_shares(shares, inverse_mass);
+}
+
+void SpringLanes::look(const LaneVectors& x, LaneVectors& force) {
   force.resize(x.rows());
   parallel_blocks(x.rows(), [&](Eigen::Index begin, Eigen::Index end) {
-    HWY_DYNAMIC_DISPATCH(Look)(table_, x, shares, begin, end, entries_, force, diagonal_);
+    HWY_DYNAMIC_DISPATCH(Look)(table_, x, shares_, begin, end, entries_, force, diagonal_);
   });
-  stabilizers_.look(x, inverse_mass, shares, diagonal_);
+  stabilizers_.add_diagonal(x, diagonal_);
 }
 
 void SpringLanes::multiply_rows(const LaneVectors& x, const LaneVectors& v, Eigen::Index begin, Eigen::Index end,
@@ -177,7 +180,7 @@ void SpringLanes::multiply_rows(const LaneVectors& x, const LaneVectors& v, Eige
 
 void SpringLanes::multiply(const LaneVectors& x, const LaneVectors& v, LaneVectors& product) {
   product.resize(x.rows());
-  begin_product(v);
+  begin_product(x, v);
   parallel_blocks(x.rows(), [&](Eigen::Index begin, Eigen::Index end) { multiply_rows(x, v, begin, end, product); });
 }
 

@@ -26,10 +26,11 @@ class SpringLanes {
   /// `stabilizers` may be null; neither is needed later on.
   SpringLanes(const SpringSystem& springs, const StabilizerSystem* stabilizers);
 
-  /// Looks at the springs at x: `force` becomes the elastic forces in N, and B is that of `shares` from now on. Two
-  /// vertices at the same place, or so near that their squared distance is subnormal, do not pull at each other.
-  void look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,
-            LaneVectors& force);
+  /// B is that of `shares` from now on.
+  void set_shares(const ImpulseShares& shares, std::span<const double> inverse_mass);
+  /// Looks at the springs at x: `force` becomes the elastic forces in N, and B is that at x from now on. Two vertices
+  /// at the same place, or so near that their squared distance is subnormal, do not pull at each other.
+  void look(const LaneVectors& x, LaneVectors& force);
 
   /// B v: row i is the sum over its springs of c n n^T (v_i - v_other) with c = damping_s d + stiffness_s2 k, and what
   /// stabilisers add (stabilizer_lanes.h). B is symmetric and positive semidefinite, and its rows sum to zero. REQUIRES
@@ -37,9 +38,9 @@ class SpringLanes {
   void multiply(const LaneVectors& x, const LaneVectors& v, LaneVectors& product);
   /// The same in two parts, for who goes on with rows while they are at hand: all of v is looked at, then rows [begin,
   /// end) are found, in any order. REQUIRES begin a multiple of kLanes.
-  void begin_product(const LaneVectors& v) { stabilizers_.oppose(v); }
+  void begin_product(const LaneVectors& x, const LaneVectors& v) { stabilizers_.oppose(x, v); }
   /// Where v corrects what the last product was of, and stabilisers are weak, they are left out.
-  void begin_correction(const LaneVectors& v) { stabilizers_.oppose_correction(v); }
+  void begin_correction(const LaneVectors& x, const LaneVectors& v) { stabilizers_.oppose_correction(x, v); }
   void multiply_rows(const LaneVectors& x, const LaneVectors& v, Eigen::Index begin, Eigen::Index end,
                      LaneVectors& product) const;
 

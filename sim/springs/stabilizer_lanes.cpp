@@ -26,27 +26,36 @@ HWY_INLINE Vector WeightedSum(const LaneTable& table, const std::vector<double>&
   return sum;
 }
 
-void LookAtBows(const LaneTable& points, const std::vector<double>& weight, const StabilizerColumns& columns,
-                const ImpulseShares& shares, const LaneVectors& positions, Eigen::Index begin, Eigen::Index end,
-                LaneVectors& scaled) {
+/// Of the stabilisers from `row` on, where they are: their bows, and c over their squared length.
+struct Bows {
+  Vector bow;
+  Value c_by_squared;
+};
+HWY_INLINE Bows FindBows(const LaneTable& points, const std::vector<double>& weight, const StabilizerColumns& columns,
+                         const ImpulseShares& shares, const Axes& x, Eigen::Index row) {
   const Real d;
+  const auto entry = static_cast<std::size_t>(row);
+  const Vector bow = WeightedSum(points, weight, x, row);
+  const Value c = hn::Add(hn::Mul(hn::Set(d, shares.damping_s), ReadEntries(columns.damping_n_s_m, entry)),
+                          hn::Mul(hn::Set(d, shares.stiffness_s2), ReadEntries(columns.stiffness_n_m, entry)));
+  const Value squared = hn::Add(lanes::Dot<Real>(bow, bow), ReadEntries(columns.straight_m2, entry));
+  const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<double>::min()));
+  return {bow, hn::IfThenElseZero(apart, hn::Div(c, squared))};
+}
+
+void ScaleBows(const LaneTable& points, const std::vector<double>& weight, const StabilizerColumns& columns,
+               const ImpulseShares& shares, const LaneVectors& positions, Eigen::Index begin, Eigen::Index end,
+               LaneVectors& scaled) {
   const Axes x(positions);
-  const Value damping_s = hn::Set(d, shares.damping_s), stiffness_s2 = hn::Set(d, shares.stiffness_s2);
-  const Value least_squared = hn::Set(d, std::numeric_limits<double>::min());
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
-    const auto entry = static_cast<std::size_t>(row);
-    const Vector bow = WeightedSum(points, weight, x, row);
-    const Value c = hn::Add(hn::Mul(damping_s, ReadEntries(columns.damping_n_s_m, entry)),
-                            hn::Mul(stiffness_s2, ReadEntries(columns.stiffness_n_m, entry)));
-    const Value squared = hn::Add(lanes::Dot<Real>(bow, bow), ReadEntries(columns.straight_m2, entry));
-    const Value scale = hn::IfThenElseZero(hn::Ge(squared, least_squared), hn::Sqrt(hn::Div(c, squared)));
-    WriteRows(lanes::Times<Real>(scale, bow), scaled, row);
+    const Bows bows = FindBows(points, weight, columns, shares, x, row);
+    WriteRows(lanes::Times<Real>(hn::Sqrt(bows.c_by_squared), bows.bow), scaled, row);
   }
 }
 
-void AddDiagonal(const LaneTable& ends, const std::vector<double>& weight, const LaneVectors& bows, Eigen::Index begin,
-                 Eigen::Index end, LaneVectors& diagonal) {
-  const Axes bow(bows), before(diagonal);
+void AddDiagonal(const LaneTable& ends, const std::vector<double>& weight, const LaneVectors& scaled_bows,
+                 Eigen::Index begin, Eigen::Index end, LaneVectors& diagonal) {
+  const Axes bow(scaled_bows), before(diagonal);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     Vector sum = ReadRows(before, row);
     ForEachSlot(ends, row, [&](std::size_t entry, auto read) HWY_ATTR SELVAGE_INLINE_LAMBDA {
@@ -59,13 +68,14 @@ void AddDiagonal(const LaneTable& ends, const std::vector<double>& weight, const
   }
 }
 
-void Oppose(const LaneTable& points, const std::vector<double>& weight, const LaneVectors& bows,
-            const LaneVectors& velocities, Eigen::Index begin, Eigen::Index end, LaneVectors& impulse) {
-  const Axes v(velocities), bow(bows);
+void Oppose(const LaneTable& points, const std::vector<double>& weight, const StabilizerColumns& columns,
+            const ImpulseShares& shares, const LaneVectors& positions, const LaneVectors& velocities,
+            Eigen::Index begin, Eigen::Index end, LaneVectors& impulse) {
+  const Axes x(positions), v(velocities);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
-    const Vector along = ReadRows(bow, row);
-    const Value rate = lanes::Dot<Real>(along, WeightedSum(points, weight, v, row));
-    WriteRows(lanes::Times<Real>(rate, along), impulse, row);
+    const Bows bows = FindBows(points, weight, columns, shares, x, row);
+    const Value rate = lanes::Dot<Real>(bows.bow, WeightedSum(points, weight, v, row));
+    WriteRows(lanes::Times<Real>(hn::Mul(bows.c_by_squared, rate), bows.bow), impulse, row);
   }
 }
 
@@ -85,13 +95,13 @@ namespace selvage::sim {
 namespace {
 
 // What a solution neglects where stabilisers are weak is at most this part of how far it goes from its guess, which is
-// some half of the damping impulses; it ends at a hundredth of them in any case (kVelocityResidual). 0.021 for the
+// some half of the damping impulses; it may end at a twentieth of them in any case (kVelocityResidual). 0.021 for the
 // stiffnesses of sim/scenes/curtain.toml at any resolution.
 constexpr double kWeak = 1.0 / 32;
 
 }  // namespace
 
-HWY_EXPORT(LookAtBows);
+HWY_EXPORT(ScaleBows);
 HWY_EXPORT(AddDiagonal);
 HWY_EXPORT(Oppose);
 HWY_EXPORT(AddProduct);
@@ -125,7 +135,8 @@ StabilizerLanes::StabilizerLanes(const StabilizerSystem& stabilizers, std::int32
   ends_ = make_lane_table(ends);
   point_weight_ = points_.spread(weights);
   end_weight_ = ends_.spread(weights);
-  for (LaneVectors* by_stabilizer : {&bow_, &impulse_}) by_stabilizer->resize(static_cast<Eigen::Index>(all.size()));
+  for (LaneVectors* by_stabilizer : {&scaled_bow_, &impulse_})
+    by_stabilizer->resize(static_cast<Eigen::Index>(all.size()));
 }
 
 StabilizerLanes::Strength StabilizerLanes::find_strength(std::span<const double> inverse_mass) const {
@@ -138,31 +149,32 @@ StabilizerLanes::Strength StabilizerLanes::find_strength(std::span<const double>
   return strength;
 }
 
-void StabilizerLanes::look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,
-                           LaneVectors& diagonal) {
+void StabilizerLanes::set_shares(const ImpulseShares& shares, std::span<const double> inverse_mass) {
   shares_ = shares;
   strength_ = find_strength(inverse_mass);
-  if (strength_ == Strength::kNone) return;
-  parallel_blocks(bow_.rows(), [&](Eigen::Index begin, Eigen::Index end) {
-    HWY_DYNAMIC_DISPATCH(LookAtBows)(points_, point_weight_, columns_, shares, x, begin, end, bow_);
+}
+
+void StabilizerLanes::add_diagonal(const LaneVectors& x, LaneVectors& diagonal) {
+  if (strength_ != Strength::kFull) return;
+  parallel_blocks(scaled_bow_.rows(), [&](Eigen::Index begin, Eigen::Index end) {
+    HWY_DYNAMIC_DISPATCH(ScaleBows)(points_, point_weight_, columns_, shares_, x, begin, end, scaled_bow_);
   });
-  if (strength_ == Strength::kWeak) return;
   parallel_blocks(diagonal.rows(), [&](Eigen::Index begin, Eigen::Index end) {
-    HWY_DYNAMIC_DISPATCH(AddDiagonal)(ends_, end_weight_, bow_, begin, end, diagonal);
+    HWY_DYNAMIC_DISPATCH(AddDiagonal)(ends_, end_weight_, scaled_bow_, begin, end, diagonal);
   });
 }
 
-void StabilizerLanes::oppose(const LaneVectors& v) {
+void StabilizerLanes::oppose(const LaneVectors& x, const LaneVectors& v) {
   answers_ = strength_ != Strength::kNone;
   if (!answers_) return;
-  parallel_blocks(bow_.rows(), [&](Eigen::Index begin, Eigen::Index end) {
-    HWY_DYNAMIC_DISPATCH(Oppose)(points_, point_weight_, bow_, v, begin, end, impulse_);
+  parallel_blocks(impulse_.rows(), [&](Eigen::Index begin, Eigen::Index end) {
+    HWY_DYNAMIC_DISPATCH(Oppose)(points_, point_weight_, columns_, shares_, x, v, begin, end, impulse_);
   });
 }
 
-void StabilizerLanes::oppose_correction(const LaneVectors& v) {
+void StabilizerLanes::oppose_correction(const LaneVectors& x, const LaneVectors& v) {
   if (strength_ == Strength::kFull) {
-    oppose(v);
+    oppose(x, v);
   } else {
     answers_ = false;
   }

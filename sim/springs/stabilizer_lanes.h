@@ -25,15 +25,16 @@ class StabilizerLanes {
   StabilizerLanes() = default;
   StabilizerLanes(const StabilizerSystem& stabilizers, std::int32_t vertex_count);  ///< not needed later on
 
-  /// Looks at the bows at x; B is that of `shares` from now on. Adds its diagonal to `diagonal`, unless it is weak.
-  void look(const LaneVectors& x, std::span<const double> inverse_mass, const ImpulseShares& shares,
-            LaneVectors& diagonal);
-  /// Finds what each opposes to v. add_product() adds rows [begin, end) of B v, of that v; begin is a multiple of
+  /// B is that of `shares` from now on.
+  void set_shares(const ImpulseShares& shares, std::span<const double> inverse_mass);
+  /// Adds that of B at x, unless it is weak.
+  void add_diagonal(const LaneVectors& x, LaneVectors& diagonal);
+  /// Finds what each at x opposes to v. add_product() adds rows [begin, end) of B v, of that v; begin is a multiple of
   /// kLanes.
-  void oppose(const LaneVectors& v);
+  void oppose(const LaneVectors& x, const LaneVectors& v);
   /// The same for a correction of v, to which they answer nothing where they are weak: where they oppose less than a
   /// 32nd of the momentum that there is.
-  void oppose_correction(const LaneVectors& v);
+  void oppose_correction(const LaneVectors& x, const LaneVectors& v);
   void add_product(Eigen::Index begin, Eigen::Index end, LaneVectors& product) const;
   /// At least the sum of the magnitudes of row i of B, whatever the directions.
   [[nodiscard]] double row_sum(VertexId i) const;
@@ -49,7 +50,7 @@ class StabilizerLanes {
   ImpulseShares shares_;
   Strength strength_ = Strength::kNone;  ///< of B
   bool answers_ = false;                 ///< to what was to be opposed last
-  LaneVectors bow_;                      ///< by stabiliser: sqrt(c) n
+  LaneVectors scaled_bow_;               ///< by stabiliser: sqrt(c) n
   LaneVectors impulse_;                  ///< by stabiliser, on the middle node
 };
 

@@ -64,6 +64,11 @@ inline Positions from_lanes(const sim::LaneVectors& lanes) {
   lanes.copy_to(x);
   return x;
 }
+inline sim::LaneScalars to_lanes(const std::vector<double>& values) {
+  sim::LaneScalars lanes;
+  lanes.copy(values);
+  return lanes;
+}
 
 /// The same by SpringLanes.
 struct LaneForces {
@@ -75,7 +80,8 @@ inline LaneForces lane_forces(const sim::SpringSystem& springs, const sim::Stabi
   const sim::LaneVectors x_lanes = to_lanes(x), v_lanes = to_lanes(v);
   sim::LaneVectors force, impulses;
   const std::vector<double> inverse_mass(static_cast<std::size_t>(x.rows()), 1);
-  lanes.look(x_lanes, inverse_mass, {1, 0}, force);
+  lanes.set_shares({1, 0}, inverse_mass);
+  lanes.look(x_lanes, force);
   lanes.multiply(x_lanes, v_lanes, impulses);
   return {from_lanes(force), -from_lanes(impulses)};
 }

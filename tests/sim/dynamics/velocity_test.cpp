@@ -5,11 +5,13 @@
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "sim/dynamics/central_differences.h"
 #include "sim/dynamics/velocity_march.h"
 #include "tests/sim/dynamics/plain_forces.h"
 #include "tests/sim/random_cloth.h"
+#include "tests/vector_units.h"
 
 namespace selvage {
 
@@ -57,8 +59,10 @@ Positions solve(const testing::RandomCloth& cloth, const ImpulseShares& shares, 
   SpringLanes springs(cloth.springs, &system);
   const LaneVectors x = testing::to_lanes(cloth.x), rhs = testing::to_lanes(cloth.v);
   LaneVectors force, impulses, v = rhs;
-  springs.look(x, cloth.inverse_mass, shares, force);
-  EXPECT_LT(VelocitySolver().solve({springs, x, cloth.inverse_mass, drag_1_s}, rhs, dt_s, impulses, v), 200);
+  springs.set_shares(shares, cloth.inverse_mass);
+  springs.look(x, force);
+  const LaneScalars inverse_mass = testing::to_lanes(cloth.inverse_mass);
+  EXPECT_LT(VelocitySolver().solve({springs, x, inverse_mass, drag_1_s}, rhs, dt_s, impulses, v), 200);
   return testing::from_lanes(v);
 }
 
@@ -132,12 +136,51 @@ TEST(Velocity, AGoodGuessAtTheImpulsesIsWorthIterations) {
   SpringLanes springs(cloth.springs, nullptr);
   const LaneVectors x = testing::to_lanes(cloth.x), rhs = testing::to_lanes(cloth.v);
   LaneVectors force, impulses, v = rhs;
-  springs.look(x, cloth.inverse_mass, {0.02, 0}, force);
-  const VelocitySystem system{springs, x, cloth.inverse_mass, 0};
+  springs.set_shares({0.02, 0}, cloth.inverse_mass);
+  springs.look(x, force);
+  const LaneScalars inverse_mass = testing::to_lanes(cloth.inverse_mass);
+  const VelocitySystem system{springs, x, inverse_mass, 0};
   VelocitySolver solver;
   const std::int32_t from_nothing = solver.solve(system, rhs, 0.01, impulses, v);
   EXPECT_GE(from_nothing, 2);
   EXPECT_LT(solver.solve(system, rhs, 0.01, impulses, v), from_nothing);
+}
+
+TEST(Velocity, IsThatOfItsImpulsesHoweverFewIterationsItTakes) {
+  const auto cloth = random_cloth(7, 12);
+  SpringLanes springs(cloth.springs, nullptr);
+  springs.set_shares({0.02, 0}, cloth.inverse_mass);
+  const LaneVectors x = testing::to_lanes(cloth.x), rhs = testing::to_lanes(cloth.v);
+  const LaneScalars inverse_mass = testing::to_lanes(cloth.inverse_mass);
+  LaneVectors force, impulses, v = rhs;
+  springs.look(x, force);
+  const double dt_s = 0.01, drag_1_s = 3;
+  std::int32_t iterations = 200;
+  for (int time = 0; time < 5 && iterations > 0; ++time) {  // from nothing, and from what was found before
+    iterations = VelocitySolver().solve({springs, x, inverse_mass, drag_1_s}, rhs, dt_s, impulses, v);
+    const Positions found = testing::from_lanes(v), impulse = testing::from_lanes(impulses);
+    for (Eigen::Index i = 0; i < found.rows(); ++i) {
+      const Eigen::RowVector3d kicked = cloth.v.row(i) - inverse_mass[i] * impulse.row(i);
+      EXPECT_EQ(Eigen::RowVector3d(found.row(i)), Eigen::RowVector3d(kicked / (1 + dt_s * drag_1_s))) << i;
+    }
+  }
+  EXPECT_EQ(iterations, 0);
+}
+
+TEST(Velocity, SameBitsForAnyThreadCountAndVectorUnit) {
+  const auto cloth = random_cloth(8, 70);  // several blocks of a parallel loop, and no whole number of lanes
+  const auto stabilizers = testing::sheet_stabilizers(70, 30, 0.05);
+  Positions reference;
+  const auto compare = [&](const char* what) {
+    const Positions v = solve(cloth, {5, 0.02}, 3, 0.01, stabilizers);
+    if (reference.size() == 0) reference = v;
+    EXPECT_EQ(v, reference) << what;
+  };
+  for (const std::size_t threads : {1u, 2u, 4u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    compare("threads");
+  }
+  testing::on_every_vector_unit(compare);
 }
 
 TEST(VelocityMarch, LinearDampingDecaysExponentiallyAtFirstOrder) {

@@ -166,7 +166,8 @@ TEST(SpringLanes, DiagonalAndRowSumAreThoseOfTheMatrix) {
   const LaneVectors x = testing::to_lanes(any.cloth.x);
   LaneVectors force, product;
   const std::vector<double> light(25, 1e9);
-  lanes.look(x, light, {0.3, 0.05}, force);
+  lanes.set_shares({0.3, 0.05}, light);
+  lanes.look(x, force);
   for (Eigen::Index i = 0; i < 25; ++i) {
     double strongest = 0;
     for (Eigen::Index k = 0; k < 3; ++k) {
