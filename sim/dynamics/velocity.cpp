@@ -9,27 +9,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "sim/base/lane_sum-inl.h"
 #include "sim/base/lane_table-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
-
-/// A sum over rows that does not depend on the lanes of the vector unit: one for each lane of a block, added up last.
-class LaneSum {
- public:
-  HWY_INLINE void Add(Eigen::Index row, Value value) {
-    double* const lanes = by_lane_ + row % kLanes;
-    hn::StoreU(hn::Add(hn::LoadU(Real(), lanes), value), Real(), lanes);
-  }
-  [[nodiscard]] double total() const {
-    double sum = 0;
-    for (const double lane : by_lane_) sum += lane;
-    return sum;
-  }
-
- private:
-  double by_lane_[kLanes] = {};
-};
 
 HWY_INLINE Value InverseMass(const VelocitySystem& system, Eigen::Index row) {
   return hn::LoadU(Real(), system.inverse_mass.data() + row);

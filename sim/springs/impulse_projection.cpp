@@ -3,8 +3,114 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/springs/impulse_projection.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sim/base/lane_sum-inl.h"
+#include "sim/base/lane_table-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace selvage::sim::HWY_NAMESPACE {
+
+HWY_INLINE Value ReadAt(const std::vector<double>& column, std::size_t row) {
+  return hn::LoadU(Real(), column.data() + row);
+}
+HWY_INLINE void WriteAt(Value value, std::vector<double>& column, std::size_t row) {
+  hn::StoreU(value, Real(), column.data() + row);
+}
+/// Zero where it is not a number.
+HWY_INLINE Value NotBelowZero(Value value) { return hn::IfThenElseZero(hn::Gt(value, hn::Zero(Real())), value); }
+HWY_INLINE Vector GatherVertices(const double* vertices, const std::vector<std::int32_t>& places, std::size_t row) {
+  const Real d;
+  const auto at = hn::LoadU(hn::Rebind<std::int32_t, Real>(), places.data() + row);
+  const auto place = hn::PromoteTo(hn::RebindToSigned<Real>(), at);
+  return {hn::GatherIndex(d, vertices, place), hn::GatherIndex(d, vertices + 1, place),
+          hn::GatherIndex(d, vertices + 2, place)};
+}
+
+/// From the impulses of the direction at the vertices.
+ProjectionCurve LookAlong(const double* impulse_at, double added, ProjectionColumns& columns) {
+  const Real d;
+  const Value zero = hn::Zero(d), compliance = hn::Set(d, added);
+  const Value endless = hn::Set(d, std::numeric_limits<double>::infinity());
+  LaneSum slope, curvature;
+  Value feasible = endless;
+  for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
+    const Vector at_a = GatherVertices(impulse_at, columns.a, row), at_b = GatherVertices(impulse_at, columns.b, row);
+    const Vector rate = lanes::Minus<Real>(lanes::Times<Real>(ReadAt(columns.inverse_mass_a, row), at_a),
+                                           lanes::Times<Real>(ReadAt(columns.inverse_mass_b, row), at_b));
+    const Vector line{ReadAt(columns.x, row), ReadAt(columns.y, row), ReadAt(columns.z, row)};
+    const Value direction = ReadAt(columns.direction, row);
+    const Value product = hn::Add(lanes::Dot<Real>(line, rate), hn::Mul(compliance, direction));
+    WriteAt(product, columns.product, row);
+    const auto at = static_cast<Eigen::Index>(row);
+    slope.Add(at, hn::Mul(ReadAt(columns.gradient, row), direction));
+    curvature.Add(at, hn::Mul(direction, product));
+    const Value until = hn::Div(hn::Neg(ReadAt(columns.q, row)), direction);
+    feasible = hn::Min(feasible, hn::IfThenElse(hn::Lt(direction, zero), until, endless));
+  }
+  return {slope.total(), curvature.total(), hn::GetLane(hn::MinOfLanes(d, feasible))};
+}
+
+ProjectionLeft GoAlong(double length, double inverse_step, ProjectionColumns& columns) {
+  const Real d;
+  const Value zero = hn::Zero(d), far = hn::Set(d, length), by_step = hn::Set(d, inverse_step);
+  LaneSum acting, missing, turned;
+  for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
+    const Value product = ReadAt(columns.product, row);
+    const Value q = NotBelowZero(hn::Add(ReadAt(columns.q, row), hn::Mul(far, ReadAt(columns.direction, row))));
+    const Value gradient = hn::Add(ReadAt(columns.gradient, row), hn::Mul(far, product));
+    WriteAt(q, columns.q, row);
+    WriteAt(gradient, columns.gradient, row);
+    const auto acts = hn::Gt(q, zero), lacks = hn::AndNot(acts, hn::Lt(gradient, zero));
+    const Value shrinks = hn::Min(hn::Mul(q, by_step), gradient);
+    const auto at = static_cast<Eigen::Index>(row);
+    acting.Add(at, hn::IfThenElseZero(acts, hn::Mul(shrinks, gradient)));
+    missing.Add(at, hn::IfThenElseZero(lacks, hn::Mul(gradient, gradient)));
+    turned.Add(at, hn::IfThenElseZero(acts, hn::Mul(gradient, product)));
+  }
+  return {acting.total(), missing.total(), turned.total()};
+}
+
+/// Down the gradient where impulses act, and `share` of the last direction.
+void TurnDirection(double share, ProjectionColumns& columns) {
+  const Real d;
+  const Value zero = hn::Zero(d), last = hn::Set(d, share);
+  for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
+    const auto acts = hn::Gt(ReadAt(columns.q, row), zero);
+    const Value down = hn::IfThenElseZero(acts, hn::Neg(ReadAt(columns.gradient, row)));
+    WriteAt(hn::Add(down, hn::Mul(last, ReadAt(columns.direction, row))), columns.direction, row);
+  }
+}
+
+/// As far as no impulse pulls.
+void ProjectGradient(double step, ProjectionColumns& columns) {
+  const Real d;
+  const Value zero = hn::Zero(d), far = hn::Set(d, step);
+  for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
+    const Value q = ReadAt(columns.q, row);
+    const Value moved = NotBelowZero(hn::Sub(q, hn::Mul(far, ReadAt(columns.gradient, row))));
+    WriteAt(hn::Sub(hn::IfThenElseZero(hn::Gt(q, zero), moved), q), columns.direction, row);
+  }
+}
+
+/// Down the gradient of those that have none.
+void AddMissing(ProjectionColumns& columns) {
+  const Real d;
+  const Value zero = hn::Zero(d);
+  for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
+    const Value down = NotBelowZero(hn::Neg(ReadAt(columns.gradient, row)));
+    WriteAt(hn::IfThenElse(hn::Gt(ReadAt(columns.q, row), zero), zero, down), columns.direction, row);
+  }
+}
+
+}  // namespace selvage::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace selvage::sim {
 namespace {
 
@@ -17,129 +123,112 @@ constexpr double kTolerance = 0.02;
 /// times this, 0.06 mm/s a spring.
 constexpr double kCompliance = 1e-4;
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-/// y += factor x
-void add(double factor, const std::vector<double>& x, std::vector<double>& y) {
-  for (std::size_t i = 0; i < x.size(); ++i) y[i] += factor * x[i];
-}
+/// Doubles from one vertex to the next in impulse_at_.
+constexpr std::int32_t kStride = 4;
 
 }  // namespace
+
+HWY_EXPORT(LookAlong);
+HWY_EXPORT(GoAlong);
+HWY_EXPORT(TurnDirection);
+HWY_EXPORT(ProjectGradient);
+HWY_EXPORT(AddMissing);
 
 ImpulseProjection::ImpulseProjection(std::int32_t vertex_count)
     : row_vertex_(static_cast<std::size_t>(vertex_count), -1) {}
 
-std::size_t ImpulseProjection::row_vertex(VertexId vertex) {
+std::int32_t ImpulseProjection::row_vertex(VertexId vertex) {
   std::int32_t& id = row_vertex_[static_cast<std::size_t>(vertex)];
   if (id < 0) {
     id = static_cast<std::int32_t>(vertices_.size());
     vertices_.push_back(vertex);
   }
-  return static_cast<std::size_t>(id);
+  return id;
 }
 
-// The largest eigenvalue is at most the largest number of pairs at a vertex that can move: q^T A q is the sum over the
-// vertices of w |sum of q_i n_i|^2 <= w n sum of q_i^2, and each q_i^2 (w_a + w_b) is in it once.
-void ImpulseProjection::set_rows(const std::vector<BoundedPair>& pairs) {
-  rows_.clear();
+// In units of the fastest, so that no square leaves the range of doubles. The largest eigenvalue is at most the largest
+// number of pairs at a vertex that can move: q^T A q is the sum over the vertices of w |sum of q_i n_i|^2 <= w n sum of
+// q_i^2, and each q_i^2 (w_a + w_b) is in it once.
+void ImpulseProjection::set_rows(const std::vector<BoundedPair>& pairs, double fastest) {
+  const std::size_t lanes = kLanes, rows = (pairs.size() + lanes - 1) / lanes * lanes;
+  ProjectionColumns& c = columns_;
+  for (auto* column : {&c.a, &c.b}) column->assign(rows, 0);
+  for (auto* column :
+       {&c.inverse_mass_a, &c.inverse_mass_b, &c.x, &c.y, &c.z, &c.q, &c.gradient, &c.direction, &c.product}) {
+    column->assign(rows, 0);
+  }
+  scale_.clear();
+  directions_.clear();
   vertices_.clear();
-  for (const BoundedPair& pair : pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const BoundedPair& pair = pairs[i];
     const double scale = 1 / std::sqrt(pair.inverse_mass_a + pair.inverse_mass_b);
-    const std::size_t a = row_vertex(pair.a), b = row_vertex(pair.b);
-    rows_.push_back({a, b, pair.inverse_mass_a, pair.inverse_mass_b, scale, scale * pair.direction});
+    const Vec3 direction = scale * pair.direction;
+    scale_.push_back(scale);
+    directions_.emplace_back(direction.x(), direction.y(), direction.z(), 0);
+    c.a[i] = kStride * row_vertex(pair.a);
+    c.b[i] = kStride * row_vertex(pair.b);
+    c.inverse_mass_a[i] = pair.inverse_mass_a;
+    c.inverse_mass_b[i] = pair.inverse_mass_b;
+    c.x[i] = direction.x();
+    c.y[i] = direction.y();
+    c.z[i] = direction.z();
+    c.direction[i] = pair.impulse_n_s / scale / fastest;
+    c.gradient[i] = -pair.excess_m_s * scale / fastest;
   }
   for (const VertexId vertex : vertices_) row_vertex_[static_cast<std::size_t>(vertex)] = -1;
   impulse_at_.resize(vertices_.size());
   std::vector<std::int32_t> count(vertices_.size());
   std::int32_t most = 1;
-  for (const Row& row : rows_) {
-    if (row.inverse_mass_a > 0) most = std::max(most, ++count[row.a]);
-    if (row.inverse_mass_b > 0) most = std::max(most, ++count[row.b]);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (c.inverse_mass_a[i] > 0) most = std::max(most, ++count[static_cast<std::size_t>(c.a[i] / kStride)]);
+    if (c.inverse_mass_b[i] > 0) most = std::max(most, ++count[static_cast<std::size_t>(c.b[i] / kStride)]);
   }
-  step_ = 1 / (most + kCompliance);
+  inverse_step_ = most + kCompliance;
 }
 
-void ImpulseProjection::multiply(const std::vector<double>& q, std::vector<double>& product) {
-  std::ranges::fill(impulse_at_, Vec3::Zero());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Row& row = rows_[i];
-    impulse_at_[row.a] += q[i] * row.direction;
-    impulse_at_[row.b] -= q[i] * row.direction;
+ProjectionCurve ImpulseProjection::look_along() {
+  std::ranges::fill(impulse_at_, Eigen::Vector4d::Zero());
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const Eigen::Vector4d impulse = columns_.direction[i] * directions_[i];
+    impulse_at_[static_cast<std::size_t>(columns_.a[i] / kStride)] += impulse;
+    impulse_at_[static_cast<std::size_t>(columns_.b[i] / kStride)] -= impulse;
   }
-  product.resize(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Row& row = rows_[i];
-    product[i] = row.direction.dot(row.inverse_mass_a * impulse_at_[row.a] - row.inverse_mass_b * impulse_at_[row.b]) +
-                 kCompliance * q[i];
-  }
+  return HWY_DYNAMIC_DISPATCH(LookAlong)(impulse_at_.front().data(), kCompliance, columns_);
 }
 
-ImpulseProjection::Left ImpulseProjection::left() const {
-  Left left;
-  for (std::size_t i = 0; i < q_.size(); ++i) {
-    const double g = gradient_[i];
-    if (q_[i] > 0) {
-      left.acting += std::min(q_[i] / step_, g) * g;
-    } else if (g < 0) {
-      left.missing += g * g;
-    }
-  }
-  return left;
+void ImpulseProjection::go_along(double length) {
+  left_ = HWY_DYNAMIC_DISPATCH(GoAlong)(length, inverse_step_, columns_);
 }
 
+/// From where none acts to `direction`, or to the least on the way there.
 void ImpulseProjection::take_guess() {
-  multiply(q_, product_);
-  const double curvature = dot(q_, product_);
-  const double share = curvature > 0 ? std::clamp(-dot(q_, gradient_) / curvature, 0.0, 1.0) : 0;
-  for (double& q : q_) q *= share;
-  add(share, product_, gradient_);
+  const ProjectionCurve curve = look_along();
+  go_along(curve.curvature > 0 ? std::clamp(-curve.slope / curve.curvature, 0.0, 1.0) : 0);
 }
 
-/// Down the gradient of those that have none.
 void ImpulseProjection::add_missing() {
-  for (std::size_t i = 0; i < q_.size(); ++i) direction_[i] = q_[i] > 0 ? 0 : std::max(-gradient_[i], 0.0);
-  multiply(direction_, product_);
-  const double length = -dot(gradient_, direction_) / dot(direction_, product_);
-  add(length, direction_, q_);
-  add(length, product_, gradient_);
+  HWY_DYNAMIC_DISPATCH(AddMissing)(columns_);
+  const ProjectionCurve curve = look_along();
+  go_along(-curve.slope / curve.curvature);
   is_new_face_ = true;
 }
 
 /// A step of conjugate gradients; where one would pull, as far as that lets it, then down the gradient.
 void ImpulseProjection::improve_acting() {
-  if (is_new_face_) {
-    for (std::size_t i = 0; i < q_.size(); ++i) direction_[i] = q_[i] > 0 ? -gradient_[i] : 0;
-    is_new_face_ = false;
-  }
-  multiply(direction_, product_);
-  const double curvature = dot(direction_, product_);
-  const double length = -dot(gradient_, direction_) / curvature;
-  double feasible = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < q_.size(); ++i) {
-    if (direction_[i] < 0) feasible = std::min(feasible, -q_[i] / direction_[i]);
-  }
-  const double taken = std::min(length, feasible);
-  for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = std::max(0.0, q_[i] + taken * direction_[i]);
-  add(taken, product_, gradient_);
-  if (length > feasible) return project_gradient();
-  double along = 0;
-  for (std::size_t i = 0; i < q_.size(); ++i) along += q_[i] > 0 ? gradient_[i] * product_[i] : 0;
-  for (std::size_t i = 0; i < q_.size(); ++i) {
-    direction_[i] = (q_[i] > 0 ? -gradient_[i] : 0) + along / curvature * direction_[i];
-  }
+  if (is_new_face_) HWY_DYNAMIC_DISPATCH(TurnDirection)(0, columns_);
+  is_new_face_ = false;
+  const ProjectionCurve curve = look_along();
+  const double length = -curve.slope / curve.curvature;
+  go_along(std::min(length, curve.feasible));
+  if (length > curve.feasible) return project_gradient();
+  HWY_DYNAMIC_DISPATCH(TurnDirection)(left_.turned / curve.curvature, columns_);
 }
 
-/// As far as no impulse pulls.
 void ImpulseProjection::project_gradient() {
-  for (std::size_t i = 0; i < q_.size(); ++i) {
-    const double next = q_[i] > 0 ? std::max(0.0, q_[i] - step_ * gradient_[i]) : 0;
-    direction_[i] = next - q_[i];
-    q_[i] = next;
-  }
-  multiply(direction_, product_);
-  add(1, product_, gradient_);
+  HWY_DYNAMIC_DISPATCH(ProjectGradient)(1 / inverse_step_, columns_);
+  look_along();
+  go_along(1);
   is_new_face_ = true;
 }
 
@@ -155,39 +244,32 @@ void ImpulseProjection::solve(std::vector<BoundedPair>& pairs, Start start, std:
     for (BoundedPair& pair : pairs) pair.impulse_n_s = start == Start::kActing ? pair.impulse_n_s : 0;
     return;
   }
-  set_rows(pairs);
-  // In units of the fastest, so that no square leaves the range of doubles.
-  q_.clear();
-  gradient_.clear();
-  direction_.assign(pairs.size(), 0);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    q_.push_back(pairs[i].impulse_n_s / rows_[i].scale / fastest);
-    gradient_.push_back(-pairs[i].excess_m_s * rows_[i].scale / fastest);
-  }
+  set_rows(pairs, fastest);
   if (start == Start::kGuess) {
-    const double none = std::accumulate(gradient_.begin(), gradient_.end(), 0.0,
-                                        [](double sum, double g) { return sum + (g < 0 ? g * g : 0); });
-    first_m_s_ = std::sqrt(none) * fastest;
+    go_along(0);
+    first_m_s_ = std::sqrt(left_.missing) * fastest;
     take_guess();
   } else {
-    add(kCompliance, q_, gradient_);
+    columns_.product = columns_.q = columns_.direction;
+    columns_.direction.assign(columns_.direction.size(), 0);
+    go_along(kCompliance);
   }
   is_new_face_ = true;
   const double enough = kTolerance * first_m_s_ / fastest;
   for (std::int32_t iteration = 0; iteration < iterations; ++iteration) {
-    const Left left = this->left();
-    if (!(left.acting + left.missing > enough * enough)) break;
-    if (left.missing > left.acting) {
+    if (!(left_.acting + left_.missing > enough * enough)) break;
+    if (left_.missing > left_.acting) {
       add_missing();
     } else {
       improve_acting();
     }
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double impulse_n_s = q_[i] * rows_[i].scale * fastest;
+    const double impulse_n_s = columns_.q[i] * scale_[i] * fastest;
     pairs[i].change_n_s = impulse_n_s - (start == Start::kActing ? pairs[i].impulse_n_s : 0);
     pairs[i].impulse_n_s = impulse_n_s;
   }
 }
 
 }  // namespace selvage::sim
+#endif

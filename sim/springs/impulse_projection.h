@@ -1,8 +1,11 @@
-// Impulses between pairs of vertices that push one way only, and together leave the least kinetic energy.
+// Impulses between pairs of vertices that push one way only, and together leave the least kinetic energy; several pairs
+// at once (SIMD, chosen at run time).
 #pragma once
 
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "kernel/types.h"
 
@@ -18,13 +21,32 @@ struct BoundedPair {
   double change_n_s = 0;   ///< what solve() adds to the impulse that acts
 };
 
+/// Pairs in whole blocks of lanes, zero beyond the last, scaled so that every diagonal element of their system is 1.
+struct ProjectionColumns {
+  std::vector<std::int32_t> a, b;  ///< where the impulses at their vertices stand
+  std::vector<double> inverse_mass_a, inverse_mass_b;
+  std::vector<double> x, y, z;                          ///< of the direction of the impulse
+  std::vector<double> q, gradient, direction, product;  ///< impulses; where to; the system times `direction`
+};
+
+/// What is minimised, by l along the direction: `slope` l + `curvature` l^2 / 2. From `feasible` on an impulse pulls.
+struct ProjectionCurve {
+  double slope = 0, curvature = 0, feasible = 0;
+};
+
+/// Squares of what is left to improve where impulses act (no farther than they may shrink in a step), and where none
+/// do; and gradient times product where they act.
+struct ProjectionLeft {
+  double acting = 0, missing = 0, turned = 0;
+};
+
 /// Minimises the kinetic energy plus the impulses times their bounds over all impulses p >= 0: where it is least no
 /// pair is faster than its bound, and none that is slower has an impulse. To a ten-thousandth: each has a little
 /// compliance, as bounds need not be such that all can be kept. By MPRGP, conjugate gradients while the same impulses
 /// act and projected steps where that changes (Dostal and Schoeberl 2005), scaled by the pairs' own mobilities. What is
 /// minimised falls in every iteration, and begins at no more than without impulses: stopped anywhere, they add no
-/// kinetic energy, in real numbers and beside vertices at rest that cannot move. O(pairs) an iteration, in order: the
-/// same bits for any number of threads.
+/// kinetic energy, in real numbers and beside vertices at rest that cannot move. O(pairs) an iteration, on one thread;
+/// same bits for any vector unit.
 class ImpulseProjection {
  public:
   explicit ImpulseProjection(std::int32_t vertex_count);
@@ -38,38 +60,26 @@ class ImpulseProjection {
   void solve(std::vector<BoundedPair>& pairs, Start start, std::int32_t iterations);
 
  private:
-  /// One vertex of a pair in the order of first use, and one row of the scaled system: with it every diagonal element
-  /// is 1.
-  struct Row {
-    std::size_t a = 0, b = 0;
-    double inverse_mass_a = 0, inverse_mass_b = 0;
-    double scale = 0;
-    Vec3 direction = Vec3::Zero();  ///< scaled
-  };
-
-  void set_rows(const std::vector<BoundedPair>& pairs);
-  std::size_t row_vertex(VertexId vertex);
-  /// The system times q.
-  void multiply(const std::vector<double>& q, std::vector<double>& product);
-  /// Squares of what is left to improve where impulses act (no farther than they may shrink in a step), and where none
-  /// do.
-  struct Left {
-    double acting = 0, missing = 0;
-  };
-  [[nodiscard]] Left left() const;
+  void set_rows(const std::vector<BoundedPair>& pairs, double fastest);
+  std::int32_t row_vertex(VertexId vertex);
+  /// Finds the product of the direction.
+  ProjectionCurve look_along();
+  void go_along(double length);
   void take_guess();
   void add_missing();
   void improve_acting();
   void project_gradient();
 
-  std::vector<Row> rows_;
-  std::vector<std::int32_t> row_vertex_;  ///< by vertex; -1 between calls
+  ProjectionColumns columns_;
+  std::vector<double> scale_;                ///< by pair
+  std::vector<Eigen::Vector4d> directions_;  ///< by pair: once more, for vertices one by one; the last is zero
+  std::vector<Eigen::Vector4d> impulse_at_;  ///< by vertex of a pair, in the order of first use
+  std::vector<std::int32_t> row_vertex_;     ///< by vertex; -1 between calls
   std::vector<VertexId> vertices_;
-  std::vector<Vec3> impulse_at_;  ///< by row vertex
-  double step_ = 1;               ///< of projected gradients: no more than one over the largest eigenvalue
-  double first_m_s_ = 0;          ///< what was to improve without any impulse, scaled
+  double inverse_step_ = 1;  ///< of projected gradients: no less than the largest eigenvalue
+  double first_m_s_ = 0;     ///< what was to improve without any impulse, scaled
+  ProjectionLeft left_;
   bool is_new_face_ = true;
-  std::vector<double> q_, gradient_, direction_, product_;
 };
 
 }  // namespace selvage::sim
