@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -19,20 +21,29 @@ namespace {
 /// order of what they find (K7).
 constexpr std::size_t kTaskSize = 4096;
 
-/// Calls body(those of one task, found) for all `items` and joins what the tasks found in order.
+/// Calls body(those of one task, found) for all `items`. Returns what each task found, in order.
 template <typename Found, typename Item, typename Body>
-std::vector<Found> for_each_task(const std::vector<Item>& items, const Body& body) {
+std::vector<std::vector<Found>> for_each_task(const std::vector<Item>& items, const Body& body) {
   std::vector<std::vector<Found>> tasks((items.size() + kTaskSize - 1) / kTaskSize);
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t task) {
     const FpEnvGuard guard;
     const auto rest = std::span(items).subspan(task * kTaskSize);
     body(rest.first(std::min(kTaskSize, rest.size())), tasks[task]);
   });
+  return tasks;
+}
+
+template <typename Found>
+std::vector<Found> joined(std::initializer_list<std::span<const std::vector<Found>>> all_tasks) {
   std::size_t count = 0;
-  for (const auto& task : tasks) count += task.size();
+  for (const auto& tasks : all_tasks) {
+    for (const auto& task : tasks) count += task.size();
+  }
   std::vector<Found> all;
   all.reserve(count);
-  for (const auto& task : tasks) all.insert(all.end(), task.begin(), task.end());
+  for (const auto& tasks : all_tasks) {
+    for (const auto& task : tasks) all.insert(all.end(), task.begin(), task.end());
+  }
   return all;
 }
 
@@ -40,7 +51,7 @@ std::vector<Found> for_each_task(const std::vector<Item>& items, const Body& bod
 template <typename Candidate>
 std::vector<Candidate> not_proved_apart(const Mesh& mesh, const detail::LaneMotion& still, double reach,
                                         const std::vector<Candidate>& candidates) {
-  return for_each_task<Candidate>(candidates, [&](std::span<const Candidate> task, std::vector<Candidate>& found) {
+  const auto left_by_task = for_each_task<Candidate>(candidates, [&](std::span<const Candidate> task, auto& found) {
     detail::PairNumbers left;
     for (std::size_t first = 0; first < task.size(); first += detail::kPairBlock) {
       const auto pairs = task.subspan(first, std::min(detail::kPairBlock, task.size() - first));
@@ -48,11 +59,12 @@ std::vector<Candidate> not_proved_apart(const Mesh& mesh, const detail::LaneMoti
       for (const std::uint32_t i : std::span(left.place).first(left.count)) found.push_back(pairs[i]);
     }
   });
+  return joined<Candidate>({left_by_task});
 }
 
 template <typename Candidate, typename Query>
-std::vector<PairProximity> ask(const Mesh& mesh, const PositionsRef& V, double reach, PairKind kind,
-                               const std::vector<Candidate>& candidates, const Query& query) {
+std::vector<std::vector<PairProximity>> ask(const Mesh& mesh, const PositionsRef& V, double reach, PairKind kind,
+                                            const std::vector<Candidate>& candidates, const Query& query) {
   return for_each_task<PairProximity>(candidates, [&](std::span<const Candidate> task, auto& found) {
     for (const auto& [first, second] : task) {
       const auto v = pair_vertices(mesh, kind, first, second);
@@ -82,11 +94,9 @@ Candidates find_near_candidates(const Mesh& mesh, BoxHierarchy& hierarchy, const
 
 std::vector<PairProximity> ask_proximities(const Mesh& mesh, const PositionsRef& V, const Candidates& candidates,
                                            double reach) {
-  std::vector<PairProximity> found = ask(mesh, V, reach, PairKind::kVf, candidates.vf, detail::vf_proximity_unguarded);
-  const std::vector<PairProximity> ee =
-      ask(mesh, V, reach, PairKind::kEe, candidates.ee, detail::ee_proximity_unguarded);
-  found.insert(found.end(), ee.begin(), ee.end());
-  return found;
+  const auto vf = ask(mesh, V, reach, PairKind::kVf, candidates.vf, detail::vf_proximity_unguarded);
+  const auto ee = ask(mesh, V, reach, PairKind::kEe, candidates.ee, detail::ee_proximity_unguarded);
+  return joined<PairProximity>({vf, ee});
 }
 
 std::vector<PairProximity> find_proximities(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V,

@@ -31,17 +31,13 @@ constexpr int kFirstSweeps = 2;
 
 std::vector<RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table,
                                             const Positions& V_t0, std::span<const double> inverse_mass) {
-  std::vector<std::optional<RepulsionContact>> made(pairs.size());
+  std::vector<RepulsionContact> contacts(pairs.size());
   parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
     const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
-    made[static_cast<std::size_t>(i)] =
-        make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
+    const auto made = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
+    if (made) contacts[static_cast<std::size_t>(i)] = *made;
   });
-  std::vector<RepulsionContact> contacts;
-  contacts.reserve(pairs.size());
-  for (const auto& contact : made) {
-    if (contact) contacts.push_back(*contact);
-  }
+  std::erase_if(contacts, [](const RepulsionContact& contact) { return !(contact.mobility > 0); });  // none was made
   return contacts;
 }
 
@@ -49,13 +45,15 @@ std::vector<RepulsionContact> make_contacts(const std::vector<PairProximity>& pa
 class Attempt {
  public:
   Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const ContactTable& contacts,
-          StartProximities& proximities, const CollisionBodies& bodies, std::vector<std::uint8_t> surface,
-          ScriptedGroups& groups, double dt_s, const Patience& patience, std::span<const RepulsionContact> held)
+          StartProximities& proximities, Contacts& swept, const CollisionBodies& bodies,
+          std::vector<std::uint8_t> surface, ScriptedGroups& groups, double dt_s, const Patience& patience,
+          std::span<const RepulsionContact> held)
       : mesh_(mesh),
         hierarchy_(hierarchy),
         options_(options),
         contacts_(contacts),
         proximities_(proximities),
+        swept_(swept),
         bodies_(bodies),
         groups_(groups),
         dt_s_(dt_s),
@@ -109,6 +107,7 @@ class Attempt {
   const CollisionOptions& options_;
   const ContactTable& contacts_;
   StartProximities& proximities_;
+  Contacts& swept_;
   const CollisionBodies& bodies_;
   ScriptedGroups& groups_;
   const double dt_s_;
@@ -131,8 +130,8 @@ void Attempt::repel() {
     proximities_.start(hierarchy_, motion_.V_t0(), surface_);
     proximities_.leave_out(held_);
   }
-  Contacts contacts;
-  for (const RepulsionContact& held : held_) contacts.add(held);
+  swept_.clear();
+  for (const RepulsionContact& held : held_) swept_.add(held);
   for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
     std::vector<RepulsionContact> found;
     {
@@ -140,13 +139,13 @@ void Attempt::repel() {
       found = make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass);
     }
     const PhaseTimer timer(report_.phases.repulsion);
-    for (const RepulsionContact& contact : found) contacts.add(contact);
-    contacts.repel(options_, dt_s_, sweeps, motion_);
+    for (const RepulsionContact& contact : found) swept_.add(contact);
+    swept_.repel(options_, dt_s_, sweeps, motion_);
   }
-  met_ = contacts.pressed(held_.size());
+  met_ = swept_.pressed(held_.size());
   report_.proximities = std::ssize(held_) + proximities_.count();
-  report_.repulsions = contacts.count().repulsions;
-  report_.frictions = contacts.count().frictions;
+  report_.repulsions = swept_.count().repulsions;
+  report_.frictions = swept_.count().frictions;
 }
 
 /// What repulsions leave, as contacts: dynamics that know of them do better than impulses at the end of the step.
@@ -261,6 +260,7 @@ struct CollisionStep::Impl {
   BoxHierarchy hierarchy;
   SurfaceParts parts;
   StartProximities proximities;
+  Contacts swept;  ///< in one attempt; here so that its memory stays
 };
 
 CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces)
@@ -281,8 +281,8 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);
-  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, bodies,
-                  impl_->parts.cloth_flags(bodies), groups, dt_s, patience, held);
+  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, impl_->swept,
+                  bodies, impl_->parts.cloth_flags(bodies), groups, dt_s, patience, held);
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
     groups.wait(conflict->groups, conflict->vertices);  // of which one at least moved till now: so this ends

@@ -144,6 +144,7 @@ std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& 
     is_local[pair] = test.is_local(proximities[pair]);
   });
   std::vector<PairProximity> local;
+  local.reserve(static_cast<std::size_t>(std::ranges::count(is_local, std::uint8_t{1})));
   for (std::size_t pair = 0; pair < proximities.size(); ++pair) {
     if (is_local[pair] != 0) local.push_back(proximities[pair]);
   }

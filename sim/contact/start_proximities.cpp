@@ -50,6 +50,7 @@ std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const V
   std::ranges::set_union(known_, found, std::back_inserter(known));
   known_ = std::move(known);
   std::vector<PairProximity> result;
+  result.reserve(found.size());
   for (const std::size_t pair : found) {
     if (decision_[pair] != kNotLocal) result.push_back(local_[static_cast<std::size_t>(decision_[pair])]);
   }

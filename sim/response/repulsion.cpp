@@ -48,6 +48,12 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   return result;
 }
 
+void Contacts::clear() {
+  contacts_.clear();
+  loads_.clear();
+  count_ = {};
+}
+
 void Contacts::repel(const CollisionOptions& options, double dt_s, int sweeps, StepMotion& motion) {
   const std::size_t first_new = loads_.size();
   loads_.resize(contacts_.size());

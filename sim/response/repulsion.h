@@ -53,6 +53,7 @@ struct RepulsionChange {
 /// The contacts of a step; counts those that repelled, and rubbed, in their first sweep.
 class Contacts {
  public:
+  void clear();
   void add(const RepulsionContact& contact) { contacts_.push_back(contact); }
   /// Sweeps over the contacts in their order, then back, and so on, so that neither end of the cloth is favoured, until
   /// no contact has anything to change, at most `sweeps` times. No sweep adds energy but for the spring's, as no
