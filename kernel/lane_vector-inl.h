@@ -32,6 +32,11 @@ template <class D>
 HWY_INLINE Value3<D> Times(hn::Vec<D> s, const Value3<D>& a) {
   return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
 }
+/// Component by component.
+template <class D>
+HWY_INLINE Value3<D> Product(const Value3<D>& a, const Value3<D>& b) {
+  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
 template <class D>
 HWY_INLINE hn::Vec<D> Dot(const Value3<D>& a, const Value3<D>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));

@@ -29,31 +29,35 @@ namespace {
 /// and ten behind took 1.7 times the time of two and eight, and the same steps (curtain at full quality, frame 100).
 constexpr int kFirstSweeps = 2;
 
-std::vector<RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table,
-                                            const Positions& V_t0, std::span<const double> inverse_mass) {
-  std::vector<RepulsionContact> contacts(pairs.size());
+void make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table, const Positions& V_t0,
+                   std::span<const double> inverse_mass, std::vector<RepulsionContact>& contacts) {
+  contacts.resize(pairs.size());
   parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
     const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
     const auto made = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
-    if (made) contacts[static_cast<std::size_t>(i)] = *made;
+    contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
   });
   std::erase_if(contacts, [](const RepulsionContact& contact) { return !(contact.mobility > 0); });  // none was made
-  return contacts;
 }
+
+/// Memory of attempts, which is used again: pages that are new to a process take time (docs/simulator-speed.md).
+struct Room {
+  std::vector<RepulsionContact> found;
+  Contacts swept;
+};
 
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
  public:
   Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const ContactTable& contacts,
-          StartProximities& proximities, Contacts& swept, const CollisionBodies& bodies,
-          std::vector<std::uint8_t> surface, ScriptedGroups& groups, double dt_s, const Patience& patience,
-          std::span<const RepulsionContact> held)
+          StartProximities& proximities, Room& room, const CollisionBodies& bodies, std::vector<std::uint8_t> surface,
+          ScriptedGroups& groups, double dt_s, const Patience& patience, std::span<const RepulsionContact> held)
       : mesh_(mesh),
         hierarchy_(hierarchy),
         options_(options),
         contacts_(contacts),
         proximities_(proximities),
-        swept_(swept),
+        room_(room),
         bodies_(bodies),
         groups_(groups),
         dt_s_(dt_s),
@@ -107,7 +111,7 @@ class Attempt {
   const CollisionOptions& options_;
   const ContactTable& contacts_;
   StartProximities& proximities_;
-  Contacts& swept_;
+  Room& room_;
   const CollisionBodies& bodies_;
   ScriptedGroups& groups_;
   const double dt_s_;
@@ -130,22 +134,22 @@ void Attempt::repel() {
     proximities_.start(hierarchy_, motion_.V_t0(), surface_);
     proximities_.leave_out(held_);
   }
-  swept_.clear();
-  for (const RepulsionContact& held : held_) swept_.add(held);
+  Contacts& contacts = room_.swept;
+  contacts.clear();
+  for (const RepulsionContact& held : held_) contacts.add(held);
   for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
-    std::vector<RepulsionContact> found;
     {
       const PhaseTimer timer(report_.phases.proximity);
-      found = make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass);
+      make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass, room_.found);
     }
     const PhaseTimer timer(report_.phases.repulsion);
-    for (const RepulsionContact& contact : found) swept_.add(contact);
-    swept_.repel(options_, dt_s_, sweeps, motion_);
+    for (const RepulsionContact& contact : room_.found) contacts.add(contact);
+    contacts.repel(options_, dt_s_, sweeps, motion_);
   }
-  met_ = swept_.pressed(held_.size());
+  met_ = contacts.pressed(held_.size());
   report_.proximities = std::ssize(held_) + proximities_.count();
-  report_.repulsions = swept_.count().repulsions;
-  report_.frictions = swept_.count().frictions;
+  report_.repulsions = contacts.count().repulsions;
+  report_.frictions = contacts.count().frictions;
 }
 
 /// What repulsions leave, as contacts: dynamics that know of them do better than impulses at the end of the step.
@@ -260,7 +264,7 @@ struct CollisionStep::Impl {
   BoxHierarchy hierarchy;
   SurfaceParts parts;
   StartProximities proximities;
-  Contacts swept;  ///< in one attempt; here so that its memory stays
+  Room room;
 };
 
 CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces)
@@ -281,7 +285,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);
-  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, impl_->swept,
+  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, impl_->room,
                   bodies, impl_->parts.cloth_flags(bodies), groups, dt_s, patience, held);
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
@@ -315,7 +319,9 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
   if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
-  return make_contacts(impl.proximities.find(V_candidate, fall), impl.contacts, V_t0, bodies.inverse_mass);
+  std::vector<RepulsionContact> contacts;
+  make_contacts(impl.proximities.find(V_candidate, fall), impl.contacts, V_t0, bodies.inverse_mass, contacts);
+  return contacts;
 }
 
 }  // namespace selvage::sim

@@ -30,7 +30,8 @@ HWY_INLINE Eigen::Index VectorRows() { return static_cast<Eigen::Index>(hn::Lane
 
 /// The axes of vectors, at hand.
 struct Axes {
-  explicit Axes(const LaneVectors& vectors) : x(vectors.axis(0)), y(vectors.axis(1)), z(vectors.axis(2)) {}
+  Axes(const double* of_x, const double* of_y, const double* of_z) : x(of_x), y(of_y), z(of_z) {}
+  explicit Axes(const LaneVectors& vectors) : Axes(vectors.axis(0), vectors.axis(1), vectors.axis(2)) {}
   const double *x, *y, *z;
 };
 HWY_INLINE Vector ReadRows(const Axes& from, Eigen::Index first) {

@@ -7,8 +7,8 @@
 namespace selvage::sim {
 
 void LaneScalars::copy(std::span<const double> values) {
-  rows_ = std::ssize(values);
-  column_.assign(static_cast<std::size_t>((rows_ + kLanes - 1) / kLanes * kLanes), 0);
+  const Eigen::Index rows = std::ssize(values);
+  column_.assign(static_cast<std::size_t>((rows + kLanes - 1) / kLanes * kLanes), 0);
   std::ranges::copy(values, column_.begin());
 }
 

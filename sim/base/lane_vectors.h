@@ -22,13 +22,11 @@ using Lanes = std::uint8_t;
 class LaneScalars {
  public:
   void copy(std::span<const double> values);
-  [[nodiscard]] Eigen::Index rows() const { return rows_; }
   [[nodiscard]] double operator[](Eigen::Index i) const { return column_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const double* data() const { return column_.data(); }
 
  private:
   std::vector<double> column_;
-  Eigen::Index rows_ = 0;
 };
 
 /// Zero in rows that were not set. Whole blocks may be read from kLanes rows before the first to kLanes after the last,

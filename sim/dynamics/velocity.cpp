@@ -18,9 +18,6 @@ namespace selvage::sim::HWY_NAMESPACE {
 HWY_INLINE Value InverseMass(const VelocitySystem& system, Eigen::Index row) {
   return hn::LoadU(Real(), system.inverse_mass.data() + row);
 }
-HWY_INLINE Vector Each(const Vector& a, const Vector& b) {
-  return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
-}
 
 /// v where impulses are what they are.
 HWY_INLINE void WriteVelocity(Value w, Value drag, const Vector& rhs, const Vector& impulse, Eigen::Index row,
@@ -55,14 +52,15 @@ SolutionNorms Begin(const VelocitySystem& system, double drag, const LaneVectors
                              HWY_ATTR { return hn::IfThenElseZero(moves, hn::Div(one, hn::Add(element, mass))); };
     const Vector inverse_diagonal = {inverse(own.x), inverse(own.y), inverse(own.z)};
     const Vector product = ReadRows(products, row), residual = lanes::Minus<Real>(ReadRows(impulses, row), product);
-    const Vector step = Each(residual, inverse_diagonal), before = ReadRows(kicked, row);
+    const Vector step = lanes::Product<Real>(residual, inverse_diagonal), before = ReadRows(kicked, row);
     WriteRows(inverse_diagonal, vectors.inverse_diagonal, row);
     WriteRows(residual, vectors.residual, row);
     WriteRows(product, vectors.impulses, row);
     WriteRows(step, vectors.step, row);
     residuals.Add(row, lanes::Dot<Real>(residual, step));
-    of_impulses.Add(row, lanes::Dot<Real>(product, Each(product, inverse_diagonal)));
-    const Value momentum = hn::Div(lanes::Dot<Real>(before, Each(before, inverse_diagonal)), hn::Mul(w, w));
+    of_impulses.Add(row, lanes::Dot<Real>(product, lanes::Product<Real>(product, inverse_diagonal)));
+    const Value momentum =
+        hn::Div(lanes::Dot<Real>(before, lanes::Product<Real>(before, inverse_diagonal)), hn::Mul(w, w));
     momenta.Add(row, hn::IfThenElseZero(moves, momentum));
   }
   return {residuals.total(), of_impulses.total(), momenta.total()};
@@ -104,7 +102,7 @@ double GoAlong(const VelocitySystem& system, double drag, const LaneVectors& rhs
         product, lanes::Times<Real>(hn::IfThenElseZero(moves, hn::Div(drag_in_step, w)), ReadRows(steps, row)));
     const Vector residual = lanes::Minus<Real>(ReadRows(residuals, row), lanes::Times<Real>(far, of_step));
     WriteRows(residual, vectors.residual, row);
-    sum.Add(row, lanes::Dot<Real>(residual, Each(residual, ReadRows(inverse_diagonals, row))));
+    sum.Add(row, lanes::Dot<Real>(residual, lanes::Product<Real>(residual, ReadRows(inverse_diagonals, row))));
   }
   return sum.total();
 }
@@ -114,7 +112,7 @@ void Turn(double turn, Eigen::Index begin, Eigen::Index end, const SolutionVecto
   const Axes residuals(vectors.residual), inverse_diagonals(vectors.inverse_diagonal), steps(vectors.step);
   const Value share = hn::Set(Real(), turn);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
-    const Vector preconditioned = Each(ReadRows(residuals, row), ReadRows(inverse_diagonals, row));
+    const Vector preconditioned = lanes::Product<Real>(ReadRows(residuals, row), ReadRows(inverse_diagonals, row));
     const Vector step = lanes::Plus<Real>(preconditioned, lanes::Times<Real>(share, ReadRows(steps, row)));
     WriteRows(step, vectors.step, row);
   }
@@ -145,7 +143,7 @@ SolutionNorms& SolutionNorms::operator+=(const SolutionNorms& other) {
 }
 
 std::int32_t VelocitySolver::solve(const VelocitySystem& system, const LaneVectors& rhs, double dt_s,
-                                   LaneVectors& impulses, LaneVectors& v) {
+                                   LaneVectors& impulses, LaneVectors& v, double residual) {
   const Eigen::Index rows = rhs.rows();
   for (LaneVectors* X : {&residual_, &step_, &product_, &inverse_diagonal_, &impulses}) X->resize(rows);
   const SolutionVectors vectors{residual_, step_, product_, inverse_diagonal_, impulses};
@@ -162,7 +160,7 @@ std::int32_t VelocitySolver::solve(const VelocitySystem& system, const LaneVecto
     return HWY_DYNAMIC_DISPATCH(Begin)(system, drag, rhs, begin, end, vectors);
   });
   double energy = norms.residual;
-  const double limit = kVelocityResidual * kVelocityResidual * std::min(norms.impulses, norms.momentum);
+  const double limit = residual * residual * std::min(norms.impulses, norms.momentum);
   std::int32_t iteration = 0;
   // Written so that NaN ends the loop: the caller finds it in the velocity.
   for (; iteration < kMaxIterations && energy > limit; ++iteration) {

@@ -45,7 +45,7 @@ class VelocitySolver {
  public:
   /// `impulses` holds a guess at B v, which zero is; it becomes B v. Returns the number of iterations, at most 200.
   std::int32_t solve(const VelocitySystem& system, const LaneVectors& rhs, double dt_s, LaneVectors& impulses,
-                     LaneVectors& v);
+                     LaneVectors& v, double residual = kVelocityResidual);
 
  private:
   LaneVectors residual_, step_, product_, inverse_diagonal_;  // as in SolutionVectors

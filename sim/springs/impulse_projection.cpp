@@ -15,41 +15,32 @@
 HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
 
-HWY_INLINE Value ReadAt(const std::vector<double>& column, std::size_t row) {
-  return hn::LoadU(Real(), column.data() + row);
-}
 HWY_INLINE void WriteAt(Value value, std::vector<double>& column, std::size_t row) {
   hn::StoreU(value, Real(), column.data() + row);
 }
 /// Zero where it is not a number.
 HWY_INLINE Value NotBelowZero(Value value) { return hn::IfThenElseZero(hn::Gt(value, hn::Zero(Real())), value); }
-HWY_INLINE Vector GatherVertices(const double* vertices, const std::vector<std::int32_t>& places, std::size_t row) {
-  const Real d;
-  const auto at = hn::LoadU(hn::Rebind<std::int32_t, Real>(), places.data() + row);
-  const auto place = hn::PromoteTo(hn::RebindToSigned<Real>(), at);
-  return {hn::GatherIndex(d, vertices, place), hn::GatherIndex(d, vertices + 1, place),
-          hn::GatherIndex(d, vertices + 2, place)};
-}
 
 /// From the impulses of the direction at the vertices.
 ProjectionCurve LookAlong(const double* impulse_at, double added, ProjectionColumns& columns) {
   const Real d;
   const Value zero = hn::Zero(d), compliance = hn::Set(d, added);
   const Value endless = hn::Set(d, std::numeric_limits<double>::infinity());
+  const Axes impulse(impulse_at, impulse_at + 1, impulse_at + 2);
   LaneSum slope, curvature;
   Value feasible = endless;
   for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
-    const Vector at_a = GatherVertices(impulse_at, columns.a, row), at_b = GatherVertices(impulse_at, columns.b, row);
-    const Vector rate = lanes::Minus<Real>(lanes::Times<Real>(ReadAt(columns.inverse_mass_a, row), at_a),
-                                           lanes::Times<Real>(ReadAt(columns.inverse_mass_b, row), at_b));
-    const Vector line{ReadAt(columns.x, row), ReadAt(columns.y, row), ReadAt(columns.z, row)};
-    const Value direction = ReadAt(columns.direction, row);
+    const Vector at_a = GatherRows(impulse, columns.a.data() + row), at_b = GatherRows(impulse, columns.b.data() + row);
+    const Vector rate = lanes::Minus<Real>(lanes::Times<Real>(ReadEntries(columns.inverse_mass_a, row), at_a),
+                                           lanes::Times<Real>(ReadEntries(columns.inverse_mass_b, row), at_b));
+    const Vector line{ReadEntries(columns.x, row), ReadEntries(columns.y, row), ReadEntries(columns.z, row)};
+    const Value direction = ReadEntries(columns.direction, row);
     const Value product = hn::Add(lanes::Dot<Real>(line, rate), hn::Mul(compliance, direction));
     WriteAt(product, columns.product, row);
     const auto at = static_cast<Eigen::Index>(row);
-    slope.Add(at, hn::Mul(ReadAt(columns.gradient, row), direction));
+    slope.Add(at, hn::Mul(ReadEntries(columns.gradient, row), direction));
     curvature.Add(at, hn::Mul(direction, product));
-    const Value until = hn::Div(hn::Neg(ReadAt(columns.q, row)), direction);
+    const Value until = hn::Div(hn::Neg(ReadEntries(columns.q, row)), direction);
     feasible = hn::Min(feasible, hn::IfThenElse(hn::Lt(direction, zero), until, endless));
   }
   return {slope.total(), curvature.total(), hn::GetLane(hn::MinOfLanes(d, feasible))};
@@ -60,9 +51,10 @@ ProjectionLeft GoAlong(double length, double inverse_step, ProjectionColumns& co
   const Value zero = hn::Zero(d), far = hn::Set(d, length), by_step = hn::Set(d, inverse_step);
   LaneSum acting, missing, turned;
   for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
-    const Value product = ReadAt(columns.product, row);
-    const Value q = NotBelowZero(hn::Add(ReadAt(columns.q, row), hn::Mul(far, ReadAt(columns.direction, row))));
-    const Value gradient = hn::Add(ReadAt(columns.gradient, row), hn::Mul(far, product));
+    const Value product = ReadEntries(columns.product, row);
+    const Value q =
+        NotBelowZero(hn::Add(ReadEntries(columns.q, row), hn::Mul(far, ReadEntries(columns.direction, row))));
+    const Value gradient = hn::Add(ReadEntries(columns.gradient, row), hn::Mul(far, product));
     WriteAt(q, columns.q, row);
     WriteAt(gradient, columns.gradient, row);
     const auto acts = hn::Gt(q, zero), lacks = hn::AndNot(acts, hn::Lt(gradient, zero));
@@ -80,9 +72,9 @@ void TurnDirection(double share, ProjectionColumns& columns) {
   const Real d;
   const Value zero = hn::Zero(d), last = hn::Set(d, share);
   for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
-    const auto acts = hn::Gt(ReadAt(columns.q, row), zero);
-    const Value down = hn::IfThenElseZero(acts, hn::Neg(ReadAt(columns.gradient, row)));
-    WriteAt(hn::Add(down, hn::Mul(last, ReadAt(columns.direction, row))), columns.direction, row);
+    const auto acts = hn::Gt(ReadEntries(columns.q, row), zero);
+    const Value down = hn::IfThenElseZero(acts, hn::Neg(ReadEntries(columns.gradient, row)));
+    WriteAt(hn::Add(down, hn::Mul(last, ReadEntries(columns.direction, row))), columns.direction, row);
   }
 }
 
@@ -91,8 +83,8 @@ void ProjectGradient(double step, ProjectionColumns& columns) {
   const Real d;
   const Value zero = hn::Zero(d), far = hn::Set(d, step);
   for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
-    const Value q = ReadAt(columns.q, row);
-    const Value moved = NotBelowZero(hn::Sub(q, hn::Mul(far, ReadAt(columns.gradient, row))));
+    const Value q = ReadEntries(columns.q, row);
+    const Value moved = NotBelowZero(hn::Sub(q, hn::Mul(far, ReadEntries(columns.gradient, row))));
     WriteAt(hn::Sub(hn::IfThenElseZero(hn::Gt(q, zero), moved), q), columns.direction, row);
   }
 }
@@ -102,8 +94,8 @@ void AddMissing(ProjectionColumns& columns) {
   const Real d;
   const Value zero = hn::Zero(d);
   for (std::size_t row = 0; row < columns.q.size(); row += hn::Lanes(d)) {
-    const Value down = NotBelowZero(hn::Neg(ReadAt(columns.gradient, row)));
-    WriteAt(hn::IfThenElse(hn::Gt(ReadAt(columns.q, row), zero), zero, down), columns.direction, row);
+    const Value down = NotBelowZero(hn::Neg(ReadEntries(columns.gradient, row)));
+    WriteAt(hn::IfThenElse(hn::Gt(ReadEntries(columns.q, row), zero), zero, down), columns.direction, row);
   }
 }
 
@@ -160,6 +152,9 @@ void ImpulseProjection::set_rows(const std::vector<BoundedPair>& pairs, double f
   scale_.clear();
   directions_.clear();
   vertices_.clear();
+  scale_.reserve(pairs.size());  // nothing throws before row_vertex_ is as it was
+  directions_.reserve(pairs.size());
+  vertices_.reserve(2 * pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const BoundedPair& pair = pairs[i];
     const double scale = 1 / std::sqrt(pair.inverse_mass_a + pair.inverse_mass_b);
@@ -250,6 +245,7 @@ void ImpulseProjection::solve(std::vector<BoundedPair>& pairs, Start start, std:
     first_m_s_ = std::sqrt(left_.missing) * fastest;
     take_guess();
   } else {
+    // None moves; to the gradient comes what their compliance adds.
     columns_.product = columns_.q = columns_.direction;
     columns_.direction.assign(columns_.direction.size(), 0);
     go_along(kCompliance);

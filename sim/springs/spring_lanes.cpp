@@ -54,9 +54,7 @@ void LookWith(const LaneTable& table, const LaneVectors& positions, const Impuls
       const Value along =
           hn::Mul(coefficient(entries.damping_n_s_m, entries.stiffness_n_m, entry), hn::Mul(per_length, per_length));
       hn::StoreU(along, d, entries.along.data() + entry);
-      own.x = hn::Add(own.x, hn::Mul(along, hn::Mul(line.x, line.x)));
-      own.y = hn::Add(own.y, hn::Mul(along, hn::Mul(line.y, line.y)));
-      own.z = hn::Add(own.z, hn::Mul(along, hn::Mul(line.z, line.z)));
+      own = lanes::Plus<Real>(own, lanes::Times<Real>(along, lanes::Product<Real>(line, line)));
     });
     WriteRows(pull, force, row);
     WriteRows(own, diagonal, row);

@@ -60,9 +60,7 @@ void AddDiagonal(const LaneTable& ends, const std::vector<double>& weight, const
     Vector sum = ReadRows(before, row);
     ForEachSlot(ends, row, [&](std::size_t entry, auto read) HWY_ATTR SELVAGE_INLINE_LAMBDA {
       const Vector share = lanes::Times<Real>(ReadEntries(weight, entry), read(bow));
-      sum.x = hn::Add(sum.x, hn::Mul(share.x, share.x));
-      sum.y = hn::Add(sum.y, hn::Mul(share.y, share.y));
-      sum.z = hn::Add(sum.z, hn::Mul(share.z, share.z));
+      sum = lanes::Plus<Real>(sum, lanes::Product<Real>(share, share));
     });
     WriteRows(sum, diagonal, row);
   }

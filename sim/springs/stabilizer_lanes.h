@@ -27,7 +27,7 @@ class StabilizerLanes {
 
   /// B is that of `shares` from now on.
   void set_shares(const ImpulseShares& shares, std::span<const double> inverse_mass);
-  /// Adds that of B at x, unless it is weak.
+  /// Adds the diagonal of B at x, unless B is weak.
   void add_diagonal(const LaneVectors& x, LaneVectors& diagonal);
   /// Finds what each at x opposes to v. add_product() adds rows [begin, end) of B v, of that v; begin is a multiple of
   /// kLanes.

@@ -19,4 +19,15 @@ TEST(LaneVectors, WholeBlocksCanBeReadAroundAnyNumberOfRows) {
   }
 }
 
+TEST(LaneScalars, WholeBlocksCanBeReadAndAreZeroBeyondTheLast) {
+  LaneScalars scalars;
+  for (const std::size_t rows : {17U, 9U, 8U, 1U, 0U}) {  // fewer each time: nothing is left of those before
+    scalars.copy(std::vector<double>(rows, 3));
+    const auto lanes = static_cast<std::size_t>(kLanes);
+    for (std::size_t i = 0; i < (rows + lanes - 1) / lanes * lanes; ++i) {
+      EXPECT_EQ(scalars.data()[i], i < rows ? 3 : 0) << rows;
+    }
+  }
+}
+
 }  // namespace selvage::sim::testbed

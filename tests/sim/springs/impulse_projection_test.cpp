@@ -1,11 +1,13 @@
 #include "sim/springs/impulse_projection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "tests/sim/random_cloth.h"
+#include "tests/vector_units.h"
 
 namespace selvage {
 
@@ -147,6 +149,27 @@ TEST(ImpulseProjection, AnyUnitOfSpeedFindsTheSame) {
     auto scaled = bounded.pairs(unit);
     bounded.projection().solve(scaled, Start::kGuess, 20);
     for (std::size_t i = 0; i < pairs.size(); ++i) EXPECT_EQ(scaled[i].impulse_n_s, unit * pairs[i].impulse_n_s);
+  }
+}
+
+TEST(ImpulseProjection, SameBitsForAnyVectorUnitAndWhateverWasSolvedBefore) {
+  const Bounded bounded(9);
+  const auto solve = [&](std::size_t count, ImpulseProjection& projection) {
+    auto pairs = bounded.pairs();
+    pairs.resize(std::min(count, pairs.size()));
+    projection.solve(pairs, Start::kGuess, 2);
+    for (BoundedPair& pair : pairs) pair.excess_m_s *= 0.5;
+    projection.solve(pairs, Start::kActing, 20);
+    std::vector<double> impulses_n_s;
+    for (const BoundedPair& pair : pairs) impulses_n_s.push_back(pair.impulse_n_s);
+    return impulses_n_s;
+  };
+  for (const std::size_t count : {1U, 7U, 8U, 9U, 10'000U}) {
+    ImpulseProjection fresh = bounded.projection(), used = bounded.projection();
+    (void)solve(10'000, used);
+    const std::vector<double> reference = solve(count, fresh);
+    EXPECT_GT(*std::ranges::max_element(reference), 0) << count;
+    testing::on_every_vector_unit([&](const char* unit) { EXPECT_EQ(solve(count, used), reference) << unit << count; });
   }
 }
 
