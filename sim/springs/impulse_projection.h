@@ -72,7 +72,7 @@ class ImpulseProjection {
 
   ProjectionColumns columns_;
   std::vector<double> scale_;                ///< by pair
-  std::vector<Eigen::Vector4d> directions_;  ///< by pair: once more, for vertices one by one; the last is zero
+  std::vector<Eigen::Vector4d> directions_;  ///< by pair: once more, for vertices one by one; fourth zero
   std::vector<Eigen::Vector4d> impulse_at_;  ///< by vertex of a pair, in the order of first use
   std::vector<std::int32_t> row_vertex_;     ///< by vertex; -1 between calls
   std::vector<VertexId> vertices_;
