@@ -29,15 +29,19 @@ namespace {
 /// and ten behind took 1.7 times the time of two and eight, and the same steps (curtain at full quality, frame 100).
 constexpr int kFirstSweeps = 2;
 
-void make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table, const Positions& V_t0,
-                   std::span<const double> inverse_mass, std::vector<RepulsionContact>& contacts) {
-  contacts.resize(pairs.size());
+/// The first of `room`, which grows as it must.
+std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table,
+                                                const Positions& V_t0, std::span<const double> inverse_mass,
+                                                std::vector<RepulsionContact>& room) {
+  if (room.size() < pairs.size()) room.resize(pairs.size());
+  const std::span<RepulsionContact> contacts = std::span(room).first(pairs.size());
   parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
     const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
     const auto made = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
     contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
   });
-  std::erase_if(contacts, [](const RepulsionContact& contact) { return !(contact.mobility > 0); });  // none was made
+  const auto none_made = std::ranges::remove_if(contacts, [](const auto& contact) { return !(contact.mobility > 0); });
+  return contacts.first(contacts.size() - none_made.size());
 }
 
 /// Memory of attempts, which is used again: pages that are new to a process take time (docs/simulator-speed.md).
@@ -138,12 +142,14 @@ void Attempt::repel() {
   contacts.clear();
   for (const RepulsionContact& held : held_) contacts.add(held);
   for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
+    std::span<const RepulsionContact> found;
     {
       const PhaseTimer timer(report_.phases.proximity);
-      make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass, room_.found);
+      found =
+          make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass, room_.found);
     }
     const PhaseTimer timer(report_.phases.repulsion);
-    for (const RepulsionContact& contact : room_.found) contacts.add(contact);
+    for (const RepulsionContact& contact : found) contacts.add(contact);
     contacts.repel(options_, dt_s_, sweeps, motion_);
   }
   met_ = contacts.pressed(held_.size());
@@ -319,9 +325,9 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
   if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
-  std::vector<RepulsionContact> contacts;
-  make_contacts(impl.proximities.find(V_candidate, fall), impl.contacts, V_t0, bodies.inverse_mass, contacts);
-  return contacts;
+  const std::vector<PairProximity> near = impl.proximities.find(V_candidate, fall);
+  const auto contacts = make_contacts(near, impl.contacts, V_t0, bodies.inverse_mass, impl.room.found);
+  return {contacts.begin(), contacts.end()};
 }
 
 }  // namespace selvage::sim

@@ -112,7 +112,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
   if (holds) held = likely_contacts(tried.candidate, result.phases);
   for (int round = holds ? 0 : kHoldingRounds;; ++round) {
     const bool is_last = round == kHoldingRounds;
-    const std::vector<RepulsionContact> held_to_the_end = run_dynamics(held, is_last, tried, result);
+    const std::vector<RepulsionContact>& held_to_the_end = run_dynamics(held, is_last, tried, result);
     tried.failed = can_halve() && (result.dynamics.unconverged > 0 || !tried.candidate.allFinite());
     if (tried.failed) return tried;
     resolve_collisions(held_to_the_end, is_last, tried, result.phases);
@@ -141,8 +141,8 @@ std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhase
   return collision_step_.find_contacts(x_, x, script_.bodies(), dt_s * dt_s / 2 * scene_.gravity_m_s2);
 }
 
-std::vector<RepulsionContact> Simulation::run_dynamics(const std::vector<RepulsionContact>& held, bool is_last,
-                                                       Try& tried, StepResult& result) {
+const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<RepulsionContact>& held, bool is_last,
+                                                              Try& tried, StepResult& result) {
   const PhaseTimer timer(result.phases.dynamics);
   const Eigen::Index cloth = world_.cloth_vertex_count;
   const HeldSurface surface{world_.mesh,
@@ -152,14 +152,16 @@ std::vector<RepulsionContact> Simulation::run_dynamics(const std::vector<Repulsi
                             world_.cloth_vertex_count,
                             scene_.gravity_m_s2};
   const std::int32_t sweeps = is_last ? std::max(scene_.contact_sweeps, kLastSweeps) : scene_.contact_sweeps;
-  HeldContacts contacts(held, loads_, surface, x_, tried.candidate, clock_.dt_s(), sweeps);
+  held_to_the_end_ = held;
+  HeldContacts contacts(std::move(held_to_the_end_), loads_, surface, x_, tried.candidate, clock_.dt_s(), sweeps);
   tried.end = {x_.topRows(cloth), v_.topRows(cloth)};
   result.dynamics = dynamics_->advance(tried.end, tried.candidate.topRows(cloth), script_.inverse_mass(), clock_.dt_s(),
                                        held.empty() ? nullptr : &contacts);
   tried.candidate.topRows(cloth) = tried.end.x;
   tried.held = contacts.count();
   tried.loads = contacts.loads();
-  return contacts.contacts();
+  held_to_the_end_ = contacts.take_contacts();
+  return held_to_the_end_;
 }
 
 // Given up early where a shorter step may be tried. How short it may be, what meets says.

@@ -74,8 +74,8 @@ class Simulation {
   /// Contacts that the dynamics should hold from the beginning. `x`: scripted vertices at the end of the step.
   [[nodiscard]] std::vector<RepulsionContact> likely_contacts(Positions x, StepPhases& phases);
   /// From the state to the try's candidate. Gives back the contacts as they were held to the end.
-  std::vector<RepulsionContact> run_dynamics(const std::vector<RepulsionContact>& held, bool is_last, Try& tried,
-                                             StepResult& result);
+  const std::vector<RepulsionContact>& run_dynamics(const std::vector<RepulsionContact>& held, bool is_last, Try& tried,
+                                                    StepResult& result);
   /// From the state and the try's candidate to positions that are safe.
   void resolve_collisions(const std::vector<RepulsionContact>& held, bool is_last, Try& tried, StepPhases& phases);
   [[nodiscard]] bool can_halve() const { return clock_.can_halve(shortest_s_); }
@@ -99,6 +99,7 @@ class Simulation {
   VertexFaces vertex_faces_;
   Positions x_, v_;
   std::vector<ContactLoad> loads_;
+  std::vector<RepulsionContact> held_to_the_end_;  ///< by the last run of the dynamics; memory that stays
 };
 
 }  // namespace selvage::sim

@@ -61,8 +61,9 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
   std::vector<std::size_t> open;
   std::ranges::copy_if(pairs, std::back_inserter(open), [&](std::size_t i) { return decision_[i] == kUndecided; });
   if (open.empty()) return;
-  const Candidates asked = near_.candidates(near_.with_nearer(open));
-  std::vector<PairProximity> near = ask_proximities(mesh_, V_t0_, asked, kContactReach * contacts_.thickness_upper());
+  const std::vector<std::size_t> asked = near_.with_nearer(open);
+  std::vector<PairProximity> near =
+      ask_proximities(mesh_, V_t0_, near_.candidates(asked), kContactReach * contacts_.thickness_upper());
   if (!contacts_.is_uniform()) {
     std::erase_if(near, [&](const PairProximity& pair) {
       return !(pair.proximity.distance_lower <
@@ -72,9 +73,15 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
   const std::vector<PairProximity> found = local_proximities(mesh_, V_t0_, near, contacts_.thickness_upper());
   local_.reserve(local_.size() + found.size());  // nothing throws from here on
   for (const std::size_t pair : open) decision_[pair] = kNotLocal;
+  // All three are in the same order.
+  auto place = asked.begin();
+  auto next_open = open.begin();
   for (const PairProximity& pair : found) {
-    const auto place = near_.place(pair.kind, pair.first, pair.second);
-    if (!place || !std::ranges::binary_search(open, *place)) continue;  // asked only to compare others with it
+    place = std::find_if(place, asked.end(),
+                         [&](std::size_t i) { return near_.is(i, pair.kind, pair.first, pair.second); });
+    next_open = std::find_if(next_open, open.end(), [&](std::size_t i) { return i >= *place; });
+    if (next_open == open.end()) break;
+    if (*next_open != *place) continue;  // asked only to compare others with it
     decision_[*place] = static_cast<std::int32_t>(local_.size());
     local_.push_back(pair);
   }

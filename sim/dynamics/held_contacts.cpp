@@ -77,7 +77,7 @@ void each_pack(std::span<ContactPack> packs, Body body) {
 
 }  // namespace
 
-HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
+HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const std::vector<ContactLoad>& loads,
                            const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s,
                            int sweeps)
     : surface_(surface),
@@ -86,13 +86,20 @@ HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const 
       dt_s_(dt_s),
       least_sweeps_(sweeps),
       most_sweeps_(sweeps),
-      place_of_(contacts.size(), ContactGroups::kNobody) {
-  if (contacts.empty()) return;
+      contacts_(std::move(contacts)),
+      place_of_(contacts_.size(), ContactGroups::kNobody) {
+  if (contacts_.empty()) return;
   const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
   scripted_t0_.copy(V_t0.bottomRows(scripted));
   scripted_way_.copy(V_t1.bottomRows(scripted) - V_t0.bottomRows(scripted));
-  for (Kind* kind : {&vf_, &ee_}) add_kind(*kind, contacts);
-  set_sweeps(contact_sweeps(contacts, surface.faces, sweeps));
+  group(vf_);
+  group(ee_);
+  ee_.first_pack = vf_.groups.order().size() / kLanes;
+  packs_.resize(ee_.first_pack + ee_.groups.order().size() / kLanes);
+  contact_at_.resize(packs_.size() * kLanes, ContactGroups::kNobody);
+  place(vf_);
+  place(ee_);
+  set_sweeps(contact_sweeps(contacts_, surface.faces, sweeps));
   const auto is_placed = [](std::size_t place) { return place != ContactGroups::kNobody; };
   SELVAGE_ASSERT(std::ranges::all_of(place_of_, is_placed));
   begin_with(loads);
@@ -101,14 +108,13 @@ HeldContacts::HeldContacts(const std::vector<RepulsionContact>& contacts, const 
 /// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on through all
 /// layers: as cubes the fifty of sim/scenes/stack.toml as a draft came as near as 0.6 mm of 3, as columns 1.7
 /// (docs/simulator-speed.md).
-void HeldContacts::add_kind(Kind& kind, const std::vector<RepulsionContact>& contacts) {
+void HeldContacts::group(Kind& kind) {
   const Vec3 down = surface_.gravity_m_s2.stableNormalized();
-  std::vector<std::size_t> of_kind;
   std::vector<ContactGroups::Member> members;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (contacts[i].kind != kind.kind) continue;
-    of_kind.push_back(i);
-    std::array<VertexId, 4> vertices = contacts[i].interaction.vertices;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (contacts_[i].kind != kind.kind) continue;
+    kind.contacts.push_back(i);
+    std::array<VertexId, 4> vertices = contacts_[i].interaction.vertices;
     const Vec3 at = V_t0_.row(vertices.front());
     std::ranges::replace_if(
         vertices, [&](VertexId v) { return !is_cloth(v); }, -1);
@@ -118,23 +124,22 @@ void HeldContacts::add_kind(Kind& kind, const std::vector<RepulsionContact>& con
   const bool is_vf = kind.kind == PairKind::kVf;
   kind.groups = ContactGroups(members, surface_.cloth_count,
                               is_vf ? ContactGroups::Order::kAsGiven : ContactGroups::Order::kNearly);
-  kind.first_pack = packs_.size();
+}
+
+void HeldContacts::place(const Kind& kind) {
   const std::vector<std::size_t>& order = kind.groups.order();
-  packs_.resize(packs_.size() + order.size() / kLanes);
-  contacts_.resize(packs_.size() * kLanes);
   parallel_each(std::ssize(order), [&](Eigen::Index at) {
     const std::size_t member = order[static_cast<std::size_t>(at)];
     if (member == ContactGroups::kNobody) return;
     const std::size_t place = kind.first_pack * kLanes + static_cast<std::size_t>(at);
-    contacts_[place] = contacts[of_kind[member]];
-    place_of_[of_kind[member]] = place;
+    contact_at_[place] = kind.contacts[member];
+    place_of_[kind.contacts[member]] = place;
     set_lane(place);
   });
 }
 
-/// The lane of contacts_[place].
 void HeldContacts::set_lane(std::size_t place) {
-  const RepulsionContact& contact = contacts_[place];
+  const RepulsionContact& contact = contact_at(place);
   ContactPack& pack = packs_[place / kLanes];
   const std::size_t lane = place % kLanes;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -159,8 +164,9 @@ void HeldContacts::set_sweeps(const std::vector<std::int32_t>& sweeps) {
 void HeldContacts::begin_with(const std::vector<ContactLoad>& loads) {
   parallel_each(std::ssize(place_of_), [&](Eigen::Index i) {
     const std::size_t place = place_of_[static_cast<std::size_t>(i)];
-    if (contacts_[place].kind != PairKind::kVf) return;
-    const ContactLoad* const load = load_of(contacts_[place], loads);
+    const RepulsionContact& contact = contacts_[static_cast<std::size_t>(i)];
+    if (contact.kind != PairKind::kVf) return;
+    const ContactLoad* const load = load_of(contact, loads);
     if (load == nullptr) return;
     ContactPack& pack = packs_[place / kLanes];
     pack.load_m_s2[place % kLanes] = load->acceleration_m_s2;
@@ -273,12 +279,12 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane)) continue;
     const std::size_t place = (vf_.first_pack + id) * kLanes + lane;
-    RepulsionContact now = contacts_[place];
+    RepulsionContact now = contact_at(place);
     QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
     Answer answer = Answer::kYes;
     while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, step);
     if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only_lane(lane);
-    if (answer == Answer::kOutOfReach || now.second == contacts_[place].second) continue;
+    if (answer == Answer::kOutOfReach || now.second == contact_at(place).second) continue;
     const bool is_near = !(nearest.distance > now.properties.thickness_m);
     if (is_near && !(nearest.direction.dot(vector_in(packs_[place / kLanes].normal, lane)) > 0)) {
       slid.through |= only_lane(lane);
@@ -292,7 +298,7 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
       continue;
     }
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
-    contacts_[place] = now;
+    contact_at(place) = now;
     set_lane(place);
     const Lanes together = vf_.groups.together(id);
     const bool clashes = has_lane(together, lane) && shares_vertex(place, together);
@@ -374,21 +380,28 @@ void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
   if (rubbed) pack.ever_rubbed |= only_lane(lane);
 }
 
-std::vector<RepulsionContact> HeldContacts::contacts() const {
-  std::vector<RepulsionContact> result(size());
-  parallel_each(std::ssize(result), [&](Eigen::Index at) {
+void HeldContacts::measure() {
+  parallel_each(std::ssize(contacts_), [&](Eigen::Index at) {
     const auto i = static_cast<std::size_t>(at);
     const std::size_t lane = place_of_[i] % kLanes;
     const ContactPack& pack = packs_[place_of_[i] / kLanes];
-    RepulsionContact& contact = result[i];
-    contact = contacts_[place_of_[i]];
+    RepulsionContact& contact = contacts_[i];
     contact.normal = vector_in(pack.normal, lane);
     for (std::size_t k = 0; k < 4; ++k) contact.interaction.weights[k] = pack.weights[k][lane];
     contact.x_t0 = gather(contact.interaction, V_t0_);
     contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
     contact.mobility = effective_mobility(contact.interaction);
   });
-  return result;
+}
+
+const std::vector<RepulsionContact>& HeldContacts::contacts() {
+  measure();
+  return contacts_;
+}
+
+std::vector<RepulsionContact> HeldContacts::take_contacts() {
+  measure();
+  return std::move(contacts_);
 }
 
 RepulsionCount HeldContacts::count() const {
@@ -406,7 +419,7 @@ std::vector<ContactLoad> HeldContacts::loads() const {
     const ContactPack& pack = packs_[place / kLanes];
     const std::size_t lane = place % kLanes;
     if (!(pack.load_m_s2[lane] > 0)) continue;
-    const RepulsionContact& contact = contacts_[place];
+    const RepulsionContact& contact = contact_at(place);
     const Vec3 friction = vector_in(pack.friction_m_s2, lane);
     result.push_back({contact.first, contact.second, pack.load_m_s2[lane], {friction.x(), friction.y(), friction.z()}});
   }

@@ -40,7 +40,7 @@ class HeldContacts {
  public:
   /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted. `loads` are those at V_t0, sorted. The
   /// positions must outlive it. REQUIRES contacts of kVf or kEe of which cloth can move, and sweeps >= 1.
-  HeldContacts(const std::vector<RepulsionContact>& contacts, const std::vector<ContactLoad>& loads,
+  HeldContacts(std::vector<RepulsionContact> contacts, const std::vector<ContactLoad>& loads,
                const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
   /// The loads with their friction, where the contacts are now: before the limits on strain, which else see cloth fall
@@ -68,7 +68,7 @@ class HeldContacts {
   /// the loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it.
   /// They do not learn its friction.
   [[nodiscard]] std::size_t size() const { return place_of_.size(); }
-  [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[place_of_[i]]; }
+  [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[i]; }
   [[nodiscard]] double load_m_s2(std::size_t i) const;
   void bore(std::size_t i, double load_m_s2, bool rubbed);
   /// Where a vertex that is not cloth is at `share` in [0, 1] of the collision step.
@@ -79,7 +79,9 @@ class HeldContacts {
 
   /// As they were last looked at, measured at V_t0, in the order in which they were given: the collision step repels
   /// them where they are at its end.
-  [[nodiscard]] std::vector<RepulsionContact> contacts() const;
+  [[nodiscard]] const std::vector<RepulsionContact>& contacts();
+  /// The same, and their memory, at the end.
+  [[nodiscard]] std::vector<RepulsionContact> take_contacts();
 
   /// Those that repelled, and rubbed, in any step.
   [[nodiscard]] RepulsionCount count() const;
@@ -95,11 +97,16 @@ class HeldContacts {
   /// The packs of one kind of pair, from `first_pack` on in packs_.
   struct Kind {
     PairKind kind;
+    std::vector<std::size_t> contacts;  ///< that are members of the groups
     ContactGroups groups;
     std::size_t first_pack = 0;
   };
 
-  void add_kind(Kind& kind, const std::vector<RepulsionContact>& contacts);
+  void measure();
+  void group(Kind& kind);
+  void place(const Kind& kind);
+  [[nodiscard]] RepulsionContact& contact_at(std::size_t place) { return contacts_[contact_at_[place]]; }
+  [[nodiscard]] const RepulsionContact& contact_at(std::size_t place) const { return contacts_[contact_at_[place]]; }
   void set_lane(std::size_t place);
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const std::vector<ContactLoad>& loads);
@@ -134,10 +141,11 @@ class HeldContacts {
   double dt_s_;
   std::int32_t least_sweeps_, most_sweeps_;
   LaneVectors scripted_t0_, scripted_way_;  ///< of the vertices that are not cloth
-  Kind vf_{PairKind::kVf, {}}, ee_{PairKind::kEe, {}};
-  std::vector<ContactPack> packs_;          ///< of vf, then ee
-  std::vector<RepulsionContact> contacts_;  ///< kLanes a pack; weights and normals that changed since are in packs_
-  std::vector<std::size_t> place_of_;       ///< in contacts_, of each contact given
+  Kind vf_{PairKind::kVf, {}, {}}, ee_{PairKind::kEe, {}, {}};
+  std::vector<RepulsionContact> contacts_;  ///< as given; weights and normals that changed since are in packs_
+  std::vector<ContactPack> packs_;          ///< of vf, then ee; a place is a lane of one
+  std::vector<std::size_t> place_of_;       ///< of each contact
+  std::vector<std::size_t> contact_at_;     ///< of each place
   bool backwards_ = false;
 };
 

@@ -20,7 +20,7 @@ constexpr double kSlack = 0x1p-46;
 /// `rest_squared` is null where the lengths at x_t0 are the reference.
 void CheckLengths(const LaneTable& table, const double* rest_squared, const LaneVectors& starts,
                   const LaneVectors& ends, double share, Eigen::Index begin, Eigen::Index end,
-                  std::uint8_t* lanes_outside) {
+                  std::uint8_t* is_outside) {
   const Real d;
   const Axes x_t0(starts), x_t1(ends);
   const double below = 1 - share - kSlack, above = 1 + share + kSlack;
@@ -39,9 +39,13 @@ void CheckLengths(const LaneTable& table, const double* rest_squared, const Lane
       }
       const auto inside =
           hn::And(hn::Ge(squared, hn::Mul(shortest, reference)), hn::Le(squared, hn::Mul(longest, reference)));
-      std::uint8_t bits[8];
-      hn::StoreMaskBits(d, hn::Not(inside), bits);
-      lanes_outside[entry / kLanes] |= static_cast<std::uint8_t>(bits[0] << entry % kLanes);
+      if (hn::AllTrue(d, inside)) return;
+      std::uint8_t outside[8];
+      hn::StoreMaskBits(d, hn::Not(inside), outside);
+      for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+        const std::int32_t spring = table.item[entry + lane];
+        if (has_lane(outside[0], lane) && spring != LaneTable::kNone) is_outside[spring] = 1;
+      }
     });
   }
 }
@@ -69,20 +73,12 @@ LengthCheck::LengthCheck(const SpringSystem& springs) {
 }
 
 void LengthCheck::find_outside(const LaneVectors& x_t0, const LaneVectors& x_t1, Reference reference, double share,
-                               std::vector<std::uint8_t>& is_outside) {
-  lanes_outside_.assign(table_.first.size(), 0);
+                               std::vector<std::uint8_t>& is_outside) const {
+  std::ranges::fill(is_outside, std::uint8_t{0});
   const double* const rest_squared = reference == Reference::kRestLength ? rest_squared_m2_.data() : nullptr;
   parallel_blocks(x_t0.rows(), [&](Eigen::Index begin, Eigen::Index end) {
-    HWY_DYNAMIC_DISPATCH(CheckLengths)(table_, rest_squared, x_t0, x_t1, share, begin, end, lanes_outside_.data());
+    HWY_DYNAMIC_DISPATCH(CheckLengths)(table_, rest_squared, x_t0, x_t1, share, begin, end, is_outside.data());
   });
-  std::fill(is_outside.begin(), is_outside.end(), std::uint8_t{0});
-  for (std::size_t slot = 0; slot < lanes_outside_.size(); ++slot) {
-    for (std::size_t entry = kLanes * slot, bits = lanes_outside_[slot]; bits != 0; ++entry, bits >>= 1) {
-      if ((bits & 1) != 0 && table_.item[entry] != LaneTable::kNone) {
-        is_outside[static_cast<std::size_t>(table_.item[entry])] = 1;
-      }
-    }
-  }
 }
 
 }  // namespace selvage::sim

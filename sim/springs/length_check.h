@@ -19,12 +19,11 @@ class LengthCheck {
   /// Sets is_outside[spring] to 1 for those whose length at x_t1 is not within 1 - share and 1 + share of the
   /// reference, to 0 for all others; up to a trillionth of the reference. A length that is not a number is outside.
   void find_outside(const LaneVectors& x_t0, const LaneVectors& x_t1, Reference reference, double share,
-                    std::vector<std::uint8_t>& is_outside);
+                    std::vector<std::uint8_t>& is_outside) const;
 
  private:
   LaneTable table_;  ///< each spring once, at its first end
   std::vector<double> rest_squared_m2_;
-  std::vector<std::uint8_t> lanes_outside_;  ///< by slot, a bit a lane
 };
 
 }  // namespace selvage::sim

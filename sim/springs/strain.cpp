@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "sim/base/parallel.h"
 #include "sim/springs/scripted_drive.h"
 
 namespace selvage::sim {
@@ -83,28 +84,43 @@ void StrainLimiter::forget() {
   bearing_.clear();
 }
 
+std::optional<StrainLimiter::Look> StrainLimiter::look_at(std::size_t number, std::span<const double> inverse_mass,
+                                                          const LimitedMotion& motion) const {
+  const Spring& spring = springs_.springs()[number];
+  const double w_a = inverse_mass[static_cast<std::size_t>(spring.a)];
+  const double w_b = inverse_mass[static_cast<std::size_t>(spring.b)];
+  if (!(w_a + w_b > 0)) return std::nullopt;
+  const SpringMotion spring_motion = motion_of(spring, motion);
+  const double longest = std::max((1 + limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
+  const double shortest = std::min((1 - limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
+  const double borne = borne_n_s_[number];
+  const bool is_long = borne == 0 ? spring_motion.length_t1() > longest : borne > 0;
+  const double too_far = is_long ? too_long(spring_motion, longest) : too_short(spring_motion, shortest);
+  if (borne == 0 && !(too_far > 0)) return std::nullopt;
+  const Vec3 towards_b = spring_motion.direction.transpose();
+  const Vec3 direction = is_long ? towards_b : Vec3(-towards_b);
+  return Look{{spring.a, spring.b, w_a, w_b, direction, too_far / motion.dt_s, std::abs(borne)}, {number, is_long}};
+}
+
 bool StrainLimiter::find_pairs(std::span<const double> inverse_mass, const LimitedMotion& motion) {
   for (const std::size_t s : bearing_) is_suspect_[s] = 1;
+  suspects_.clear();
+  for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
+    suspects_.push_back(s);
+  }
+  looks_.resize(suspects_.size());
+  parallel_each(std::ssize(suspects_), [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    looks_[at] = look_at(suspects_[at], inverse_mass, motion);
+  });
   pairs_.clear();
   limited_.clear();
   bool finds_others = false;
-  for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
-    const Spring& spring = springs_.springs()[s];
-    const double w_a = inverse_mass[static_cast<std::size_t>(spring.a)];
-    const double w_b = inverse_mass[static_cast<std::size_t>(spring.b)];
-    if (!(w_a + w_b > 0)) continue;
-    const SpringMotion spring_motion = motion_of(spring, motion);
-    const double longest = std::max((1 + limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
-    const double shortest = std::min((1 - limits_.strain) * spring.rest_length_m, spring_motion.length_t0);
-    const double borne = borne_n_s_[s];
-    const bool is_long = borne == 0 ? spring_motion.length_t1() > longest : borne > 0;
-    const double too_far = is_long ? too_long(spring_motion, longest) : too_short(spring_motion, shortest);
-    if (borne == 0 && !(too_far > 0)) continue;
-    finds_others = finds_others || borne == 0;
-    const Vec3 towards_b = spring_motion.direction.transpose();
-    pairs_.push_back(
-        {spring.a, spring.b, w_a, w_b, is_long ? towards_b : Vec3(-towards_b), too_far / motion.dt_s, std::abs(borne)});
-    limited_.push_back({s, is_long});
+  for (const auto& look : looks_) {
+    if (!look) continue;
+    pairs_.push_back(look->pair);
+    limited_.push_back(look->limited);
+    finds_others = finds_others || look->pair.impulse_n_s == 0;
   }
   return finds_others;
 }

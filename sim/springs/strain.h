@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,13 @@ class StrainLimiter {
     std::size_t spring;
     bool is_long;  ///< else short
   };
+  struct Look {
+    BoundedPair pair;
+    Limited limited;
+  };
+  /// Nothing where the spring bears nothing and stays within its limits.
+  [[nodiscard]] std::optional<Look> look_at(std::size_t spring, std::span<const double> inverse_mass,
+                                            const LimitedMotion& motion) const;
   /// Springs to limit, by what they bear and `is_suspect_`. Whether any bears nothing yet.
   bool find_pairs(std::span<const double> inverse_mass, const LimitedMotion& motion);
   void apply(const Spring& spring, const Eigen::RowVector3d& impulse, std::span<const double> inverse_mass,
@@ -68,6 +76,8 @@ class StrainLimiter {
   LengthCheck check_;
   std::vector<std::uint8_t> is_suspect_;  ///< by spring: the others have nothing to correct
   ImpulseProjection projection_;
+  std::vector<std::size_t> suspects_;
+  std::vector<std::optional<Look>> looks_;  ///< by suspect
   std::vector<BoundedPair> pairs_;
   std::vector<Limited> limited_;      ///< by pair
   std::vector<std::size_t> bearing_;  ///< springs that bear
