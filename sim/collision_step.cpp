@@ -40,8 +40,8 @@ std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>
     const auto made = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
     contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
   });
-  const auto none_made = std::ranges::remove_if(contacts, [](const auto& contact) { return !(contact.mobility > 0); });
-  return contacts.first(contacts.size() - none_made.size());
+  const auto none_was_made = [](const RepulsionContact& contact) { return !(contact.mobility > 0); };
+  return {contacts.begin(), std::remove_if(contacts.begin(), contacts.end(), none_was_made)};
 }
 
 /// Memory of attempts, which is used again: pages that are new to a process take time (docs/simulator-speed.md).
