@@ -331,6 +331,18 @@ CollisionBodies bodies_of(const World& world, const ScriptedVertices& scripted, 
   return {scripted.inverse_mass, scripted.body, squeeze, world.body_count, world.deforms};
 }
 
+namespace {
+
+std::int64_t loose_vertices(const Mesh& mesh) {
+  std::vector<std::uint8_t> has_no_face(static_cast<std::size_t>(mesh.vertex_count), 1);
+  for (const auto& face : mesh.faces) {
+    for (const VertexId v : face) has_no_face[static_cast<std::size_t>(v)] = 0;
+  }
+  return std::ranges::count(has_no_face, std::uint8_t{1});
+}
+
+}  // namespace
+
 std::string describe(const Scene& scene, const World& world) {
   std::string text;
   const auto line = [&](const char* what, const std::string& value) { text += fmt::format("{:<11}{}\n", what, value); };
@@ -341,6 +353,9 @@ std::string describe(const Scene& scene, const World& world) {
   for (const io::Group& group : world.groups) {
     line(group.role == io::Group::Role::kCloth ? "cloth" : "body",
          fmt::format("{}, {} faces", group.name, group.face_end - group.face_begin));
+  }
+  if (const auto count_of_loose = loose_vertices(world.mesh); count_of_loose > 0) {
+    line("loose", fmt::format("{} vertices of no face, which nothing holds", count_of_loose));
   }
   for (const Collider& collider : world.colliders) {
     const BodySequence* sequence = collider.sequence();

@@ -163,8 +163,9 @@ bool StrainLimiter::relax_rate(const Spring& spring, std::span<const double> inv
       inverse_mass[static_cast<std::size_t>(spring.a)] + inverse_mass[static_cast<std::size_t>(spring.b)];
   if (!(inverse_masses > 0)) return false;
   const SpringMotion spring_motion = motion_of(spring, motion);
-  const double along = correction(spring_motion, (1 - limits_.strain_rate) * spring_motion.length_t0,
-                                  (1 + limits_.strain_rate) * spring_motion.length_t0);
+  const double shortest = std::min((1 - limits_.strain_rate) * spring_motion.length_t0, spring.rest_length_m);
+  const double longest = std::max((1 + limits_.strain_rate) * spring_motion.length_t0, spring.rest_length_m);
+  const double along = correction(spring_motion, shortest, longest);
   if (along == 0) return false;
   apply(spring, (along / motion.dt_s / inverse_masses) * spring_motion.direction, inverse_mass, motion);
   return true;

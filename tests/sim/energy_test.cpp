@@ -170,6 +170,15 @@ TEST(Energy, SoftClothThatACornerStretchesGainsNoneInContact) {
   }
 }
 
+TEST(Energy, NoLimitOnTheRateOfStrainHoldsSpringsBackFromRest) {
+  // Where the limit slowed what came back as well, springs came to 3 and 710 times their length.
+  for (const char* rate : {"0.001", "0.005"}) {
+    std::string text = stiff_fall("explicit", "", 60, 0.1, kBall);
+    text.replace(text.find("duration_s = 0.4"), 16, "duration_s = 1.5");
+    expect_no_gain(std::string("strain_limit = 0\nstrain_rate_limit = ") + rate + "\n" + text, 50);
+  }
+}
+
 TEST(Energy, WhatElseMovesDoesNotHideWhatContactGains) {
   const std::string passing =
       "[[cloth]]\nname = \"passing\"\nsheet = {nx = 30, ny = 30, width_m = 2, height_m = 2}\nposition_m = [0, 9, 9]\n"

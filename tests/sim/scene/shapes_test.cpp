@@ -134,6 +134,15 @@ TEST(Cloth, SheetHasThePapersSprings) {
   EXPECT_EQ(count[SpringKind::kBending], 2 * 3 + 4 * 1);
 }
 
+TEST(Cloth, VerticesOfNoFaceTakeNoMassFromTheOthers) {
+  ClothSpec spec;
+  spec.density_kg_m2 = 0.2;
+  Shape rest = make_sheet(4, 3, 3, 2);
+  rest.x.conservativeResize(100, 3);
+  rest.x.bottomRows(88).setConstant(7);
+  for (const double m : cloth_masses(spec, rest)) EXPECT_NEAR(m, 0.2 * 6 / 12, 1e-15);
+}
+
 TEST(Cloth, WhatIsNotAskedForIsNotBuilt) {
   ClothSpec spec;
   spec.surface = SheetSpec{4, 3, 3, 2};

@@ -112,6 +112,16 @@ TEST(Strain, RateIsOfTheCurrentLength) {
   EXPECT_NEAR(pair.length_after(0.1), 2.2, 1e-15);
 }
 
+TEST(Strain, RateLetsASpringComeBackToItsLengthAtRest) {
+  for (const double length : {2.0, 0.5}) {
+    const double back = length > 1 ? -1 : 1;
+    Pair returning(length, back * 4), beyond(length, back * 15);
+    EXPECT_EQ(limit_strain_rate(returning.springs, returning.inverse_mass, returning.x, 0.1, {}, returning.v), 0);
+    EXPECT_EQ(limit_strain_rate(beyond.springs, beyond.inverse_mass, beyond.x, 0.1, {}, beyond.v), 1);
+    EXPECT_NEAR(beyond.length_after(0.1), 1, 1e-15);
+  }
+}
+
 TEST(Strain, BendingSpringsAndHeldVerticesAreLeftAlone) {
   Pair pair(1.0, 9);
   pair.springs = SpringSystem({Spring{0, 1, SpringKind::kBending, 1.0, 1, 0}}, 2);
