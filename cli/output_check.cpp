@@ -24,19 +24,6 @@ bool is_named(const fs::path& file, std::span<const char* const> extensions) {
   return std::ranges::any_of(extensions, [&](const char* extension) { return io::has_extension(file, extension); });
 }
 
-/// Also of two names under which there is nothing yet.
-bool is_one_file(const fs::path& a, const fs::path& b) {
-  std::error_code absent;
-  if (fs::exists(a, absent) || fs::exists(b, absent)) {
-    return fs::equivalent(a, b, absent) && fs::is_regular_file(a, absent);
-  }
-  // Absolute first: a relative name of nothing stays relative.
-  const auto place = [&](const fs::path& file) {
-    return fs::weakly_canonical(fs::absolute(io::behind_links(file), absent), absent);
-  };
-  return place(a) == place(b);
-}
-
 void require_no_dash(const fs::path& output) {
   if (output != "-") return;
   throw UsageError("-: results are not written to standard output; name a file, /dev/stdout, or ./- for that name");
@@ -54,6 +41,18 @@ void require_replaceable(const fs::path& output) {
 }
 
 }  // namespace
+
+bool is_one_file(const fs::path& a, const fs::path& b) {
+  std::error_code absent;
+  if (fs::exists(a, absent) || fs::exists(b, absent)) {
+    return fs::equivalent(a, b, absent) && fs::is_regular_file(a, absent);
+  }
+  // Absolute first: a relative name of nothing stays relative.
+  const auto place = [&](const fs::path& file) {
+    return fs::weakly_canonical(fs::absolute(io::behind_links(file), absent), absent);
+  };
+  return place(a) == place(b);
+}
 
 void require_folder_name(const fs::path& output) {
   require_no_dash(output);

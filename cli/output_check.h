@@ -7,6 +7,9 @@
 
 namespace selvage::cli {
 
+/// Also of two names under which there is nothing yet; links are followed.
+[[nodiscard]] bool is_one_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Throws UsageError where an output is one of the inputs, or two outputs are one file, whatever their names: links are
 /// followed; or where an output is a mesh, scene or query file that is there, or a part of a sequence. Empty outputs
 /// were not asked for. Devices and pipes hold nothing that could be lost. Nor is one "-", which elsewhere is standard

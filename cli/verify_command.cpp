@@ -93,8 +93,14 @@ void write_outputs(const VerifyArguments& arguments, const io::SequenceReader& s
 ExitCode run(const VerifyArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
-  require_outputs_apart_from(arguments.sequence, {arguments.json, arguments.html});
-  if (!arguments.json.empty()) io::require_nameable(VerifyProgress::file_of(arguments.json));
+  std::filesystem::path progress;
+  if (!arguments.json.empty()) progress = VerifyProgress::file_of(arguments.json);
+  require_outputs_apart_from(arguments.sequence, {arguments.json, progress, arguments.html});
+  for (const std::filesystem::path& file :
+       std::vector<std::filesystem::path>{arguments.json, progress, arguments.html}) {
+    if (file.empty() || arguments.cases.empty() || !is_one_file(file, arguments.cases)) continue;
+    throw UsageError(file.string() + " is named for a report and for the folder of --cases; name another");
+  }
   const auto sequence = open_sequence(arguments);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
   const verify::ReportContext context = report_context(arguments, *sequence, options);

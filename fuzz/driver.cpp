@@ -85,6 +85,7 @@ struct Driver::Share {
   std::vector<int> crashes;  ///< a stream
   int hangs = 0;
   std::set<std::pair<std::string, std::string>> being_kept;
+  std::set<std::pair<std::string, std::string>> lost;  ///< findings that a worker died of before it had kept them
 };
 
 Driver::Driver(Properties& properties, DriverOptions options)
@@ -185,6 +186,10 @@ bool Driver::assign(Team& team, Pace pace) {
   if (!job) return false;
   team.failures.clear();
   const auto p = static_cast<std::size_t>(job->property);
+  if (job->kind == Job::Kind::kKeep &&
+      shares_[p].lost.contains({ledger_.properties[p].streams[static_cast<std::size_t>(job->stream)], job->failure})) {
+    team.worker.emplace(setting_);  // one in which nothing has run yet
+  }
   const auto& open = ledger_.properties[p].open;
   const auto place = job->kind == Job::Kind::kUnit ? open.find(job->number) : open.end();
   team.worker->give(*job, shares_[p].is_skipped, place == open.end() ? UnitPlace{} : place->second);
@@ -307,6 +312,13 @@ void Driver::take_unit(Team& team) {
   }
 }
 
+void Driver::fail_of_worker(const Death& death, const std::string& what_for) const {
+  const std::string what = "a worker " + death.failure + " before it could " + what_for + " a case; " +
+                           (setting_.folder / kWorkerLog).string() + " may say why";
+  if (options_.plugin_crc32) throw io::Error(io::ErrorKind::kBadInput, ledger_.target + ": " + what);
+  throw std::runtime_error(what);
+}
+
 void Driver::take_death(Team& team) {
   const Death death = team.worker->bury();
   SELVAGE_ASSERT(team.worker->job().has_value());
@@ -316,12 +328,7 @@ void Driver::take_death(Team& team) {
     take_unit(team);
     return team.worker->revive();
   }
-  if (death.at_start) {
-    const std::string what = "a worker " + death.failure + " before it could run a case; " +
-                             (setting_.folder / kWorkerLog).string() + " may say why";
-    if (options_.plugin_crc32) throw io::Error(io::ErrorKind::kBadInput, ledger_.target + ": " + what);
-    throw std::runtime_error(what);
-  }
+  if (death.at_start) fail_of_worker(death, "run");
   const auto p = static_cast<std::size_t>(job.property);
   Share& share = shares_[p];
   Progress& progress = team.worker->progress();
@@ -343,18 +350,18 @@ void Driver::take_death(Team& team) {
   team.worker->revive();
 }
 
-/// Shrinking ran into a case that kills, or has no time left: what was written first stays.
+/// Shrinking ran into a case that kills, or has no time left: what was written first stays. Before that, what is tested
+/// has spoilt its worker: another keeps the case.
 void Driver::take_death_of_keeping(Team& team, const Job& job, const Death& death) {
   const auto p = static_cast<std::size_t>(job.property);
   const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
-  shares_[p].being_kept.erase({stream.name, job.failure});
+  const std::pair<std::string, std::string> key{stream.name, job.failure};
+  shares_[p].being_kept.erase(key);
   if (team.worker->progress().has_kept) {
-    ledger_.properties[p].findings.at({stream.name, job.failure}).file =
-        kept_name(*properties_[p], stream, job.failure);
+    ledger_.properties[p].findings.at(key).file = kept_name(*properties_[p], stream, job.failure);
     is_dirty_ = true;
-  } else if (!death.is_abandoned) {
-    throw std::runtime_error("a worker " + death.failure + " before it could keep a case; " +
-                             (setting_.folder / kWorkerLog).string() + " may say why");
+  } else if (!death.is_abandoned && !shares_[p].lost.insert(key).second) {
+    fail_of_worker(death, "keep");
   }
   team.worker->revive();
 }

@@ -2,6 +2,8 @@
 // surfaces are refused, because a mesh without them would be checked in the name of one with them.
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +28,9 @@ bool is_one_of(std::string_view keyword, std::span<const std::string_view> keywo
 /// A backslash ends a name or a path too, where it must not swallow the vertex on the next line; and a name may hold
 /// '#'.
 bool is_of_numbers(std::string_view line) { return is_one_of(next_token(line), kOfNumbers); }
+
+constexpr std::string_view kFaceMayBeCut =
+    "the last line has no end and the face may be cut; restore the file, or add the line break if it is whole";
 
 /// Of a line of numbers. A backslash in the comment is part of it.
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
@@ -71,6 +76,7 @@ class ObjParser {
     std::optional<std::string_view> line = lines_.next();
     if (!line || !is_of_numbers(*line)) return line;
     line = without_comment(*line);
+    look_for_end(*line);
     if (!line->ends_with('\\')) return line;
     joined_.clear();
     while (line && line->ends_with('\\')) {
@@ -80,7 +86,14 @@ class ObjParser {
       if (line) line = without_comment(*line);
     }
     if (!line) lines_.fail("the file ends behind a backslash; complete the line");
+    look_for_end(*line);
     return joined_.append(*line);
+  }
+
+  /// Of a line of numbers: whether the file ends with it, without a line break.
+  void look_for_end(std::string_view line) {
+    has_no_end_ = line.data() + line.size() == bytes_.data() + bytes_.size();
+    ends_in_number_ = trimmed(line).data() + trimmed(line).size() == line.data() + line.size();
   }
 
   void parse_statement(std::string_view rest) {
@@ -105,6 +118,7 @@ class ObjParser {
     if (count != 3 && count != 6 && !(count == 4 && numbers[3] == 1)) {
       lines_.fail("a vertex has " + std::to_string(count) + " numbers; give three");
     }
+    if (has_no_end_ && ends_in_number_) lines_.fail(kMayBeCut);
     if (mesh_.points.size() == kMostElements) lines_.fail("more than 2^31 vertices; split the mesh");
     mesh_.points.push_back({numbers[0], numbers[1], numbers[2]});
   }
@@ -112,11 +126,24 @@ class ObjParser {
   void parse_face(std::string_view rest) {
     corners_.clear();
     corners_.reserve((rest.size() + 1) / 2);
+    std::string_view last_corner;
     for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
       corners_.push_back(parse_corner(token));
+      last_corner = token;
     }
+    if (has_no_end_ && face_may_be_cut(last_corner)) lines_.fail(kFaceMayBeCut);
+    most_corners_ = std::max(most_corners_, corners_.size());
     const std::string fault = append_fan(corners_, mesh_);
     if (!fault.empty()) lines_.fail(fault);
+  }
+
+  /// Whether more digits would name another vertex, or others have more corners. Many programs (trimesh) write no last
+  /// line break, so that a file without one is read where it can only be whole.
+  [[nodiscard]] bool face_may_be_cut(std::string_view last_corner) const {
+    if (corners_.size() < most_corners_) return true;
+    if (!ends_in_number_ || last_corner.find('/') != last_corner.npos) return false;
+    const auto index = static_cast<std::uint64_t>(std::abs(parse_integer(last_corner).value_or(0)));
+    return 10 * index <= mesh_.points.size();
   }
 
   /// v, v/vt, v//vn or v/vt/vn; the vertex counted from 1, or backwards from -1.
@@ -172,7 +199,9 @@ class ObjParser {
   std::string name_;
   std::string joined_;
   std::vector<std::int32_t> corners_;
-  std::int64_t highest_corner_ = 0;  ///< counted from 1
+  bool has_no_end_ = false, ends_in_number_ = false;  ///< of the statement; as look_for_end() says
+  std::size_t most_corners_ = 0;                      ///< of the faces so far
+  std::int64_t highest_corner_ = 0;                   ///< counted from 1
   std::size_t highest_line_ = 0;
   MeshData mesh_;
 };

@@ -10,6 +10,9 @@
 namespace selvage::sim {
 namespace {
 
+/// Far above the rounding of any normal, far below what changes a contact.
+constexpr double kUnitRounding = 1e-6;
+
 bool is_finite_nonnegative(double value) { return value >= 0 && std::isfinite(value); }
 
 bool is_on_lattice(const PositionsRef& V, CollisionOptions::Precision precision) {
@@ -89,6 +92,7 @@ InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> hel
                         std::ranges::all_of(weights, is_finite) && std::ranges::all_of(mobility, is_finite) &&
                         std::ranges::all_of(contact.x_t0, [](const Vec3& x) { return x.allFinite(); });
     if (!finite) return InputError::kNotFinite;
+    if (!(std::abs(contact.normal.norm() - 1) <= kUnitRounding)) return InputError::kBadOption;
   }
   return InputError::kNone;
 }

@@ -100,6 +100,7 @@ Frame FrameSource::read(std::size_t i) {
 std::uint32_t FrameSource::crc32_of_surface() const {
   std::uint32_t crc32 = 0;
   const auto append = [&crc32](const auto& values) { crc32 = crc32_of_list(values, crc32); };
+  append(std::vector<std::int64_t>{topology_.vertex_count});
   append(triangles_);
   append(is_body_);
   append(representatives_);
@@ -115,7 +116,6 @@ void FrameSource::make_surface(const io::MeshData& mesh, std::vector<std::uint8_
   triangles_ = mesh.triangles;
   is_body_ = std::move(is_body);
   resolved_ = std::move(resolved);
-  surface_crc32_ = crc32_of_surface();
   collapsed_faces_ = 0;
   Surface surface{triangles_, is_body_, resolved_.is_ignored, resolved_.exemptions, representatives_};
   WeldedFaces welded;
@@ -127,6 +127,7 @@ void FrameSource::make_surface(const io::MeshData& mesh, std::vector<std::uint8_
     });
   }
   topology_ = make_topology(surface, mesh.points.size());
+  surface_crc32_ = crc32_of_surface();
 }
 
 }  // namespace selvage::verify

@@ -17,7 +17,8 @@ struct Frame {
   std::string name;
   io::Points points;
   std::uint32_t crc32 = 0;  ///< of the positions as doubles
-  /// Of all else that its results depend on: faces, which belong to bodies, what the rules say of them, what is welded.
+  /// Of all else that its results depend on: the number of vertices, faces, which belong to bodies, what the rules say
+  /// of them, what is welded.
   std::uint32_t surface_crc32 = 0;
 };
 
@@ -31,7 +32,7 @@ class FrameSource {
 
   // Of the frame read last:
   [[nodiscard]] const Topology& topology() const { return topology_; }
-  /// Its faces, groups or number of vertices differ from those of the frame read before.
+  /// What its surface_crc32 is of differs from that of the frame read before.
   [[nodiscard]] bool surface_changed() const { return surface_changed_; }
   [[nodiscard]] const ResolvedRules& rules() const { return resolved_; }
   /// Faces that lost a corner to welding and are not ignored.

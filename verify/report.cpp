@@ -134,8 +134,8 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
           (report.precision == io::Precision::kFloat32 ? "float32" : "float64") +
           " coordinates checked as stored, the largest " + number(report.largest_coordinate) + "\n";
   if (const auto change = first_surface_change(report)) {
-    text += "note:       the number of vertices, the faces or their groups change, first at frame " + count(*change) +
-            "; the surface above is the last frame's\n";
+    text += "note:       the number of vertices, the faces or what belongs to bodies or rules change, first at frame " +
+            count(*change) + "; the surface above is the last frame's\n";
   }
   if (report.unreferenced_vertices > 0) {
     text += "note:       " + count(report.unreferenced_vertices) + " vertices belong to no face and are not checked\n";

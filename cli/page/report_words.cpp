@@ -121,8 +121,8 @@ Html left_out(const verify::SequenceReport& report, const std::vector<std::strin
                       " of bodies are checked against the cloth, not against bodies (--bodies does that too).");
   }
   if (const auto change = verify::first_surface_change(report)) {
-    list +=
-        paragraph(fmt::format("The number of vertices, the faces or their groups change, first at frame {}.", *change));
+    list += paragraph(fmt::format(
+        "The number of vertices, the faces or what belongs to bodies or rules change, first at frame {}.", *change));
   }
   if (report.unreferenced_vertices > 0) {
     list += paragraph(counted(report.unreferenced_vertices, "point") + " of no face are not checked.");

@@ -29,8 +29,12 @@ InputError validate(const Mesh& mesh, const std::vector<RestPair>& pairs) {
   const auto is_of_mesh = [&](const RestPair& pair) {
     const auto [first, second] = std::pair(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     if (pair.first < 0 || pair.second < 0) return false;
-    if (pair.kind == PairKind::kVf) return pair.first < mesh.vertex_count && second < mesh.faces.size();
-    return pair.kind == PairKind::kEe && first < second && second < mesh.edges.size();
+    if (pair.kind == PairKind::kVf) {
+      return pair.first < mesh.vertex_count && second < mesh.faces.size() &&
+             std::ranges::find(mesh.faces[second], pair.first) == mesh.faces[second].end();
+    }
+    return pair.kind == PairKind::kEe && first < second && second < mesh.edges.size() &&
+           std::ranges::find_first_of(mesh.edges[first], mesh.edges[second]) == mesh.edges[first].end();
   };
   if (!std::ranges::all_of(pairs, is_of_mesh)) return InputError::kBadSurfaces;
   const auto is_length = [](const RestPair& pair) { return pair.distance_m >= 0 && std::isfinite(pair.distance_m); };

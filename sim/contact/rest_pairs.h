@@ -25,7 +25,8 @@ struct RestPair {
 /// 0, finite.
 [[nodiscard]] std::vector<RestPair> find_rest_pairs(const Mesh& mesh, const PositionsRef& V_rest, double thickness_m);
 
-/// kNone, kBadSurfaces (no pair of the mesh), or kBadOption (a distance out of its range).
+/// kNone, kBadSurfaces (no pair of the mesh, or one whose features share a vertex), or kBadOption (a distance out of
+/// its range).
 [[nodiscard]] InputError validate(const Mesh& mesh, const std::vector<RestPair>& pairs);
 
 /// Looks them up.

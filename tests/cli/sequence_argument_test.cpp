@@ -213,6 +213,12 @@ TEST(SequenceArgument, TwoOutputsAreTwoFiles) {
     EXPECT_NE(result.err.find(other_name.string() + " is named for two outputs"), std::string::npos) << result.err;
     EXPECT_FALSE(std::filesystem::exists(same));
   }
+  for (const auto& cases : {other_name, folder.path() / "same.progress"}) {
+    const auto result = run_program(folder, {"verify", mesh, "--json", same, "--cases", cases});
+    EXPECT_EQ(result.exit_code, 2) << result.out << result.err;
+    EXPECT_NE(result.err.find("is named for a report and for the folder of --cases"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(cases));
+  }
   EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", "/dev/null", "--html", "/dev/null"}).exit_code, 0);
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fenv.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <xmmintrin.h>
 
@@ -90,6 +91,10 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   _mm_setcsr(_mm_getcsr() | kFlushToZero);
 #elif defined(WRITES_TO_FILES)
   for (int file = 3; file < 64; ++file) [[maybe_unused]] const auto ignored = write(file, "{}\n", 3);
+#elif defined(FORBIDS_FILES)
+  const rlimit none = {3, 3};
+  setrlimit(RLIMIT_NOFILE, &none);
+  answer->verdict = SELVAGE_SEPARATED;  // which is a case to keep
 #elif defined(CLOSES_FILES)
   for (int file = 0; file < 64; ++file) close(file);
 #endif

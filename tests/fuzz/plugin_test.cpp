@@ -53,6 +53,7 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"repeats_a_vector", "batch-differs"},
                                                       {"writes_to_files", "broke-the-channel"},
                                                       {"closes_files", "exited"},
+                                                      {"forbids_files", "missed"},
                                                       {"forks", "forked"},
                                                       {"sleeps", "hung"},
                                                       {"exits", "exited"},

@@ -36,6 +36,27 @@ TEST(Obj, CornersInAllForms) {
             expected);
 }
 
+TEST(Obj, ALastLineThatMayBeCutIsRefused) {
+  std::string points;
+  for (int i = 0; i < 13; ++i) points += "v " + std::to_string(i) + " 0 " + std::to_string(i * i) + "\n";
+  const std::string cut = "the last line has no end and the face may be cut";
+  expect_bad_obj("a.obj:14: " + cut, points + "f 3 4 1");
+  expect_bad_obj(cut, points + "f 3 4 -1");
+  expect_bad_obj(cut, points + "f 1 2 3 4\nf 5 6 7");
+  expect_bad_obj(cut, points + "f 1 2 3 4\nf 5 6 7 ");
+  expect_bad_obj(cut, points + "f 3 4 \\\n1");
+  EXPECT_EQ(faces_of(points + "f 3 4 1\n"), (Triangles{{2, 3, 0}}));
+  for (const char* end : {" ", "\r", "#", "/1", "//1"}) {
+    EXPECT_EQ(faces_of(points + "f 3 4 1" + end), (Triangles{{2, 3, 0}})) << end;
+  }
+  for (const int whole : {2, 9, 13}) {  // there is no vertex 20
+    EXPECT_EQ(faces_of(points + "f 3 4 " + std::to_string(whole))[0][2], whole - 1);
+  }
+  expect_bad_obj("a.obj:4: the last line has no end and its number may be cut", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 1");
+  EXPECT_EQ(faces_of("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 1 ").size(), 1u);
+  EXPECT_EQ(faces_of(points + "f 1 2 3 4\nf 5 6 7 8\nvn 0 0 1").size(), 4u) << "what is skipped may be cut";
+}
+
 TEST(Obj, AByteOrderMarkIsNoPartOfTheText) {
   const Triangles expected = {{0, 1, 2}};
   EXPECT_EQ(faces_of("\xef\xbb\xbf" + kSquare + "f 1 2 3\n"), expected);

@@ -371,6 +371,9 @@ TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
       << "vertices of another pair";
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = static_cast<PairKind>(7); }), InputError::kSizeMismatch);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = PairKind::kSelf; }), InputError::kSizeMismatch);
+  for (const double length : {0.0, 0.999, 1e300}) {
+    EXPECT_EQ(error_with([=](RepulsionContact& c) { c.normal *= length; }), InputError::kBadOption) << length;
+  }
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.normal[1] = std::numeric_limits<double>::quiet_NaN(); }),
             InputError::kNotFinite);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 0; }), InputError::kNotFinite);

@@ -120,6 +120,7 @@ TEST(SequenceCheck, ChangingFacesAreUnknownAndNamed) {
   io::MeshData more_vertices = sheet(4);
   testing::add_vertex(more_vertices, {9, 9, 9});
   EXPECT_EQ(check_frames({sheet(4), more_vertices}).verdict, Verdict::kUnknown);
+  EXPECT_EQ(first_surface_change(check_frames({sheet(4), more_vertices}, frames_only)), 1);
 }
 
 TEST(SequenceCheck, AViolationOutweighsWhatWasNotChecked) {

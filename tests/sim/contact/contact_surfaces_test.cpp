@@ -249,7 +249,9 @@ TEST(RestPairs, ThatDoNotFitTheMeshAreCalledInvalid) {
     return result.report.input_error;
   };
   EXPECT_EQ(error_with({PairKind::kVf, 5, 0, 0}), InputError::kNone);
-  EXPECT_EQ(error_with({PairKind::kEe, 7, 8, 0.05}), InputError::kNone);
+  EXPECT_EQ(error_with({PairKind::kEe, 0, 8, 0.05}), InputError::kNone);
+  EXPECT_EQ(error_with({PairKind::kEe, 7, 8, 0.05}), InputError::kBadSurfaces) << "they share a vertex";
+  EXPECT_EQ(error_with({PairKind::kVf, 0, 0, 0.05}), InputError::kBadSurfaces) << "a corner of the face";
   EXPECT_EQ(error_with({PairKind::kVf, 0, 3, 0.06}), InputError::kNone) << "named twice";
   EXPECT_EQ(error_with({PairKind::kVf, 6, 0, 0.05}), InputError::kBadSurfaces);
   EXPECT_EQ(error_with({PairKind::kVf, 5, 4, 0.05}), InputError::kBadSurfaces);
@@ -271,16 +273,22 @@ TEST(RestPairs, AreAsThickAsTheyAreFarApartAtRestAndOthersAsTheirSurfaces) {
   EXPECT_FALSE(without.is_uniform());
   EXPECT_TRUE(ContactTable(mesh, scene.options, {}).is_uniform());
   const auto count_of_faces = std::ssize(mesh.faces), count_of_edges = std::ssize(mesh.edges);
-  const auto near = [&](std::int32_t first, std::int32_t second) { return (first * 7 + second) % 5 == 0; };
+  const auto near = [&](PairKind kind, std::int32_t first, std::int32_t second) {
+    const auto v = pair_vertices(mesh, kind, first, second);
+    const std::size_t other = kind == PairKind::kVf ? 1 : 2;
+    const bool apart =
+        std::find_first_of(v.begin(), v.begin() + other, v.begin() + other, v.end()) == v.begin() + other;
+    return apart && (first * 7 + second) % 5 == 0;
+  };
   const auto distance_m = [](std::int32_t first, std::int32_t second) { return 1e-4 * (1 + (first + second) % 40); };
   for (VertexId v = 0; v < mesh.vertex_count; ++v) {
     for (FaceId f = 0; f < count_of_faces; ++f) {
-      if (near(v, f)) scene.surfaces.rest_pairs.push_back({PairKind::kVf, v, f, distance_m(v, f)});
+      if (near(PairKind::kVf, v, f)) scene.surfaces.rest_pairs.push_back({PairKind::kVf, v, f, distance_m(v, f)});
     }
   }
   for (EdgeId a = 0; a < count_of_edges; ++a) {
     for (EdgeId b = a + 1; b < count_of_edges; ++b) {
-      if (near(a, b)) scene.surfaces.rest_pairs.push_back({PairKind::kEe, a, b, distance_m(a, b)});
+      if (near(PairKind::kEe, a, b)) scene.surfaces.rest_pairs.push_back({PairKind::kEe, a, b, distance_m(a, b)});
     }
   }
   std::ranges::shuffle(scene.surfaces.rest_pairs, std::mt19937(7));
@@ -288,7 +296,7 @@ TEST(RestPairs, AreAsThickAsTheyAreFarApartAtRestAndOthersAsTheirSurfaces) {
   EXPECT_EQ(with.thickness_upper(), without.thickness_upper());
   const auto check = [&](PairKind kind, std::int32_t first, std::int32_t second) {
     ContactProperties expected = without.of(kind, first, second);
-    if (near(first, second)) expected.thickness_m = std::min(expected.thickness_m, distance_m(first, second));
+    if (near(kind, first, second)) expected.thickness_m = std::min(expected.thickness_m, distance_m(first, second));
     ASSERT_EQ(with.of(kind, first, second), expected);
   };
   for (VertexId v = 0; v < mesh.vertex_count; ++v) {
