@@ -162,6 +162,10 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
+  if (const std::int64_t there = simulation.clock().state().frame; there > scene.time.frame_count) {
+    fmt::print(stderr, "note       {} frames are there already; the {} that are asked for take none away\n", there,
+               scene.time.frame_count);
+  }
   WaitingSummary waiting;
   sim::RunEnd end{};
   ExitCode code{};

@@ -57,6 +57,10 @@ void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pair
 }
 
 /// Strain has no meaning there, whatever a repair does to the corners.
+/// Strain of springs that a person is told of: two crossed sheets that were left with it flew apart at 19 m/s
+/// (docs/scenes.md), a sheet that a needle went through, left with 6.2, at 40 m/s.
+constexpr double kTorn = 2.5;
+
 bool has_edge_without_length(const sim::World& world) {
   return std::ranges::any_of(world.springs.springs(), [](const sim::Spring& spring) {
     return spring.kind == sim::SpringKind::kStructural && !(spring.rest_length_m > 0);
@@ -122,6 +126,13 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
              "{} steps drew together what was stretched, largest strain {:.2g}\n",
              pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
              repaired.relax_steps, repaired.largest_strain);
+  if (repaired.largest_strain > kTorn) {
+    fmt::print(
+        stderr,
+        "note       contact or pins hold cloth at {:.2g} times its length, which will fly apart; move it off what "
+        "goes through it in the program that wrote it\n",
+        1 + repaired.largest_strain);
+  }
   return done;
 }
 
