@@ -33,7 +33,8 @@ PairKind kind_of(const std::string& file, const std::string& named) {
   if (named == "vf") return PairKind::kVf;
   if (named == "ee") return PairKind::kEe;
   if (const auto kind = bench::kind_of_path(file)) return *kind;
-  throw UsageError(file + ": vertex-face or edge-edge queries? The name does not say (it would end in vf or ee); use --kind");
+  throw UsageError(file + ": vertex-face or edge-edge queries? No name says it: " +
+                   "FILE_vf.csv, FILE_ee.csv, or a folder vertex-face or edge-edge; use --kind");
 }
 
 std::string table(const bench::QueryBenchReport& report) {

@@ -207,7 +207,9 @@ void add_convert_command(CLI::App& program, Job& job) {
                   "An .npz, .obj, .pc2 or .pvd file, or a folder; must not be there yet")
       ->required()
       ->check(CLI::Validator(check_output, "", ""));
-  command.add_option("--frames", arguments->frames, "Frames a to b, b left out; from 0; :b from the first, a: to the last")->type_name("A:B");
+  command
+      .add_option("--frames", arguments->frames, "Frames a to b, b left out; from 0; :b from the first, a: to the last")
+      ->type_name("A:B");
   CLI::Option* recheck = command.add_flag("--recheck", arguments->recheck,
                                           "Read the result again and check it exactly: rounding makes intersections");
   command

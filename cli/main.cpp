@@ -31,6 +31,9 @@ int main(int argc, char** argv) {
                    "selvage"};
   show_example_first(program, "selvage --version");
   program.set_version_flag("--version", version_text, "Version of the program and of the libraries in it");
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("selvage: ") + error.what() + "; --help says more\n";
+  });
   program.require_subcommand(0, 1);  // one is required, but an unknown name shall be named: see below
 
   Job job;

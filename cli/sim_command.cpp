@@ -163,7 +163,7 @@ ExitCode simulate(const SimArguments& arguments) {
                          repair);
   if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
   if (const std::int64_t there = simulation.clock().state().frame; there > scene.time.frame_count) {
-    fmt::print(stderr, "note       {} frames are there already; the {} that are asked for take none away\n", there,
+    fmt::print(stderr, "note       it was simulated to frame {} already; --frames {} takes nothing away\n", there,
                scene.time.frame_count);
   }
   WaitingSummary waiting;

@@ -16,6 +16,10 @@
 namespace selvage::cli {
 namespace {
 
+/// Strain of springs that a person is told of: two crossed sheets that were left with it flew apart at 19 m/s
+/// (docs/scenes.md), a sheet that a needle went through, left with 6.2, at 40 m/s.
+constexpr double kTorn = 2.5;
+
 constexpr std::size_t kNamedPairs = 10;         // the rest is counted
 constexpr std::size_t kMostPairs = 10'000'000;  // of one frame; more are all parts of a scene in one place
 
@@ -57,10 +61,6 @@ void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pair
 }
 
 /// Strain has no meaning there, whatever a repair does to the corners.
-/// Strain of springs that a person is told of: two crossed sheets that were left with it flew apart at 19 m/s
-/// (docs/scenes.md), a sheet that a needle went through, left with 6.2, at 40 m/s.
-constexpr double kTorn = 2.5;
-
 bool has_edge_without_length(const sim::World& world) {
   return std::ranges::any_of(world.springs.springs(), [](const sim::Spring& spring) {
     return spring.kind == sim::SpringKind::kStructural && !(spring.rest_length_m > 0);

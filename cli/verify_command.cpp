@@ -66,6 +66,7 @@ void require_outputs(const VerifyArguments& arguments) {
   require_writable({arguments.json, arguments.html});
   if (arguments.cases.empty()) return;
   create_case_folder(arguments.cases);
+  require_writable({arguments.json, arguments.html});  // once more: a report may have the name of a folder above
   if (!arguments.resume && arguments.shard.empty()) require_no_cases(arguments.cases);  // else some are of this check
   require_writable({arguments.cases / "a.case"});
 }

@@ -138,7 +138,7 @@ class ObjParser {
   }
 
   /// Whether more digits would name another vertex, or others have more corners. Many programs (trimesh) write no last
-  /// line break, so that a file without one is read where it can only be whole.
+  /// line break, so that a file without one is read where nothing tells that it is cut.
   [[nodiscard]] bool face_may_be_cut(std::string_view last_corner) const {
     if (corners_.size() < most_corners_) return true;
     if (!ends_in_number_ || last_corner.find('/') != last_corner.npos) return false;

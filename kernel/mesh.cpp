@@ -67,7 +67,9 @@ const char* describe(InputError error) {
     case InputError::kBadTolerance:
       return "the tolerance is negative, NaN or infinite; pass a length of at least 0";
     case InputError::kBadOption:
-      return "a collision option is NaN or outside its range; the ranges stand beside the options";
+      return "a collision option is NaN or outside its range, or the normal of a held contact is no unit vector; the "
+             "ranges stand beside "
+             "the options";
     case InputError::kBadMass:
       return "an inverse mass is negative, NaN or infinite, or not 0 on a body; pass 0 for every scripted vertex";
     case InputError::kBadTimeStep:
@@ -76,7 +78,7 @@ const char* describe(InputError error) {
       return "a starting position is no float32 number; round the first state before the first float32 step";
     case InputError::kBadSurfaces:
       return "the contact surfaces do not fit the mesh; give every vertex the number of one of `properties`, the same "
-             "to all three of a face, and name rest pairs of the mesh";
+             "to all three of a face, and name rest pairs of the mesh whose features share no vertex";
   }
   return "unknown error";
 }

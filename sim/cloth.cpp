@@ -170,12 +170,13 @@ std::vector<double> cloth_masses(const ClothSpec& spec, const Shape& rest) {
     for (const VertexId corner : t) mass_kg[static_cast<std::size_t>(corner)] += spec.density_kg_m2 * area / 3;
   }
   if (spec.masses == ClothSpec::Masses::kEqual) {
-    // Vertices of no face take nothing from the others.
+    // Vertices of no face weigh as much as the others, and take nothing from them.
     std::vector<std::uint8_t> has_face(mass_kg.size(), 0);
     for (const auto& t : rest.triangles) {
       for (const VertexId corner : t) has_face[static_cast<std::size_t>(corner)] = 1;
     }
     const auto sharing = std::ranges::count(has_face, std::uint8_t{1});
+    if (sharing == 0) return mass_kg;
     std::ranges::fill(mass_kg, spec.density_kg_m2 * total_area_m2 / static_cast<double>(sharing));
   }
   return mass_kg;

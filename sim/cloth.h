@@ -23,8 +23,8 @@ namespace selvage::sim {
 [[nodiscard]] std::vector<Stabilizer> make_stabilizers(const ClothSpec& spec, const Shape& rest,
                                                        const std::vector<double>& mass_kg);
 
-/// density times area in all, shared equally (section 3: "giving all particles the same mass") or by a third of the
-/// adjacent faces' areas. Vertices of no face get a mass in the first case alone.
+/// density times area in all, shared equally by the vertices of faces (section 3: "giving all particles the same mass")
+/// or by a third of the adjacent faces' areas. In the first case one of no face gets as much beside that, else nothing.
 [[nodiscard]] std::vector<double> cloth_masses(const ClothSpec& spec, const Shape& rest);
 
 }  // namespace selvage::sim

@@ -160,7 +160,7 @@ const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<
   tried.candidate.topRows(cloth) = tried.end.x;
   tried.held = contacts.count();
   tried.loads = contacts.loads();
-  held_to_the_end_ = contacts.take_contacts();
+  held_to_the_end_ = std::move(contacts).take_contacts();
   return held_to_the_end_;
 }
 

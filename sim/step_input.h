@@ -16,7 +16,7 @@ namespace selvage::sim {
                                              const CollisionBodies& bodies, double dt_s);
 
 /// Likewise of the contacts given to a step: kSizeMismatch where one is no vf or ee pair of the mesh with the vertices
-/// of that, or kNotFinite. O(#contacts).
+/// of that, kNotFinite, or kBadOption where a normal is no unit vector. O(#contacts).
 [[nodiscard]] InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> held);
 
 }  // namespace selvage::sim

@@ -333,12 +333,13 @@ CollisionBodies bodies_of(const World& world, const ScriptedVertices& scripted, 
 
 namespace {
 
-std::int64_t loose_vertices(const Mesh& mesh) {
-  std::vector<std::uint8_t> has_no_face(static_cast<std::size_t>(mesh.vertex_count), 1);
-  for (const auto& face : mesh.faces) {
-    for (const VertexId v : face) has_no_face[static_cast<std::size_t>(v)] = 0;
+/// Of cloth.
+std::int64_t loose_vertices(const World& world) {
+  std::vector<std::uint8_t> has_face(static_cast<std::size_t>(world.mesh.vertex_count), 0);
+  for (const auto& face : world.mesh.faces) {
+    for (const VertexId v : face) has_face[static_cast<std::size_t>(v)] = 1;
   }
-  return std::ranges::count(has_no_face, std::uint8_t{1});
+  return std::count(has_face.begin(), has_face.begin() + world.cloth_vertex_count, std::uint8_t{0});
 }
 
 }  // namespace
@@ -354,8 +355,8 @@ std::string describe(const Scene& scene, const World& world) {
     line(group.role == io::Group::Role::kCloth ? "cloth" : "body",
          fmt::format("{}, {} faces", group.name, group.face_end - group.face_begin));
   }
-  if (const auto count_of_loose = loose_vertices(world.mesh); count_of_loose > 0) {
-    line("loose", fmt::format("{} vertices of no face, which nothing holds", count_of_loose));
+  if (const std::int64_t loose = loose_vertices(world); loose > 0) {
+    line("", fmt::format("{} cloth vertices of no face, which move alone", loose));
   }
   for (const Collider& collider : world.colliders) {
     const BodySequence* sequence = collider.sequence();

@@ -147,10 +147,10 @@ std::vector<std::size_t> NearPairs::with_nearer(const std::vector<std::size_t>& 
   return result;
 }
 
-bool NearPairs::is(std::size_t pair, PairKind kind, std::int32_t first, std::int32_t second) const {
+bool NearPairs::is_pair(std::size_t i, PairKind kind, std::int32_t first, std::int32_t second) const {
   const std::size_t vf_count = candidates_.vf.size();
-  if (pair < vf_count) return kind == PairKind::kVf && candidates_.vf[pair] == VfCandidate{first, second};
-  return kind == PairKind::kEe && candidates_.ee[pair - vf_count] == EeCandidate{first, second};
+  if (i < vf_count) return kind == PairKind::kVf && candidates_.vf[i] == VfCandidate{first, second};
+  return kind == PairKind::kEe && candidates_.ee[i - vf_count] == EeCandidate{first, second};
 }
 
 std::optional<std::size_t> NearPairs::place(PairKind kind, std::int32_t first, std::int32_t second) const {

@@ -36,7 +36,8 @@ class NearPairs {
   /// with to know whether its distance is a local minimum. Ascending, as `pairs`.
   [[nodiscard]] std::vector<std::size_t> with_nearer(const std::vector<std::size_t>& pairs) const;
 
-  [[nodiscard]] bool is(std::size_t pair, PairKind kind, std::int32_t first, std::int32_t second) const;
+  /// Whether pair i is this one.
+  [[nodiscard]] bool is_pair(std::size_t i, PairKind kind, std::int32_t first, std::int32_t second) const;
   /// Nothing if it is none of them. O(log #pairs).
   [[nodiscard]] std::optional<std::size_t> place(PairKind kind, std::int32_t first, std::int32_t second) const;
   [[nodiscard]] Candidates candidates(const std::vector<std::size_t>& pairs) const;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <optional>
 
+#include "kernel/assert.h"
 #include "sim/base/parallel.h"
 #include "sim/base/points.h"
 #include "sim/contact/contact_reach.h"
@@ -78,7 +79,8 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
   auto next_open = open.begin();
   for (const PairProximity& pair : found) {
     place = std::find_if(place, asked.end(),
-                         [&](std::size_t i) { return near_.is(i, pair.kind, pair.first, pair.second); });
+                         [&](std::size_t i) { return near_.is_pair(i, pair.kind, pair.first, pair.second); });
+    SELVAGE_ASSERT(place != asked.end());
     next_open = std::find_if(next_open, open.end(), [&](std::size_t i) { return i >= *place; });
     if (next_open == open.end()) break;
     if (*next_open != *place) continue;  // asked only to compare others with it

@@ -399,7 +399,7 @@ const std::vector<RepulsionContact>& HeldContacts::contacts() {
   return contacts_;
 }
 
-std::vector<RepulsionContact> HeldContacts::take_contacts() {
+std::vector<RepulsionContact> HeldContacts::take_contacts() && {
   measure();
   return std::move(contacts_);
 }

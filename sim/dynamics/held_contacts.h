@@ -64,9 +64,9 @@ class HeldContacts {
   /// of its eight acts alone from then on. Same bits for any number of threads and any vector unit.
   void hold(const MidstepMotion& step);
 
-  /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given, with
-  /// the loads that they begin with; and what a contact bore in the last step, so that count() and loads() know it.
-  /// They do not learn its friction.
+  /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
+  /// contacts()), with the loads that they begin with; and what a contact bore in the last step, so that count() and
+  /// loads() know it. They do not learn its friction.
   [[nodiscard]] std::size_t size() const { return place_of_.size(); }
   [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[i]; }
   [[nodiscard]] double load_m_s2(std::size_t i) const;
@@ -81,7 +81,7 @@ class HeldContacts {
   /// them where they are at its end.
   [[nodiscard]] const std::vector<RepulsionContact>& contacts();
   /// The same, and their memory, at the end.
-  [[nodiscard]] std::vector<RepulsionContact> take_contacts();
+  [[nodiscard]] std::vector<RepulsionContact> take_contacts() &&;
 
   /// Those that repelled, and rubbed, in any step.
   [[nodiscard]] RepulsionCount count() const;

@@ -48,8 +48,8 @@ class StrainLimiter {
 
   /// Gauss-Seidel in the order of the springs: no spring changes its length by more than strain_rate within the step,
   /// but back to its length at rest. Springs that were held back there worked against their own forces, and explicit
-  /// steps made energy of it: at a limit of 0.0006, where forces ask for far more, a sheet that hung came to 13 times
-  /// its length, with 4 sweeps or with 400; to 1.03 times as it is (tests/sim/energy_test.cpp). Stops early when a
+  /// steps made energy of it where forces ask for far more than the limit: a sheet that fell on a ball came to 12 times
+  /// its length at a limit of 0.001, to 1.2 times as it is (docs/numerics.md, *Limits on strain*). Stops early when a
   /// sweep finds nothing. Springs that no impulse can have pushed over their limit are passed over, so a sweep costs
   /// what it changes.
   std::int64_t limit_strain_rate(std::span<const double> inverse_mass, const LimitedMotion& motion);

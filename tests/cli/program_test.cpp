@@ -64,6 +64,16 @@ TEST(Program, UnknownSubcommandIsUsage) {
   EXPECT_NE(with_options.err.find("no subcommand 'knit'"), std::string::npos) << with_options.err;
 }
 
+TEST(Program, AWrongOptionIsOneLine) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"verify", "a.obj", "--jsn", "x"}, {"sim", "a.toml", "--quality", "ultra"}, {"sim"}}) {
+    const auto result = run_program(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(result.err.starts_with("selvage: ")) << result.err;
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  }
+}
+
 TEST(Program, AnUnknownBenchIsNamedAndTheOthersListed) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"bench", "foo"}, {"bench", "foo", "a.obj", "--json", "x"}, {"bench", "foo", "ccd"}}) {

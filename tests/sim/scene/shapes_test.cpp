@@ -141,6 +141,8 @@ TEST(Cloth, VerticesOfNoFaceTakeNoMassFromTheOthers) {
   rest.x.conservativeResize(100, 3);
   rest.x.bottomRows(88).setConstant(7);
   for (const double m : cloth_masses(spec, rest)) EXPECT_NEAR(m, 0.2 * 6 / 12, 1e-15);
+  rest.triangles.clear();
+  for (const double m : cloth_masses(spec, rest)) EXPECT_EQ(m, 0);
 }
 
 TEST(Cloth, WhatIsNotAskedForIsNotBuilt) {
