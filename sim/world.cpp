@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -331,19 +332,6 @@ CollisionBodies bodies_of(const World& world, const ScriptedVertices& scripted, 
   return {scripted.inverse_mass, scripted.body, squeeze, world.body_count, world.deforms};
 }
 
-namespace {
-
-/// Of cloth.
-std::int64_t loose_vertices(const World& world) {
-  std::vector<std::uint8_t> has_face(static_cast<std::size_t>(world.mesh.vertex_count), 0);
-  for (const auto& face : world.mesh.faces) {
-    for (const VertexId v : face) has_face[static_cast<std::size_t>(v)] = 1;
-  }
-  return std::count(has_face.begin(), has_face.begin() + world.cloth_vertex_count, std::uint8_t{0});
-}
-
-}  // namespace
-
 std::string describe(const Scene& scene, const World& world) {
   std::string text;
   const auto line = [&](const char* what, const std::string& value) { text += fmt::format("{:<11}{}\n", what, value); };
@@ -355,7 +343,8 @@ std::string describe(const Scene& scene, const World& world) {
     line(group.role == io::Group::Role::kCloth ? "cloth" : "body",
          fmt::format("{}, {} faces", group.name, group.face_end - group.face_begin));
   }
-  if (const std::int64_t loose = loose_vertices(world); loose > 0) {
+  const auto owners = std::span(world.mesh.vertex_owner).first(static_cast<std::size_t>(world.cloth_vertex_count));
+  if (const auto loose = std::ranges::count(owners, -1); loose > 0) {
     line("", fmt::format("{} cloth vertices of no face, which move alone", loose));
   }
   for (const Collider& collider : world.colliders) {

@@ -124,6 +124,14 @@ TEST_F(SimCommand, AFolderOfOtherFilesIsRefused) {
   EXPECT_EQ(sim(scene(1, 0.2, 0.2), {"--resume"}).exit_code, 0);
 }
 
+TEST_F(SimCommand, ARunThatGoesOnTakesNoFrameAway) {
+  EXPECT_EQ(sim(scene(2, 0.2, 0.2)).exit_code, 0);
+  const auto shorter = sim(scene(2, 0.2, 0.2), {"--resume", "--frames", "1"});
+  EXPECT_EQ(shorter.exit_code, 0) << shorter.err;
+  EXPECT_NE(shorter.err.find("simulated to frame 2 already; --frames 1 takes nothing away"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(path("out") + "/frame_000002.npy"));
+}
+
 TEST_F(SimCommand, ASecondRunDoesNotOverwriteTheFirst) {
   EXPECT_EQ(sim(scene(1, 0.2, 0.2)).exit_code, 0);
   const std::string before = slurp(path("out") + "/frame_000001.npy");

@@ -493,4 +493,18 @@ vertices = [3]
   EXPECT_THROW((void)build_world(beyond), io::Error);
 }
 
+TEST(World, VerticesOfNoFaceAreNamedWhereTheyAreCloth) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path() / "loose.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 6 6 6\nf 1 2 3\n";
+  const std::string cloth = "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 0.5\nstretch_n_m = 40\n";
+  const std::string loose = "mesh = {file = \"loose.obj\"}\n";
+  const auto description = [&](const std::string& text) {
+    const Scene scene = testing::write_and_read_scene(folder.path() / "loose.toml", text);
+    return describe(scene, build_world(scene));
+  };
+  EXPECT_NE(description(cloth + loose).find("2 cloth vertices of no face"), std::string::npos);
+  const std::string sheet = "sheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}\n";
+  EXPECT_EQ(description(cloth + sheet + "[[body]]\n" + loose).find("of no face"), std::string::npos);
+}
+
 }  // namespace selvage
