@@ -11,11 +11,25 @@
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
+#include <CGAL/Interval_nt.h>
 
 #include "verify/fp_guard.h"
 
 namespace selvage::verify {
 namespace {
+
+/// CGAL's interval arithmetic needs directed rounding, of the compiler's flags (-frounding-math) as of the processor.
+/// Throws std::runtime_error where there is none. CGAL asserts the same while a program starts: under valgrind, which
+/// rounds to nearest only, that ends all that is linked with the checker, whether it asks for a second opinion or not.
+/// So CGAL's check is off (CMakeLists.txt), and this one stands where intervals may be used.
+void require_directed_rounding() {
+  const CGAL::Interval_nt<> inexact = CGAL::Interval_nt<>(1.1) * CGAL::Interval_nt<>(10.1);
+  if (inexact.is_point()) {
+    throw std::runtime_error(
+        "second opinions need directed rounding, which there is not here (valgrind, for one, rounds to nearest only): "
+        "ask for none, or elsewhere");
+  }
+}
 
 using Kernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
 using Polynomial = Kernel::Polynomial_1;
@@ -246,18 +260,21 @@ SecondOpinion first_touch(const Pair& pair) {
 
 SecondOpinion second_opinion_vf(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1) {
   const FpGuard guard;
+  require_directed_rounding();
   const auto [p, a, b, c] = paths(x_t0, x_t1);
   return first_touch(VfPair{p, a, b, c});
 }
 
 SecondOpinion second_opinion_ee(const std::array<Point, 4>& x_t0, const std::array<Point, 4>& x_t1) {
   const FpGuard guard;
+  require_directed_rounding();
   const auto [a, b, c, d] = paths(x_t0, x_t1);
   return first_touch(EePair{a, b, c, d});
 }
 
 SecondOpinion second_opinion_self(const std::array<Point, 3>& x_t0, const std::array<Point, 3>& x_t1) {
   const FpGuard guard;
+  require_directed_rounding();
   const auto [p, a, b] = paths(x_t0, x_t1);
   const PointOnSegment condition(p, a, b);
   std::vector<Polynomial> polynomials;

@@ -39,6 +39,28 @@ TEST(Program, VersionNamesTheExactLibraries) {
   EXPECT_NE(result.out.find("GMP"), std::string::npos) << result.out;
 }
 
+// Valgrind rounds to nearest only. CGAL's own check of that ends whatever is linked with it.
+TEST(Program, RunsUnderValgrindUntilASecondOpinionNeedsDirectedRounding) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "valgrind does not run what a sanitizer watches";
+#endif
+  if (std::system("valgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no valgrind (packages-bench.txt)";
+  const TemporaryFolder folder;
+  const std::string face = "v 0 0 0\nv 4 0 0\nv 0 4 0\n";
+  spit(folder.path() / "0.obj", face + "v 3 3 -1\nv 4 4 1\nv 4 3 1\nf 1 2 3\nf 4 5 6\n");
+  spit(folder.path() / "1.obj", face + "v 3 3 1\nv 4 4 2\nv 4 3 2\nf 1 2 3\nf 4 5 6\n");
+  const auto verify = [&](const std::string& options) {
+    const std::string command = "cd " + folder.path().string() +
+                                " && valgrind -q " SELVAGE_PROGRAM " verify 0.obj 1.obj --motion --threads 1 " +
+                                options + " > out.txt 2>&1";
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  const auto said = [&] { return testing::slurp(folder.path() / "out.txt"); };
+  EXPECT_EQ(verify(""), 0) << said();
+  EXPECT_EQ(verify("--second-opinion-all"), 7) << said();
+  EXPECT_NE(said().find("directed rounding"), std::string::npos) << said();
+}
+
 TEST(Program, AnEmptyArgumentIsUsage) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj";
