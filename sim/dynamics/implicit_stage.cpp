@@ -39,6 +39,13 @@ std::vector<std::vector<VertexId>> find_neighbours(const SpringSystem& springs,
   return neighbours;
 }
 
+/// Row by row in order: the bits do not depend on the number of threads.
+double dot(const Positions& a, const Positions& b) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) sum += a(i, 0) * b(i, 0) + a(i, 1) * b(i, 1) + a(i, 2) * b(i, 2);
+  return sum;
+}
+
 }  // namespace
 
 ImplicitStage::ImplicitStage(const SpringSystem& springs, const StabilizerSystem* stabilizers,
@@ -50,10 +57,10 @@ ImplicitStage::ImplicitStage(const SpringSystem& springs, const StabilizerSystem
       is_free_(static_cast<std::size_t>(springs.vertex_count())),
       spring_(springs.springs().size()) {
   for (const Spring& spring : springs.springs()) {
-    slot_.push_back(matrix_.find(spring.a, spring.b));
-    slot_.push_back(matrix_.find(spring.b, spring.a));
+    entry_.push_back(matrix_.find(spring.a, spring.b));
+    entry_.push_back(matrix_.find(spring.b, spring.a));
   }
-  if (stabilizers_) stabilizers_->find_slots(matrix_);
+  if (stabilizers_) stabilizers_->find_entries(matrix_);
 }
 
 void ImplicitStage::find_forces(const StageEquations& equations, const Positions& x, Positions& acceleration) {
@@ -110,28 +117,29 @@ void ImplicitStage::assemble(const StageEquations& equations, bool projected) {
   const double h = equations.h_s;
   parallel_each(matrix_.rows(), [&](Eigen::Index i) {
     const double w = equations.inverse_mass[static_cast<std::size_t>(i)];
-    SymmetricBlock& diagonal = matrix_.diagonal(i);
-    diagonal = {};
-    for (std::size_t slot = matrix_.begin(i); slot < matrix_.begin(i + 1); ++slot) matrix_.off_diagonal(slot) = {};
+    matrix_.clear_row(i);
+    SymmetricBlock diagonal = {};
     springs_.for_each_at(static_cast<VertexId>(i), [&](std::uint32_t s, double sign) {
       const SpringState& state = spring_[s];
       const double across_kg = projected ? std::max(0.0, state.across_kg) : state.across_kg;
-      SymmetricBlock block = {};
-      add_identity(across_kg, block);
-      add_outer(state.along_kg - across_kg, state.x, state.y, state.z, block);
-      SymmetricBlock& off_diagonal = matrix_.off_diagonal(slot_[2 * s + (sign > 0 ? 0 : 1)]);
-      for (std::size_t k = 0; k < block.size(); ++k) {
-        diagonal[k] += block[k];
-        off_diagonal[k] -= block[k];
-      }
+      const auto add_spring = [&](double side, SymmetricBlock& block) {
+        add_identity(side * across_kg, block);
+        add_outer(side * (state.along_kg - across_kg), state.x, state.y, state.z, block);
+      };
+      SymmetricBlock off_diagonal = {};
+      add_spring(1, diagonal);
+      add_spring(-1, off_diagonal);
+      matrix_.add_off_diagonal(entry_[2 * s + (sign > 0 ? 0 : 1)], off_diagonal);
     });
-    if (stabilizers_) stabilizers_->add_blocks(static_cast<VertexId>(i), h, matrix_);
-    if (w == 0) return;
-    const double speed_m = u_.row(i).norm();
-    add_identity((1 + h * fields_.drag_1_s + fields_.quadratic_drag_1_m * speed_m) / w, diagonal);
-    if (fields_.quadratic_drag_1_m > 0 && speed_m > 0) {
-      add_outer(fields_.quadratic_drag_1_m / (w * speed_m), u_(i, 0), u_(i, 1), u_(i, 2), diagonal);
+    if (w > 0) {
+      const double speed_m = u_.row(i).norm();
+      add_identity((1 + h * fields_.drag_1_s + fields_.quadratic_drag_1_m * speed_m) / w, diagonal);
+      if (fields_.quadratic_drag_1_m > 0 && speed_m > 0) {
+        add_outer(fields_.quadratic_drag_1_m / (w * speed_m), u_(i, 0), u_(i, 1), u_(i, 2), diagonal);
+      }
     }
+    matrix_.add_diagonal(i, diagonal);
+    if (stabilizers_) stabilizers_->add_blocks(static_cast<VertexId>(i), h, matrix_);
   });
 }
 
@@ -163,6 +171,7 @@ ImplicitStage::Change ImplicitStage::potential_change(const StageEquations& equa
     const Eigen::RowVector3d move = share * step.row(i);
     term = move.dot(linear_.row(i) + share / 2 * curvature.row(i)) +
            (1 + h * fields_.drag_1_s) / (2 * w) * move.squaredNorm();
+    if (fields_.quadratic_drag_1_m == 0) return;
     const double speed_m = u_.row(i).norm(), speed_after_m = (u_.row(i) + move).norm();
     term += fields_.quadratic_drag_1_m / (3 * w) * (std::pow(speed_after_m, 3) - std::pow(speed_m, 3));
   });
@@ -216,7 +225,7 @@ double ImplicitStage::rounding_m(const StageEquations& equations, const Position
 bool ImplicitStage::find_step(const StageEquations& equations, Positions& step, StageReport& report) {
   const double forcing = equations.contacts != nullptr ? kForcingInContact : kForcing;
   const ConjugateGradientsResult linear =
-      solve_by_conjugate_gradients(matrix_, equations.contacts, is_free_, -gradient_, forcing, kMaxCgIterations, step);
+      linear_solver_.solve(matrix_, equations.contacts, is_free_, -gradient_, forcing, kMaxCgIterations, step);
   report.cg_iterations += linear.iterations;
   return linear.definite;
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/base/block_matrix.h"
+#include "sim/base/conjugate_gradients.h"
 #include "sim/dynamics/stage_stabilizers.h"
 #include "sim/springs/spring.h"
 
@@ -93,7 +93,8 @@ class ImplicitStage {
   std::optional<StageStabilizers> stabilizers_;
   FieldForces fields_;
   BlockMatrix matrix_;
-  std::vector<std::size_t> slot_;  ///< of both ends of every spring: its block in matrix_, in the row of end a, then b
+  std::vector<std::size_t> entry_;  ///< of both ends of every spring: its block in matrix_, in the row of end a, then b
+  ConjugateGradients linear_solver_;
   std::vector<std::uint8_t> is_free_;
   // What find_forces() found, at the positions it was given last.
   std::vector<SpringState> spring_;

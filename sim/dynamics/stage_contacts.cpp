@@ -101,7 +101,8 @@ std::span<const StageContacts::End> StageContacts::ends_at(Eigen::Index vertex) 
   return {ends_.data() + begin_[row], begin_[row + 1] - begin_[row]};
 }
 
-Vec3 StageContacts::moved(const Term& term, const Positions& u) {
+template <class Vectors>
+Vec3 StageContacts::moved(const Term& term, const Vectors& u) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < 4; ++i) {
     if (term.vertices[i] >= 0) sum += term.jacobian[i] * u.row(term.vertices[i]).transpose();
@@ -158,7 +159,7 @@ void StageContacts::add_diagonal(Eigen::Index vertex, SymmetricBlock& block) con
   }
 }
 
-void StageContacts::add_product(const Positions& step, Positions& result) const {
+void StageContacts::add_product(const LaneVectors& step, LaneVectors& result) const {
   parallel_each(std::ssize(terms_), [&](Eigen::Index k) {
     const auto at = static_cast<std::size_t>(k);
     const Term& term = terms_[at];

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/base/block_matrix.h"
+#include "sim/base/conjugate_gradients.h"
 #include "sim/dynamics/held_contacts.h"
 
 namespace selvage::sim {
@@ -50,7 +50,7 @@ class StageContacts : public Coupling {
   /// On a vertex, kg m.
   [[nodiscard]] Eigen::RowVector3d force_at(Eigen::Index vertex) const;
   /// Second derivatives.
-  void add_product(const Positions& step, Positions& result) const override;
+  void add_product(const LaneVectors& step, LaneVectors& result) const override;
   void add_diagonal(Eigen::Index vertex, SymmetricBlock& block) const override;
   /// What `step` changes in each contact's potential, one number each.
   void changes(const Positions& step, double share, std::vector<double>& terms) const;
@@ -92,7 +92,8 @@ class StageContacts : public Coupling {
                 std::span<const double> resistance_kg);
   void index_ends(Eigen::Index vertex_count);
   [[nodiscard]] std::span<const End> ends_at(Eigen::Index vertex) const;
-  [[nodiscard]] static Vec3 moved(const Term& term, const Positions& u);
+  template <class Vectors>
+  [[nodiscard]] static Vec3 moved(const Term& term, const Vectors& u);
 
   HeldContacts& held_;
   StageSpan span_;

@@ -7,25 +7,28 @@
 namespace selvage::sim {
 
 StageStabilizers::StageStabilizers(const StabilizerSystem& stabilizers)
-    : system_(stabilizers), slot_(stabilizers.stabilizers().size()), direction_(slot_.size()), pull_n_(slot_.size()) {}
+    : system_(stabilizers),
+      entry_(stabilizers.stabilizers().size()),
+      direction_(entry_.size()),
+      pull_n_(entry_.size()) {}
 
 void StageStabilizers::list_neighbours(VertexId i, std::vector<VertexId>& neighbours) const {
   for (const StabilizerSystem::Neighbour& neighbour : system_.neighbours_of(i)) neighbours.push_back(neighbour.vertex);
 }
 
-void StageStabilizers::find_slots(const BlockMatrix& matrix) {
-  for (std::size_t n = 0; n < slot_.size(); ++n) {
+void StageStabilizers::find_entries(const BlockMatrix& matrix) {
+  for (std::size_t n = 0; n < entry_.size(); ++n) {
     for (std::size_t k = 0; k < 4; ++k) {
       for (std::size_t l = 0; l < 4; ++l) {
         if (k == l || at(n).weights[k] == 0 || at(n).weights[l] == 0) continue;
-        slot_[n][k][l] = matrix.find(at(n).vertices[k], at(n).vertices[l]);
+        entry_[n][k][l] = matrix.find(at(n).vertices[k], at(n).vertices[l]);
       }
     }
   }
 }
 
 void StageStabilizers::look(const Positions& predicted_x) {
-  parallel_each(static_cast<Eigen::Index>(slot_.size()), [&](Eigen::Index row) {
+  parallel_each(static_cast<Eigen::Index>(entry_.size()), [&](Eigen::Index row) {
     const auto n = static_cast<std::size_t>(row);
     const Vec3 bow = bow_of(at(n), predicted_x);
     const double squared = bow.squaredNorm() + at(n).straight_m * at(n).straight_m;
@@ -34,7 +37,7 @@ void StageStabilizers::look(const Positions& predicted_x) {
 }
 
 void StageStabilizers::add_forces(const Positions& X, double stiffness_share, double damping_share, Positions& result) {
-  parallel_each(static_cast<Eigen::Index>(slot_.size()), [&](Eigen::Index row) {
+  parallel_each(static_cast<Eigen::Index>(entry_.size()), [&](Eigen::Index row) {
     const auto n = static_cast<std::size_t>(row);
     const Vec3 bow = bow_of(at(n), X);
     pull_n_[n] = -stiffness_share * at(n).stiffness_n_m * bow -
@@ -54,9 +57,14 @@ void StageStabilizers::add_blocks(VertexId i, double h_s, BlockMatrix& matrix) c
     for (std::size_t l = 0; l < 4; ++l) {
       const double product = at(n).weights[k] * at(n).weights[l];
       if (product == 0) continue;
-      SymmetricBlock& block = l == k ? matrix.diagonal(i) : matrix.off_diagonal(slot_[n][k][l]);
+      SymmetricBlock block = {};
       add_identity(h_s * h_s * at(n).stiffness_n_m * product, block);
       add_outer(h_s * at(n).damping_n_s_m * product, direction_[n].x(), direction_[n].y(), direction_[n].z(), block);
+      if (l == k) {
+        matrix.add_diagonal(i, block);
+      } else {
+        matrix.add_off_diagonal(entry_[n][k][l], block);
+      }
     }
   }
 }

@@ -19,7 +19,7 @@ class StageStabilizers {
   /// Adds the vertices that vertex i shares a stabiliser with to `neighbours`, which may hold them already.
   void list_neighbours(VertexId i, std::vector<VertexId>& neighbours) const;
   /// Finds their blocks. REQUIRES those neighbours in `matrix`.
-  void find_slots(const BlockMatrix& matrix);
+  void find_entries(const BlockMatrix& matrix);
 
   void look(const Positions& predicted_x);
   /// Adds minus (stiffness_share K + damping_share D) X.
@@ -33,7 +33,7 @@ class StageStabilizers {
   [[nodiscard]] const Stabilizer& at(std::size_t n) const { return system_.stabilizers()[n]; }
 
   const StabilizerSystem& system_;
-  std::vector<std::array<std::array<std::size_t, 4>, 4>> slot_;  ///< of each: the blocks between its points
+  std::vector<std::array<std::array<std::size_t, 4>, 4>> entry_;  ///< of each: the blocks between its points
   std::vector<Vec3> direction_;  ///< n of Stabilizer: shorter where the bow is nearly straight
   std::vector<Vec3> pull_n_;     ///< on the material point of positive weight
 };

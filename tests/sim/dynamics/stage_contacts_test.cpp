@@ -63,6 +63,17 @@ RandomPair pressed_pair() {
   return pair;
 }
 
+/// What the matrix makes of a step.
+Positions product_of(const StageContacts& stage, const Positions& step) {
+  LaneVectors in_lanes, product;
+  in_lanes.copy(step);
+  product.resize(step.rows());
+  stage.add_product(in_lanes, product);
+  Positions result(step.rows(), 3);
+  product.copy_to(result);
+  return result;
+}
+
 }  // namespace
 
 /// Forces are the slope of the potential, which is convex, and the matrix is the slope of the forces.
@@ -75,24 +86,21 @@ TEST(StageContacts, PropForcesAndMatrixAreThoseOfOneConvexPotential) {
       std::vector<double> change;
       one.stage.changes(step, 1, change);
       RC_ASSERT(change.size() == 1u);
-      Positions predicted = Positions::Zero(4, 3);
-      one.stage.add_product(step, predicted);
-      Positions diagonal = Positions::Zero(4, 3);
+      const Positions predicted = product_of(one.stage, step);
       for (Eigen::Index i = 0; i < 4; ++i) {
         SymmetricBlock block{};
         one.stage.add_diagonal(i, block);
         RC_ASSERT(block[0] >= 0 && block[3] >= 0 && block[5] >= 0);
-        Positions alone = Positions::Zero(4, 3), product = Positions::Zero(4, 3);
+        Positions alone = Positions::Zero(4, 3);
         alone.row(i) = step.row(i);
-        one.stage.add_product(alone, product);
+        const Positions product = product_of(one.stage, alone);
         const Eigen::RowVector3d by_block(block[0] * step(i, 0) + block[1] * step(i, 1) + block[2] * step(i, 2),
                                           block[1] * step(i, 0) + block[3] * step(i, 1) + block[4] * step(i, 2),
                                           block[2] * step(i, 0) + block[4] * step(i, 1) + block[5] * step(i, 2));
         RC_ASSERT((product.row(i) - by_block).norm() <= 1e-12 * (by_block.norm() + product.norm()));
       }
       const Positions after = one.forces(u + step);
-      Positions predicted_back = Positions::Zero(4, 3);
-      one.stage.add_product(step, predicted_back);
+      const Positions predicted_back = product_of(one.stage, step);
       // Convex: the change lies between what the slopes at both ends promise.
       const double from_start = -before.cwiseProduct(step).sum(), from_end = -after.cwiseProduct(step).sum();
       const double rounding = 1e-12 * (std::abs(from_start) + std::abs(from_end));
