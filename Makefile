@@ -97,7 +97,7 @@ docs:  ## the reference of the kernel's public API, in build/docs/html
 	@cmake/setup packages-docs.txt
 	cmake -DSOURCE=. -DOUTPUT=build/docs -P cmake/docs.cmake
 
-SAME_BITS_FLAGS := -O0 -O2 -O3 "-O2 -march=native"
+SAME_BITS_FLAGS := -O0 -O2 -O3 "-O2 -march=native" "-O2 -funsafe-math-optimizations"
 same-bits: setup  ## one hash of all answers for two compilers and their flags, every SIMD target and 1 to 8 threads
 	@cmake/setup packages-clang.txt
 	legs=$$(for c in g++ clang++-14; do for f in $(SAME_BITS_FLAGS); do printf '%s %s;' $$c "$$f"; done; done); \

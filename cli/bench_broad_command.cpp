@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/number_check.h"
 #include "cli/output_check.h"
+#include "cli/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {
@@ -60,7 +61,7 @@ ExitCode bench_broad(const BroadArguments& arguments) {
   require_separate_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
   const auto rivals = bench::load_rivals(bench::rivals_beside_program());
   for (const bench::LoadedRival& rival : rivals) {
-    if (!rival.create) fmt::print(stderr, "selvage: without {}: {}\n", rival.name, rival.absent);
+    if (!rival.create) say("selvage: without {}: {}\n", rival.name, rival.absent);
   }
   std::vector<bench::BroadMotionReport> reports;
   const auto run = [&](const std::string& name, const bench::MeshMotion& motion) {

@@ -18,6 +18,7 @@
 #include "cli/command.h"
 #include "cli/number_check.h"
 #include "cli/output_check.h"
+#include "cli/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {
@@ -65,10 +66,9 @@ std::string table(const bench::QueryBenchReport& report) {
 void print_contradicted(const std::vector<std::string>& places) {
   constexpr std::size_t kMost = 10;
   for (const std::string& place : std::span(places).first(std::min(kMost, places.size()))) {
-    fmt::print(stderr, "selvage: {}: the truth is contradicted by the exact checker; correct the seventh column\n",
-               place);
+    say("selvage: {}: the truth is contradicted by the exact checker; correct the seventh column\n", place);
   }
-  if (places.size() > kMost) fmt::print(stderr, "selvage: ... and {} more\n", places.size() - kMost);
+  if (places.size() > kMost) say("selvage: ... and {} more\n", places.size() - kMost);
 }
 
 ExitCode bench_queries(const BenchArguments& arguments) {

@@ -51,7 +51,7 @@ ExitCode bench_stability(const StabilityArguments& arguments) {
   };
   const auto finished = bench::run_stability(cases, options);
   if (!finished) {
-    fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+    say("selvage: interrupted; nothing was written\n");
     return ExitCode::kInterrupted;
   }
   const std::vector<bench::StabilityCaseReport>& reports = *finished;

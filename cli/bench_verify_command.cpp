@@ -8,6 +8,7 @@
 #include "bench/verify_bench.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
+#include "cli/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {
@@ -42,7 +43,7 @@ std::string table(const bench::VerifySheetReport& report) {
 ExitCode bench_verify(const VerifyBenchArguments& arguments) {
   require_separate_outputs({}, {arguments.json});
   const bench::LoadedFrameRival rival = bench::load_frame_rival(bench::rivals_beside_program());
-  if (!rival.create) fmt::print(stderr, "selvage: without CGAL: {}\n", rival.absent);
+  if (!rival.create) say("selvage: without CGAL: {}\n", rival.absent);
   const std::vector<bench::VerifySheetReport> reports = bench::run_verify_bench(rival, arguments.options);
   for (const bench::VerifySheetReport& report : reports) fmt::print("{}", table(report));
   fmt::print(

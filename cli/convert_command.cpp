@@ -178,7 +178,7 @@ ExitCode run(const ConvertArguments& arguments) {
   }
   std::optional<Conversion> conversion = write(*input, range, arguments);
   if (!conversion) {
-    fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+    say("selvage: interrupted; nothing was written\n");
     return ExitCode::kInterrupted;
   }
   print_conversion(*input, range, format, *conversion);

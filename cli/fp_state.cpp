@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/exit_code.h"
+#include "cli/terminal.h"
 #include "kernel/fp_env.h"
 
 namespace selvage::cli {
@@ -34,8 +35,8 @@ void require_sound_fp(unsigned as_found) {
         fmt::join(describe_fp_defects(remaining), ", ")));
   }
   if (as_found != 0) {
-    fmt::print(stderr, "selvage: started where {}: repaired (a library linked with -ffast-math does this)\n",
-               fmt::join(describe_fp_defects(as_found), ", "));
+    say("selvage: started where {}: repaired (a library linked with -ffast-math does this)\n",
+        fmt::join(describe_fp_defects(as_found), ", "));
   }
 }
 

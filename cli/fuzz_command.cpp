@@ -129,7 +129,7 @@ class StatusLine {
  public:
   explicit StatusLine(const fuzz::Driver& driver) : driver_(driver), enabled_(is_terminal(2)) {}
   ~StatusLine() {
-    if (enabled_) fmt::print(stderr, "\r\033[K");
+    if (enabled_) say("\r\033[K");
   }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
@@ -138,7 +138,7 @@ class StatusLine {
     if (!enabled_) return;
     constexpr const char* kCutOff = "\033[?7l";  // at the terminal's edge: a line that wrapped could not be overwritten
     constexpr const char* kWrap = "\033[?7h";
-    fmt::print(stderr, "\r\033[K{}{}{}", kCutOff, fuzz::status_line(driver_.ledger(), status), kWrap);
+    say("\r\033[K{}{}{}", kCutOff, fuzz::status_line(driver_.ledger(), status), kWrap);
   }
 
  private:

@@ -49,7 +49,7 @@ ExitCode render_sequence(const RenderArguments& arguments) {
     return !interrupted();
   });
   if (!sheet) {
-    fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+    say("selvage: interrupted; nothing was written\n");
     return ExitCode::kInterrupted;
   }
   io::write_png(arguments.picture, *sheet);

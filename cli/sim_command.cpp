@@ -48,8 +48,7 @@ const char* name_of_pair(PairKind kind) {
 }
 
 void print_witness(const sim::Simulation& simulation, const sim::CollisionStepReport& report) {
-  fmt::print(stderr, "stopped at {:.6f} s: no position of the cloth is safe between its scripted bodies",
-             simulation.clock().time_s());
+  say("stopped at {:.6f} s: no position of the cloth is safe between its scripted bodies", simulation.clock().time_s());
   if (report.witness) {
     const sim::World& world = simulation.world();
     const Collision& pair = *report.witness;
@@ -59,9 +58,9 @@ void print_witness(const sim::Simulation& simulation, const sim::CollisionStepRe
     for (const VertexId vertex : std::span(vertices).first(is_self ? 3 : 4)) {
       parts += fmt::format("{}{} ({})", parts.empty() ? "" : ", ", vertex, part_of_vertex(world, vertex));
     }
-    fmt::print(stderr, "; witness: {} at vertices {}", name_of_pair(pair.kind), parts);
+    say("; witness: {} at vertices {}", name_of_pair(pair.kind), parts);
   }
-  fmt::print(stderr, "\nmove the bodies apart, or set squeeze = \"yield\" to let them wait\n");
+  say("\nmove the bodies apart, or set squeeze = \"yield\" to let them wait\n");
 }
 
 void print_phases(const sim::RunTotals& totals) {
@@ -157,14 +156,14 @@ ExitCode simulate(const SimArguments& arguments) {
   // A run that goes on begins with the state of its checkpoint, which certified steps led to; or that is refused.
   const bool goes_on = arguments.resume && std::filesystem::exists(arguments.output / sim::kCheckpointFile);
   const sim::StartRepair repair = goes_on ? sim::StartRepair{} : require_clean_start(simulation, arguments.repair);
-  fmt::print(stderr, "{}", sim::describe(simulation.scene(), simulation.world()));
+  say("{}", sim::describe(simulation.scene(), simulation.world()));
   if (!goes_on) print_notes(notes_on_enclosed(simulation.world(), simulation.x()));
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
-  if (recorder.resumed()) fmt::print(stderr, "resumed    at {:.6f} s\n", simulation.clock().time_s());
+  if (recorder.resumed()) say("resumed    at {:.6f} s\n", simulation.clock().time_s());
   if (const std::int64_t there = simulation.clock().state().frame; there > scene.time.frame_count) {
-    fmt::print(stderr, "note       it was simulated to frame {} already; --frames {} takes nothing away\n", there,
-               scene.time.frame_count);
+    say("note       it was simulated to frame {} already; --frames {} takes nothing away\n", there,
+        scene.time.frame_count);
   }
   WaitingSummary waiting;
   sim::RunEnd end{};
@@ -178,11 +177,11 @@ ExitCode simulate(const SimArguments& arguments) {
     note_failure(recorder, std::current_exception());
     throw;
   }
-  if (end == sim::RunEnd::kInterrupted) fmt::print(stderr, "selvage: interrupted; go on with --resume\n");
+  if (end == sim::RunEnd::kInterrupted) say("selvage: interrupted; go on with --resume\n");
   print_totals(recorder.totals(), simulation.world());
   waiting.print(simulation.world());
   if (end == sim::RunEnd::kComplete && code == ExitCode::kViolation) {
-    fmt::print(stderr, "selvage: --strict: {}\n", recorder.totals().shortfalls());
+    say("selvage: --strict: {}\n", recorder.totals().shortfalls());
   }
   return code;
 }

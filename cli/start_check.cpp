@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/start_remedy.h"
+#include "cli/terminal.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "sim/base/points.h"
@@ -51,13 +52,13 @@ void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pair
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i) {
     const auto [f, g] = pairs[i];
     if (f == g) {
-      fmt::print(stderr, "  face {} of \"{}\" has no area\n", f, part_of_face(world, f));
+      say("  face {} of \"{}\" has no area\n", f, part_of_face(world, f));
     } else {
-      fmt::print(stderr, "  face {} of \"{}\" and face {} of \"{}\" intersect\n", f, part_of_face(world, f), g,
-                 part_of_face(world, g));
+      say("  face {} of \"{}\" and face {} of \"{}\" intersect\n", f, part_of_face(world, f), g,
+          part_of_face(world, g));
     }
   }
-  if (pairs.size() > kNamedPairs) fmt::print(stderr, "  and {} pairs more\n", pairs.size() - kNamedPairs);
+  if (pairs.size() > kNamedPairs) say("  and {} pairs more\n", pairs.size() - kNamedPairs);
 }
 
 /// Strain has no meaning there, whatever a repair does to the corners.
@@ -121,11 +122,10 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   sim::SimulationState state = simulation.state();
   state.x = std::move(repaired.x);
   simulation.restore(state);
-  fmt::print(stderr,
-             "repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged; "
-             "{} steps drew together what was stretched, largest strain {:.2g}\n",
-             pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
-             repaired.relax_steps, repaired.largest_strain);
+  say("repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged; "
+      "{} steps drew together what was stretched, largest strain {:.2g}\n",
+      pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
+      repaired.relax_steps, repaired.largest_strain);
   if (repaired.largest_strain > kTorn) {
     fmt::print(
         stderr,

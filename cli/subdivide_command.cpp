@@ -181,13 +181,13 @@ ExitCode run(const SubdivideArguments& arguments) {
     tbb::parallel_for(std::size_t{0}, fine.size(),
                       [&](std::size_t k) { fine[k] = subdivide(subdivision, coarse[k], groups); });
     if (interrupted()) {
-      fmt::print(stderr, "selvage: interrupted; nothing was written\n");
+      say("selvage: interrupted; nothing was written\n");
       return ExitCode::kInterrupted;
     }
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before.count + fine[k].after.count > 0) {
         const std::string name = io::printable(input->frame_name(frame + k));
-      fmt::print(stderr, "selvage: {}: {}\n", name, describe(fine[k], arguments.levels));
+        say("selvage: {}: {}\n", name, describe(fine[k], arguments.levels));
         return ExitCode::kViolation;
       }
       written.points = std::move(fine[k].points);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -22,12 +23,21 @@ constexpr const char* kClearLine = "\r\033[K";
 
 }  // namespace
 
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest number that is free is this one. Nothing can be written to what is open for reading.
+    if (fcntl(stream, F_GETFD) == -1) static_cast<void>(open("/dev/null", O_RDONLY));
+  }
+}
+
 bool is_terminal(int descriptor) { return isatty(descriptor) == 1 && environment("TERM") != "dumb"; }
 
 bool use_colour(int descriptor) { return is_terminal(descriptor) && environment("NO_COLOR").empty(); }
 
+void say_text(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "selvage: note: {}\n", io::printable(note));
+  for (const std::string& note : notes) say("selvage: note: {}\n", io::printable(note));
 }
 
 ProgressBar::ProgressBar(std::string label) : label_(std::move(label)), enabled_(is_terminal(STDERR_FILENO)) {}

@@ -4,14 +4,29 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace selvage::cli {
+
+/// Before any file is opened: one that got the number of a standard stream that is closed would be written to as if it
+/// were that stream. Writing to a closed one still fails.
+void reserve_standard_streams();
 
 /// Whether `descriptor` (1 stdout, 2 stderr) is a terminal that understands control sequences.
 [[nodiscard]] bool is_terminal(int descriptor);
 /// Whether to colour text on `descriptor`: a terminal, and NO_COLOR is unset or empty.
 [[nodiscard]] bool use_colour(int descriptor);
+
+/// Writes to stderr. Where that cannot be written to (closed, its disk full) nothing is said and nothing stops:
+/// verdicts and files go elsewhere.
+void say_text(const std::string& text);
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  say_text(fmt::format(format, std::forward<Values>(values)...));
+}
 
 /// On stderr, a line each, whatever names of files are in them: what a user should know and what is no error.
 void print_notes(const std::vector<std::string>& notes);

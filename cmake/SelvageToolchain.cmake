@@ -32,7 +32,11 @@ if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(selvage_warnings INTERFACE -Wno-subobject-linkage)
 endif()
 
-# Contraction to FMA changes bits between targets, and the error bounds assume every operation is rounded (K7).
-# The kernel alone passes the option on to its users: inline certified code compiles in their units.
+# Contraction to FMA changes bits between targets, and the error bounds assume that every operation is rounded, as it is written
+# and in its order (K7). These stand behind the flags of whoever builds it (CMAKE_CXX_FLAGS), and take back what breaks proofs and
+# has no macro in clang to refuse it by; kernel/types.h refuses the rest. The kernel alone passes them on to its users: inline
+# certified code compiles in their units.
+set(SELVAGE_FP_OPTIONS
+  -ffp-contract=off -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math -fsigned-zeros)
 add_library(selvage_fp_model INTERFACE)
-target_compile_options(selvage_fp_model INTERFACE -ffp-contract=off)
+target_compile_options(selvage_fp_model INTERFACE ${SELVAGE_FP_OPTIONS})

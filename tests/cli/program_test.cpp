@@ -1,6 +1,7 @@
 #include <csignal>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "tests/cli/run_program.h"
@@ -59,6 +60,23 @@ TEST(Program, RunsUnderValgrindUntilASecondOpinionNeedsDirectedRounding) {
   EXPECT_EQ(verify(""), 0) << said();
   EXPECT_EQ(verify("--second-opinion-all"), 7) << said();
   EXPECT_NE(said().find("directed rounding"), std::string::npos) << said();
+}
+
+TEST(Program, NotesThatCannotBeWrittenStopNothing) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "quad.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3 4\n");  // a note: it is split
+  const auto verify = [&](const std::string& stream) {
+    const std::string command = "cd " + folder.path().string() + " && rm -f report.json && " SELVAGE_PROGRAM
+                                " verify quad.obj --json report.json " + stream;
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  for (const char* stream : {"2> err.txt", "2>&-", "2> /dev/full", "0<&- 2>&-"}) {
+    EXPECT_EQ(verify(std::string("> out.txt ") + stream), 0) << stream;
+    EXPECT_TRUE(testing::slurp(folder.path() / "out.txt").starts_with("clean")) << stream;
+    EXPECT_TRUE(nlohmann::json::accept(testing::slurp(folder.path() / "report.json"))) << stream;
+  }
+  EXPECT_NE(testing::slurp(folder.path() / "err.txt").find("note"), std::string::npos);
+  EXPECT_EQ(verify(">&- 2> err.txt"), 4);
 }
 
 TEST(Program, AnEmptyArgumentIsUsage) {
