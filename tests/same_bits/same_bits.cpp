@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "kernel/fp_env.h"
 #include "tests/kernel/with_threads.h"
 #include "tests/same_bits/hash.h"
 #include "tests/vector_units.h"
@@ -42,6 +43,8 @@ std::uint64_t hash_of(const Add& add) {
 
 int main() {
   using namespace selvage::testing;
+  // For the questions: what g++ links to -funsafe-math-optimizations flushes subnormal numbers from the start.
+  const selvage::FpEnvGuard guard;
   const std::uint64_t queries = hash_of(add_query_answers);  // scalar code, run by the thread that asks
   Comparison meshes;
   std::string targets;
