@@ -104,6 +104,12 @@ void print_totals(const sim::RunTotals& totals, const sim::World& world) {
                totals.dynamics_solves, totals.newton_rounds, totals.cg_iterations, totals.largest_residual_m,
                totals.unconverged_solves);
   }
+  if (totals.unconverged_solves > 0) {
+    print_notes(
+        {fmt::format("{} of {} implicit solves did not converge: cloth ended up to {:.2g} m from where its forces "
+                     "put it; every step is safe, but try a lower max_step_s, or solver = \"explicit\"",
+                     totals.unconverged_solves, totals.dynamics_solves, totals.largest_residual_m)});
+  }
   print_phases(totals);
 }
 
@@ -116,10 +122,10 @@ sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSum
     const sim::StepResult step = simulation.step();
     if (step.report.status == sim::StepStatus::kInvalidInput) {
       const bool is_explicit = simulation.scene().solver == sim::Solver::kExplicit;
-      throw io::Error(io::ErrorKind::kBadInput,
-                      fmt::format("{}: at {:.6f} s {}; {}", simulation.scene().file.string(),
-                                  simulation.clock().time_s(), describe(step.report.input_error),
-                                  is_explicit ? "lower dynamics_step_s or raise damping_ratio" : "lower min_step_s"));
+      throw io::Error(
+          io::ErrorKind::kBadInput,
+          fmt::format("{}: at {:.6f} s {}; {}", simulation.scene().file.string(), simulation.clock().time_s(),
+                      describe(step.report.input_error), is_explicit ? "lower dynamics_step_s" : "lower min_step_s"));
     }
     if (step.report.status == sim::StepStatus::kStopped) {
       print_witness(simulation, step.report);

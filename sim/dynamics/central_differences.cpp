@@ -55,26 +55,28 @@ void CentralDifferences::implicit_half_kick(double h) {
 // rhs_ holds the elastic kick, which does not depend on the velocity; the march adds what does.
 void CentralDifferences::march(const VelocitySystem& system, double time_s) {
   double rate_1_s = 0, speed = 0;
+  Eigen::ArrayXd drag_1_s = Eigen::ArrayXd::Zero(rhs_.rows());
   for (Eigen::Index i = 0; i < rhs_.rows(); ++i) {
     const double w = system.inverse_mass[i];
     if (w == 0) continue;
     rate_1_s = std::max(rate_1_s, w * springs_.row_sum(static_cast<VertexId>(i)) / time_s);
     speed = std::max(speed, rhs_.row(i).norm());
+    drag_1_s[i] = options_.drag_1_s;
   }
-  rate_1_s += options_.drag_1_s + 2 * options_.quadratic_drag_1_m * speed;
+  rate_1_s += 2 * options_.quadratic_drag_1_m * speed;
   const auto acceleration = [&](const Positions& u, Positions& a) {
     v_.copy(u);
     springs_.multiply(x_, v_, impulses_);
     a.resize(u.rows(), 3);
     parallel_each(a.rows(), [&](Eigen::Index i) {
       const double w = system.inverse_mass[i];
-      const double drag_1_s = options_.drag_1_s + options_.quadratic_drag_1_m * u.row(i).norm();
-      a.row(i) = -(w / time_s) * impulses_.row(i) - (w > 0 ? drag_1_s : 0) * u.row(i);
+      const double quadratic_1_s = w > 0 ? options_.quadratic_drag_1_m * u.row(i).norm() : 0;
+      a.row(i) = -(w / time_s) * impulses_.row(i) - quadratic_1_s * u.row(i);
     });
   };
   Positions v(rhs_.rows(), 3);
   rhs_.copy_to(v);
-  march_velocity(acceleration, rate_1_s, time_s, 1, v);
+  march_velocity(acceleration, rate_1_s, drag_1_s, time_s, 1, v);
   v_.copy(v);
   springs_.multiply(x_, v_, impulses_);
 }

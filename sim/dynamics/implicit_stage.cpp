@@ -245,6 +245,13 @@ std::vector<double> ImplicitStage::resistance_kg(std::span<const double> inverse
   return result;
 }
 
+double ImplicitStage::residual_m(const StageEquations& equations, const Positions& x) {
+  if (stabilizers_) stabilizers_->look(equations.origin + equations.h_s * equations.v_t0);
+  Positions acceleration;
+  find_forces(equations, x, acceleration);
+  return residual_m(equations);
+}
+
 StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, Positions& acceleration,
                                  double enough_m) {
   SELVAGE_ASSERT(equations.h_s > 0 && x.rows() == matrix_.rows());

@@ -57,6 +57,8 @@ class ImplicitStage {
   /// without that of the vertices held, and with that of the contacts.
   StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration,
                     double enough_m = kResidual_m);
+  /// How far x is from where its forces put it, as StageReport's.
+  [[nodiscard]] double residual_m(const StageEquations& equations, const Positions& x);
   [[nodiscard]] const FieldForces& fields() const { return fields_; }
   /// #V: a bound of the matrix's diagonal at each vertex without contacts and drag, kg.
   [[nodiscard]] std::vector<double> resistance_kg(std::span<const double> inverse_mass, double h_s) const;

@@ -24,8 +24,10 @@ struct ForceChange {
   double change_m = 0;   ///< the largest change of a force
   double largest_m = 0;  ///< the largest force along the normal
 
-  /// Of the change in the largest of all.
-  [[nodiscard]] double share() const { return change_m > 0 ? change_m / std::max(change_m, largest_m) : 0; }
+  /// Of the change in the largest of all; none where it is less than positions are known to.
+  [[nodiscard]] double share(double known_m) const {
+    return change_m > known_m ? change_m / std::max(change_m, largest_m) : 0;
+  }
 };
 
 /// The conditions distance >= min(thickness, distance at the start), with Coulomb's friction, as terms of the stage's

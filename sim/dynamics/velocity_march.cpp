@@ -7,8 +7,8 @@
 
 namespace selvage::sim {
 
-std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double rate_upper_1_s, double time_s,
-                            std::int32_t refinement, Positions& v) {
+std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double rate_upper_1_s,
+                            const Eigen::ArrayXd& drag_1_s, double time_s, std::int32_t refinement, Positions& v) {
   SELVAGE_ASSERT(refinement >= 1);
   const double wanted = std::ceil(time_s * rate_upper_1_s / kMarchContraction) * refinement;
   // Written so that NaN and infinity end at the limit: the caller finds them in the velocity.
@@ -20,7 +20,7 @@ std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double r
     start = v;
     for (std::int32_t iteration = 0; iteration < kFixedPointIterations; ++iteration) {
       acceleration(v, change);
-      v = start + k * change;
+      v = (start + k * change).array().colwise() / (1 + k * drag_1_s);
     }
   }
   return steps;

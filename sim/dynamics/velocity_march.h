@@ -20,10 +20,11 @@ inline constexpr std::int32_t kFixedPointIterations = 8;
 /// More steps than this are not taken; the rate would ask for them only in a simulation that has blown up.
 inline constexpr std::int32_t kMarchStepLimit = 10'000;
 
-/// Advances v by M steps u(m+1) = u(m) + k a(u(m+1)), M k = time_s, each solved by fixed-point iteration from u(m).
+/// Advances v by M steps u(m+1) = u(m) + k (a(u(m+1)) - d u(m+1)), M k = time_s, each solved by fixed-point iteration
+/// from u(m), in which the drag d = `drag_1_s` >= 0 of each row is divided by: none is too strong for it.
 /// `rate_upper_1_s` bounds |lambda_max(da/dv)| on the way; M = ceil(time_s rate_upper_1_s / kMarchContraction), at
 /// least 1, and `refinement` times as many. First order in time_s / M. Returns M.
-std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double rate_upper_1_s, double time_s,
-                            std::int32_t refinement, Positions& v);
+std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double rate_upper_1_s,
+                            const Eigen::ArrayXd& drag_1_s, double time_s, std::int32_t refinement, Positions& v);
 
 }  // namespace selvage::sim

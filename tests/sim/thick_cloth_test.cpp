@@ -58,6 +58,21 @@ TEST(ThickCloth, KeepsItsShapeWhereNothingActsOnIt) {
   }
 }
 
+/// Its pairs at rest are at their limit: whatever a solver leaves presses them, with friction.
+TEST(ThickCloth, KeepsItsVelocityWhereNothingActsOnIt) {
+  for (const std::string solver : {"explicit", "implicit"}) {
+    Simulation simulation = make("solver = \"" + solver + "\"\n", 0.1, 0.1,
+                                 "[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.25, height_m = 0.25}\n"
+                                 "density_kg_m2 = 0.2\nstretch_n_m = 1e5\nrotation_deg = [20, 30, 40]\n"
+                                 "velocity_m_s = [1, 2, 3]\n");
+    while (simulation.clock().time_s() < 0.1 - 1e-9) {
+      EXPECT_EQ(simulation.step().dynamics.unconverged, 0) << solver;
+    }
+    const Eigen::RowVector3d mean_m_s = simulation.state().v.colwise().mean(), thrown_m_s(1, 2, 3);
+    EXPECT_LT((mean_m_s - thrown_m_s).norm(), 1e-9) << solver;
+  }
+}
+
 TEST(ThickCloth, HasThePairsOfEveryClothInTheNumbersOfTheWorld) {
   const std::string time = "[time]\nframes = 1\n[collision]\n";
   const std::string parts = sheet("copies = 3\ncopy_offset_m = [0.5, 0, 0]\n") +

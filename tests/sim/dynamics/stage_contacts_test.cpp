@@ -150,7 +150,7 @@ TEST(StageContacts, MultipliersFindWhatHoldsAVertex) {
         const Vec3 force = one.forces(u.transpose()).row(0);
         u += (force - mass * (u - push)) / (4 * mass);
       }
-      left = one.stage.update().share();
+      left = one.stage.update().share(0);
     }
     EXPECT_NEAR(u.z(), -(0.3 - kStageThickness), 1e-9) << friction;
     EXPECT_NEAR(u.x(), std::max(0.0, 0.1 - friction * 0.35), 1e-9) << friction;

@@ -185,6 +185,8 @@ TEST(Velocity, SameBitsForAnyThreadCountAndVectorUnit) {
   testing::on_every_vector_unit(compare);
 }
 
+const Eigen::ArrayXd kNoDrag = Eigen::ArrayXd::Zero(1);
+
 TEST(VelocityMarch, LinearDampingDecaysExponentiallyAtFirstOrder) {
   // a = -c v: exactly exp(-c t) v. Ten times the steps, a tenth of the error.
   const double c = 3, time_s = 0.7;
@@ -192,7 +194,8 @@ TEST(VelocityMarch, LinearDampingDecaysExponentiallyAtFirstOrder) {
   int n = 0;
   for (const std::int32_t refinement : {10, 100}) {
     Positions v = Positions::Ones(1, 3);
-    const auto steps = march_velocity([&](const Positions& u, Positions& a) { a = -c * u; }, c, time_s, refinement, v);
+    const auto steps =
+        march_velocity([&](const Positions& u, Positions& a) { a = -c * u; }, c, kNoDrag, time_s, refinement, v);
     EXPECT_EQ(steps, 5 * refinement) << "steps of at most kMarchContraction / c";
     error[n++] = std::abs(v(0, 0) - std::exp(-c * time_s));
   }
@@ -205,9 +208,22 @@ TEST(VelocityMarch, QuadraticDragFollowsItsClosedForm) {
   const double c = 2, speed = 3, time_s = 0.5;
   Positions v(1, 3);
   v << speed, 0, 0;
-  march_velocity([&](const Positions& u, Positions& a) { a = (-c * u.row(0).norm()) * u; }, 2 * c * speed, time_s, 200,
-                 v);
+  march_velocity([&](const Positions& u, Positions& a) { a = (-c * u.row(0).norm()) * u; }, 2 * c * speed, kNoDrag,
+                 time_s, 200, v);
   EXPECT_NEAR(v(0, 0), speed / (1 + c * speed * time_s), 1e-3);
+}
+
+TEST(VelocityMarch, NoLinearDragIsTooStrong) {
+  // In one step beside no other force, v / (1 + d t); and what has no drag keeps its velocity, to the bit.
+  for (const double drag_1_s : {1.0, 1e6, 1e12}) {
+    Positions v(2, 3);
+    v << 3, 0, 0, 0.1, 0.2, 0.3;
+    const auto steps = march_velocity([](const Positions& u, Positions& a) { a = Positions::Zero(u.rows(), 3); }, 0,
+                                      Eigen::ArrayXd{{drag_1_s, 0}}, 0.1, 1, v);
+    EXPECT_EQ(steps, 1);
+    EXPECT_NEAR(v(0, 0) * (1 + 0.1 * drag_1_s), 3, 1e-14);
+    EXPECT_EQ(v.row(1), Eigen::RowVector3d(0.1, 0.2, 0.3));
+  }
 }
 
 // Section 7.6 has two ways; they must agree where both apply, the more the shorter the step.
