@@ -154,7 +154,7 @@ TEST(ConjugateGradients, SameBitsForAnyThreadsAndVectorUnits) {
   const System system = random_system(70, 60);
   ASSERT_GT(system.A.rows(), 3 * kParallelBlock);
   const Positions expected = solve(system, 1e-6);
-  for (const std::size_t threads : {1, 2, 8}) {
+  for (const std::size_t threads : {1U, 2U, 8U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     testing::on_every_vector_unit([&](const char* unit) {
       EXPECT_EQ((solve(system, 1e-6).array() != expected.array()).count(), 0) << threads << " threads, " << unit;
