@@ -84,23 +84,6 @@ bool ImplicitDynamics::brakes(const Positions& v, std::span<const double> invers
   return h * (fields.drag_1_s + quadratic_drag_1_s(fields.quadratic_drag_1_m, v, inverse_mass)) > kMostBraked;
 }
 
-/// Where vertices come to without springs and contacts; held ones with their velocity.
-Positions ImplicitDynamics::free_flight(const Positions& x, const Positions& v, std::span<const double> inverse_mass,
-                                        double h) const {
-  const FieldForces& fields = stage_.fields();
-  Positions result = x;
-  parallel_each(x.rows(), [&](Eigen::Index i) {
-    const bool is_held = inverse_mass[static_cast<std::size_t>(i)] == 0;
-    if (is_held) {
-      result.row(i) += h * v.row(i);
-    } else {
-      const double drag_1_s = fields.drag_1_s + fields.quadratic_drag_1_m * v.row(i).norm();
-      result.row(i) += h / (1 + h * drag_1_s) * (v.row(i) + h * fields.gravity_m_s2.transpose());
-    }
-  });
-  return result;
-}
-
 // Held vertices have no acceleration, so both stages move them with their velocity.
 void ImplicitDynamics::step(Motion& motion, std::span<const double> inverse_mass, double h, DynamicsReport& report) {
   const double stage_s = brakes(motion.v, inverse_mass, h) ? h : kStageShare * h, rest_s = h - stage_s;
@@ -134,14 +117,7 @@ void ImplicitDynamics::step_in_contact(Motion& motion, std::span<const double> i
     if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) += h * motion.v.row(i);
   }
   StageContacts terms(contacts, x_t0, inverse_mass, stage_.resistance_kg(inverse_mass, h), span);
-  // Newton begins where it is, or, where less is missing there, where cloth that meets nothing would be: from where it
-  // is the first solutions, which are rough, distort what flies, and pairs that are at their limit at rest are pressed
-  // by that, with friction (ThickCloth.KeepsItsVelocityWhereNothingActsOnIt).
-  const Positions in_flight = free_flight(x_t0, v_t0, inverse_mass, h);
-  if (stage_.residual_m({x_t0, v_t0, inverse_mass, h, &terms}, in_flight) <
-      stage_.residual_m({x_t0, v_t0, inverse_mass, h, &terms}, motion.x)) {
-    motion.x = in_flight;
-  }
+  stage_.fly_free({x_t0, v_t0, inverse_mass, h, &terms}, motion.x);
   StageReport all;
   double enough_m = kFirstResidual_m;
   for (int round = 1, last = kForceRounds;; ++round) {

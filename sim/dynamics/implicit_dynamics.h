@@ -47,8 +47,6 @@ class ImplicitDynamics : public Dynamics {
 
  private:
   [[nodiscard]] bool brakes(const Positions& v, std::span<const double> inverse_mass, double h) const;
-  [[nodiscard]] Positions free_flight(const Positions& x, const Positions& v, std::span<const double> inverse_mass,
-                                      double h) const;
   void step(Motion& motion, std::span<const double> inverse_mass, double h, DynamicsReport& report);
   void step_in_contact(Motion& motion, std::span<const double> inverse_mass, const StageSpan& span,
                        HeldContacts& contacts, DynamicsReport& report);

@@ -245,11 +245,20 @@ std::vector<double> ImplicitStage::resistance_kg(std::span<const double> inverse
   return result;
 }
 
-double ImplicitStage::residual_m(const StageEquations& equations, const Positions& x) {
-  if (stabilizers_) stabilizers_->look(equations.origin + equations.h_s * equations.v_t0);
-  Positions acceleration;
+void ImplicitStage::fly_free(const StageEquations& equations, Positions& x) {
+  const double h = equations.h_s;
+  Positions in_flight = x, acceleration;
+  parallel_each(x.rows(), [&](Eigen::Index i) {
+    if (equations.inverse_mass[static_cast<std::size_t>(i)] == 0) return;
+    const Eigen::RowVector3d v = equations.v_t0.row(i), kicked = v + h * fields_.gravity_m_s2.transpose();
+    const double drag_1_s = fields_.drag_1_s + fields_.quadratic_drag_1_m * v.norm();
+    in_flight.row(i) = equations.origin.row(i) + h / (1 + h * drag_1_s) * kicked;
+  });
+  if (stabilizers_) stabilizers_->look(equations.origin + h * equations.v_t0);
   find_forces(equations, x, acceleration);
-  return residual_m(equations);
+  const double missing_m = residual_m(equations);
+  find_forces(equations, in_flight, acceleration);
+  if (residual_m(equations) < missing_m) x = in_flight;
 }
 
 StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, Positions& acceleration,

@@ -57,8 +57,11 @@ class ImplicitStage {
   /// without that of the vertices held, and with that of the contacts.
   StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration,
                     double enough_m = kResidual_m);
-  /// How far x is from where its forces put it, as StageReport's.
-  [[nodiscard]] double residual_m(const StageEquations& equations, const Positions& x);
+  /// Takes x, as solve() does, to where cloth that meets nothing comes to, if less is missing there. From rest the
+  /// first solutions of a stage, which are rough, distort what flies; pairs that are at their limit at rest are pressed
+  /// by that, with friction, and thick cloth lost a tenth of its velocity to it. From free flight always, stiff cloth
+  /// that meets something takes longer (docs/numerics.md).
+  void fly_free(const StageEquations& equations, Positions& x);
   [[nodiscard]] const FieldForces& fields() const { return fields_; }
   /// #V: a bound of the matrix's diagonal at each vertex without contacts and drag, kg.
   [[nodiscard]] std::vector<double> resistance_kg(std::span<const double> inverse_mass, double h_s) const;

@@ -13,6 +13,15 @@ using testing::run_program;
 using testing::spit;
 using testing::TemporaryFolder;
 
+namespace {
+
+/// The exit code of what a shell makes of a command in a folder: for streams that run_program() cannot give.
+int shell(const TemporaryFolder& folder, const std::string& command) {
+  return WEXITSTATUS(std::system(("cd " + folder.path().string() + " && " + command).c_str()));
+}
+
+}  // namespace
+
 TEST(Program, HelpStartsWithAnExample) {
   const auto result = run_program({"--help"});
   EXPECT_EQ(result.exit_code, 0);
@@ -51,10 +60,8 @@ TEST(Program, RunsUnderValgrindUntilASecondOpinionNeedsDirectedRounding) {
   spit(folder.path() / "0.obj", face + "v 3 3 -1\nv 4 4 1\nv 4 3 1\nf 1 2 3\nf 4 5 6\n");
   spit(folder.path() / "1.obj", face + "v 3 3 1\nv 4 4 2\nv 4 3 2\nf 1 2 3\nf 4 5 6\n");
   const auto verify = [&](const std::string& options) {
-    const std::string command = "cd " + folder.path().string() +
-                                " && valgrind -q " SELVAGE_PROGRAM " verify 0.obj 1.obj --motion --threads 1 " +
-                                options + " > out.txt 2>&1";
-    return WEXITSTATUS(std::system(command.c_str()));
+    return shell(folder, "valgrind -q " SELVAGE_PROGRAM " verify 0.obj 1.obj --motion --threads 1 " + options +
+                             " > out.txt 2>&1");
   };
   const auto said = [&] { return testing::slurp(folder.path() / "out.txt"); };
   EXPECT_EQ(verify(""), 0) << said();
@@ -65,10 +72,8 @@ TEST(Program, RunsUnderValgrindUntilASecondOpinionNeedsDirectedRounding) {
 TEST(Program, NotesThatCannotBeWrittenStopNothing) {
   const TemporaryFolder folder;
   spit(folder.path() / "quad.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3 4\n");  // a note: it is split
-  const auto verify = [&](const std::string& stream) {
-    const std::string command = "cd " + folder.path().string() + " && rm -f report.json && " SELVAGE_PROGRAM
-                                " verify quad.obj --json report.json " + stream;
-    return WEXITSTATUS(std::system(command.c_str()));
+  const auto verify = [&](const std::string& streams) {
+    return shell(folder, "rm -f report.json && " SELVAGE_PROGRAM " verify quad.obj --json report.json " + streams);
   };
   for (const char* stream : {"2> err.txt", "2>&-", "2> /dev/full", "0<&- 2>&-"}) {
     EXPECT_EQ(verify(std::string("> out.txt ") + stream), 0) << stream;
