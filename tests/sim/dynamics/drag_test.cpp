@@ -22,8 +22,9 @@ constexpr VertexId kVertices = 36;
 struct Flight {
   double drag_1_s, quadratic_drag_1_m, v_t0;
   [[nodiscard]] double way_m(double time_s) const {
-    return quadratic_drag_1_m > 0 ? std::log1p(quadratic_drag_1_m * v_t0 * time_s) / quadratic_drag_1_m
-                                  : v_t0 * -std::expm1(-drag_1_s * time_s) / drag_1_s;
+    // With linear drag alone, which the other one slows down further.
+    const double linear_m = drag_1_s > 0 ? v_t0 * -std::expm1(-drag_1_s * time_s) / drag_1_s : v_t0 * time_s;
+    return quadratic_drag_1_m > 0 ? std::log1p(quadratic_drag_1_m * linear_m) / quadratic_drag_1_m : linear_m;
   }
 };
 
@@ -55,7 +56,8 @@ Flown fly(const std::string& solver, const Flight& flight) {
 TEST(Drag, StopsAMotionAndNeverTurnsItRound) {
   for (const std::string solver : {"explicit", "implicit"}) {
     for (const Flight& flight : {Flight{1000, 0, 1}, Flight{1e5, 0, 1}, Flight{100, 0, 1}, Flight{0, 15, 20},
-                                 Flight{0, 15, 300}, Flight{0, 50, 100}, Flight{0, 1000, 10}, Flight{0, 1000, 1000}}) {
+                                 Flight{0, 15, 300}, Flight{0, 50, 100}, Flight{0, 1000, 10}, Flight{0, 1000, 1000},
+                                 Flight{1e6, 0.01, 1}, Flight{1e6, 1000, 1000}}) {
       const Flown flown = fly(solver, flight);
       double before_m = 0;
       for (const double way_m : flown.way_m) {
@@ -74,7 +76,8 @@ TEST(Drag, TakesCloseToItsClosedForm) {
       const double way_m = flight.way_m(4.0 / 30);
       EXPECT_NEAR(fly(solver, flight).way_m.back(), way_m, 0.01 * way_m) << solver << ", " << flight.drag_1_s;
     }
-    for (const Flight& flight : {Flight{0, 1, 3}, Flight{0, 15, 20}, Flight{0, 7, 50}, Flight{0, 15, 300}}) {
+    for (const Flight& flight : {Flight{0, 1, 3}, Flight{0, 15, 20}, Flight{0, 7, 50}, Flight{0, 15, 300},
+                                 Flight{10, 1, 3}, Flight{1000, 7, 50}, Flight{1e6, 0.01, 1}}) {
       const double way_m = flight.way_m(4.0 / 30);
       EXPECT_NEAR(fly(solver, flight).way_m.back(), way_m, 0.1 * way_m) << solver << ", " << flight.quadratic_drag_1_m;
     }
