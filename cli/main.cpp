@@ -17,7 +17,6 @@
 #include "cli/replay_command.h"
 #include "cli/sim_command.h"
 #include "cli/subdivide_command.h"
-#include "cli/terminal.h"
 #include "cli/verify_command.h"
 #include "cli/version.h"
 #include "cli/view_command.h"
@@ -25,7 +24,6 @@
 
 int main(int argc, char** argv) {
   using namespace selvage::cli;
-  reserve_standard_streams();
   // Before anything is computed: a library linked with -ffast-math has changed the environment before main.
   const unsigned fp_as_found = selvage::fp_env_defects();
   const selvage::FpEnvGuard fp_guard;

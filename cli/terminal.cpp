@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -22,13 +21,6 @@ std::string_view environment(const char* name) {
 constexpr const char* kClearLine = "\r\033[K";
 
 }  // namespace
-
-void reserve_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest number that is free is this one. Nothing can be written to what is open for reading.
-    if (fcntl(stream, F_GETFD) == -1) static_cast<void>(open("/dev/null", O_RDONLY));
-  }
-}
 
 bool is_terminal(int descriptor) { return isatty(descriptor) == 1 && environment("TERM") != "dumb"; }
 

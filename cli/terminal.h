@@ -11,10 +11,6 @@
 
 namespace selvage::cli {
 
-/// Before any file is opened: one that got the number of a standard stream that is closed would be written to as if it
-/// were that stream. Writing to a closed one still fails.
-void reserve_standard_streams();
-
 /// Whether `descriptor` (1 stdout, 2 stderr) is a terminal that understands control sequences.
 [[nodiscard]] bool is_terminal(int descriptor);
 /// Whether to colour text on `descriptor`: a terminal, and NO_COLOR is unset or empty.
