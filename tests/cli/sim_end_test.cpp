@@ -40,6 +40,24 @@ TEST_F(SimCommand, ABodyThatWaitedIsNamedWithTimesAndLag) {
   EXPECT_NEAR(lag_m, 0.01, 2e-3);
 }
 
+TEST_F(SimCommand, SolvesThatDoNotConvergeAreNotedAndStrictCountsThem) {
+  const auto over_a_ball = [](const std::string& velocity_m_s) {
+    return "solver = \"implicit\"\n[time]\nframes_per_s = 5\nframes = 1\nmax_step_s = 0.2\nmin_step_s = 0.2\n[[cloth]]\n"
+           "sheet = {nx = 4, ny = 4, width_m = 0.4, height_m = 0.4}\ndensity_kg_m2 = 0.2\nshear_n_m = 1e3\n"
+           "stretch_n_m = 1e9\nposition_m = [0.02, 0.03, 0.28]\nvelocity_m_s = " +
+           velocity_m_s + "\n[[body]]\nsphere = {radius_m = 0.25, subdivisions = 2}\n";
+  };
+  const auto solved = sim(over_a_ball("[0, 0, 0]"), {"--strict"});
+  EXPECT_EQ(solved.exit_code, 0) << solved.err;
+  EXPECT_EQ(solved.err.find("did not converge"), std::string::npos) << solved.err;
+  std::filesystem::remove_all(path("out"));
+  const auto unsolved = sim(over_a_ball("[5, 0, -10]"));
+  EXPECT_EQ(unsolved.exit_code, 0) << unsolved.err;
+  EXPECT_NE(unsolved.err.find("note: 1 of 1 implicit solves did not converge"), std::string::npos) << unsolved.err;
+  std::filesystem::remove_all(path("out"));
+  EXPECT_EQ(sim(over_a_ball("[5, 0, -10]"), {"--strict"}).exit_code, 1);
+}
+
 TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   // The ball rises until it overlaps the lid by 4 cm, with the sheet between them.
   const auto stopped = sim(scene(6, 0.2, 0.34));
