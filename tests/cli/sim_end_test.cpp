@@ -42,8 +42,8 @@ TEST_F(SimCommand, ABodyThatWaitedIsNamedWithTimesAndLag) {
 
 TEST_F(SimCommand, SolvesThatDoNotConvergeAreNotedAndStrictCountsThem) {
   const auto over_a_ball = [](const std::string& velocity_m_s) {
-    return "solver = \"implicit\"\n[time]\nframes_per_s = 5\nframes = 1\nmax_step_s = 0.2\nmin_step_s = 0.2\n[[cloth]]\n"
-           "sheet = {nx = 4, ny = 4, width_m = 0.4, height_m = 0.4}\ndensity_kg_m2 = 0.2\nshear_n_m = 1e3\n"
+    return "solver = \"implicit\"\n[time]\nframes_per_s = 5\nframes = 1\nmax_step_s = 0.2\nmin_step_s = 0.2\n"
+           "[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.4, height_m = 0.4}\ndensity_kg_m2 = 0.2\nshear_n_m = 1e3\n"
            "stretch_n_m = 1e9\nposition_m = [0.02, 0.03, 0.28]\nvelocity_m_s = " +
            velocity_m_s + "\n[[body]]\nsphere = {radius_m = 0.25, subdivisions = 2}\n";
   };
