@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 get_property(rooms GLOBAL PROPERTY SELVAGE_ROOMS)
 list(REMOVE_ITEM rooms selvage_fuzz selvage_bench)  # used through the program
-install(TARGETS ${rooms} EXPORT SelvageTargets FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/selvage")
+install(TARGETS ${rooms} EXPORT SelvageTargets FILE_SET HEADERS)
 install(FILES "${PROJECT_SOURCE_DIR}/fuzz/selvage-plugin.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/selvage/fuzz")  # C
 install(EXPORT SelvageTargets NAMESPACE selvage:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Selvage")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/SelvageConfig.cmake.in" "${PROJECT_BINARY_DIR}/SelvageConfig.cmake"

@@ -4,6 +4,21 @@ function(compile_alone target)
   set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# public_headers(TARGET NAME HEADERS...): the headers of the room NAME as public_headers.cmake writes them for users, installed or not.
+function(public_headers target name)
+  set(public "${PROJECT_BINARY_DIR}/public_headers")
+  list(TRANSFORM ARGN PREPEND "${name}/")
+  list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/" OUTPUT_VARIABLE originals)
+  list(TRANSFORM ARGN PREPEND "${public}/selvage/" OUTPUT_VARIABLE written)
+  set(script "${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake")
+  set(stamp "${CMAKE_CURRENT_BINARY_DIR}/public_headers.stamp")
+  add_custom_command(OUTPUT "${stamp}" BYPRODUCTS ${written}
+    COMMAND ${CMAKE_COMMAND} "-DFROM=${PROJECT_SOURCE_DIR}" "-DTO=${public}" "-DHEADERS=${ARGN}" -P "${script}"
+    COMMAND ${CMAKE_COMMAND} -E touch "${stamp}"
+    DEPENDS ${originals} "${script}" VERBATIM)
+  target_sources(${target} PRIVATE "${stamp}" PUBLIC FILE_SET HEADERS BASE_DIRS "${public}" FILES ${written})
+endfunction()
+
 # selvage_room(NAME SOURCES ... [LANES ...] HEADERS ... PUBLIC ... PRIVATE ...)
 #   Makes the static library selvage_NAME with the alias selvage::NAME from the folder that calls it.
 #   LANES are sources that include themselves, once for each vector unit (Highway).
@@ -16,13 +31,7 @@ function(selvage_room name)
   compile_alone(${target} ${ROOM_LANES})
   add_library(selvage::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${ROOM_HEADERS})
-  file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include/selvage")
-  file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}/include/selvage/${name}" SYMBOLIC)
-  target_include_directories(${target} INTERFACE
-    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>          # <selvage/kernel/ccd.h>, as users write it
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/selvage>)  # "kernel/ccd.h", as the headers include each other
+  public_headers(${target} ${name} ${ROOM_HEADERS})
   target_compile_features(${target} INTERFACE cxx_std_20)
   target_link_libraries(${target}
     PUBLIC ${ROOM_PUBLIC}

@@ -1,0 +1,4 @@
+#pragma once
+
+// Called as one of Selvage's headers is.
+inline constexpr bool parents_own = true;
