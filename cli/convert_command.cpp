@@ -15,6 +15,7 @@
 #include "cli/frame_range.h"
 #include "cli/group_names.h"
 #include "cli/interrupt.h"
+#include "cli/output_check.h"
 #include "cli/read_back.h"
 #include "cli/sequence_argument.h"
 #include "cli/shell_word.h"
@@ -161,6 +162,7 @@ ExitCode recheck(const io::SequenceReader& input, Conversion conversion, const C
 
 ExitCode run(const ConvertArguments& arguments) {
   catch_interrupts();
+  require_no_dash(arguments.output);
   const auto input = open_sequence(arguments.sequence);
   if (input->frame_count() == 0) {
     throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame: there is nothing to convert");

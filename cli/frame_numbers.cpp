@@ -10,27 +10,34 @@ namespace selvage::cli {
 namespace {
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
+bool is_divider(char c) { return c == '.' || c == '_' || c == '-' || c == ' '; }
 
-/// A name whose numbers are taken out of the part before the extension.
+/// A name whose numbers are taken out of the part before the extension. Folder and extension say nothing of frames.
 struct NumberedName {
-  std::string text;  ///< with the folder, and a digit in place of each number
+  std::string text;  ///< a digit in place of each number
   std::vector<std::int64_t> numbers;
 };
 
-std::optional<NumberedName> numbered(const std::filesystem::path& file) {
+NumberedName numbered(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
-  NumberedName result{(file.parent_path() / "").string(), {}};
+  NumberedName result;
   for (const char *at = stem.data(), *const end = at + stem.size(); at != end;) {
-    if (!is_digit(*at)) {
+    // What stands behind a letter or a number divides, as in shot-12; else it is the sign of a frame before the first.
+    const bool is_sign = *at == '-' && at + 1 != end && is_digit(at[1]) && (at == stem.data() || is_divider(at[-1]));
+    if (!is_sign && !is_digit(*at)) {
       result.text += *at++;
       continue;
     }
-    const auto [behind, error] = std::from_chars(at, end, result.numbers.emplace_back());
-    if (error != std::errc()) return std::nullopt;
-    result.text += '0';
+    std::int64_t number = 0;
+    const auto [behind, error] = std::from_chars(at, end, number);
+    if (error == std::errc()) {
+      result.numbers.push_back(number);
+      result.text += '0';
+    } else {
+      result.text.append(at, behind);  // longer than any frame's
+    }
     at = behind;
   }
-  result.text += file.extension().string();
   return result;
 }
 
@@ -53,10 +60,8 @@ std::optional<std::size_t> frame_number(const std::vector<NumberedName>& names) 
 std::optional<std::string> jump_in_numbers(const std::vector<std::filesystem::path>& files) {
   std::vector<NumberedName> names;
   for (const auto& file : files) {
-    const auto name = numbered(file);
-    if (!name) return std::nullopt;
-    names.push_back(*name);
-    if (name->text != names.front().text) return std::nullopt;
+    names.push_back(numbered(file));
+    if (names.back().text != names.front().text) return std::nullopt;
   }
   const std::optional<std::size_t> number = names.empty() ? std::nullopt : frame_number(names);
   if (!number) return std::nullopt;
@@ -67,8 +72,9 @@ std::optional<std::string> jump_in_numbers(const std::vector<std::filesystem::pa
   }
   for (std::size_t i = 1; i < names.size(); ++i) {
     if (difference(i) == step && step > 0) continue;
-    return fmt::format("{} comes right after {}; what is missing between is not checked", files[i].string(),
-                       files[i - 1].string());
+    return fmt::format("{} comes right after {}; {}", files[i].string(), files[i - 1].string(),
+                       difference(i) > 0 ? "what is missing between is not checked"
+                                         : "files are checked in the order in which they are named");
   }
   return std::nullopt;
 }

@@ -89,7 +89,8 @@ ExitCode run(const MergeArguments& arguments) {
   }
   print_notes(merged.context.notes);
   constexpr std::size_t kMostListed = 10;  // as selvage verify does on a terminal
-  print_report(verify::text_report(merged.report, merged.context, kMostListed), merged.report.verdict);
+  print_report(verify::text_report(merged.report, merged.context, kMostListed), merged.report.verdict,
+               {arguments.output, arguments.html});
   return exit_code(merged.report);
 }
 

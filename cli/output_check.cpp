@@ -6,6 +6,9 @@
 #include <span>
 #include <system_error>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "cli/exit_code.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
@@ -24,11 +27,6 @@ bool is_named(const fs::path& file, std::span<const char* const> extensions) {
   return std::ranges::any_of(extensions, [&](const char* extension) { return io::has_extension(file, extension); });
 }
 
-void require_no_dash(const fs::path& output) {
-  if (output != "-") return;
-  throw UsageError("-: results are not written to standard output; name a file, /dev/stdout, or ./- for that name");
-}
-
 /// A slip of the hand: reports are named .json, .html or .png, and replace what they were before. Nothing else may go,
 /// under whatever link.
 void require_replaceable(const fs::path& output) {
@@ -41,6 +39,17 @@ void require_replaceable(const fs::path& output) {
 }
 
 }  // namespace
+
+void require_no_dash(const fs::path& output) {
+  if (output != "-") return;
+  throw UsageError("-: results are not written to standard output; name a file, /dev/stdout, or ./- for that name");
+}
+
+bool is_standard_output(const fs::path& file) {
+  struct stat named {}, out {};
+  return !file.empty() && ::stat(file.c_str(), &named) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 &&
+         !S_ISCHR(out.st_mode) && named.st_dev == out.st_dev && named.st_ino == out.st_ino;
+}
 
 bool is_one_file(const fs::path& a, const fs::path& b) {
   std::error_code absent;

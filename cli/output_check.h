@@ -17,6 +17,13 @@ namespace selvage::cli {
 void require_separate_outputs(const std::vector<std::filesystem::path>& inputs,
                               const std::vector<std::filesystem::path>& outputs);
 
+/// Throws UsageError where `output` is "-".
+void require_no_dash(const std::filesystem::path& output);
+
+/// Whether `file` is what stdout goes to, a file or a pipe: /dev/stdout, or the name that the shell was given. What is
+/// written to a terminal or to /dev/null is read by no program.
+[[nodiscard]] bool is_standard_output(const std::filesystem::path& file);
+
 /// Throws UsageError where `output` is the name of what is no folder: "-", or a file of a sequence; io::Error where a
 /// name is longer than any file's.
 void require_folder_name(const std::filesystem::path& output);

@@ -1,9 +1,13 @@
 #include "cli/verdict.h"
 
+#include <algorithm>
+#include <cstdio>
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "cli/interrupt.h"
+#include "cli/output_check.h"
 #include "cli/terminal.h"
 
 namespace selvage::cli {
@@ -22,14 +26,17 @@ ExitCode exit_code(const verify::SequenceReport& report) {
   return ExitCode::kInternal;
 }
 
-void print_report(const std::string& text, verify::Verdict verdict) {
-  if (!use_colour(STDOUT_FILENO)) {
-    fmt::print("{}", text);
+void print_report(const std::string& text, verify::Verdict verdict,
+                  const std::vector<std::filesystem::path>& reports) {
+  const bool is_taken = std::ranges::any_of(reports, is_standard_output);
+  std::FILE* to = is_taken ? stderr : stdout;
+  if (!use_colour(is_taken ? STDERR_FILENO : STDOUT_FILENO)) {
+    fmt::print(to, "{}", text);
     return;
   }
   const char* colour = verdict == verify::Verdict::kClean ? "\033[32m" : "\033[31m";
   const std::size_t first_line = text.find('\n');
-  fmt::print("{}{}\033[0m{}", colour, text.substr(0, first_line), text.substr(first_line));
+  fmt::print(to, "{}{}\033[0m{}", colour, text.substr(0, first_line), text.substr(first_line));
 }
 
 }  // namespace selvage::cli

@@ -48,16 +48,19 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
   };
   options.check.stop = interrupted;
   if (!arguments.json.empty()) options.checkpoint = [&](const auto& report) { progress.note(report); };
+  const auto and_what_is_kept = [&](const std::string& what) {
+    if (!progress.flush()) return what;
+    return what + " (what was checked before it is kept in " + progress.file().string() +
+           "; --resume goes on from there)";
+  };
   try {
     verify::SequenceReport report = verify::check_sequence(sequence, options);
     if (interrupted()) (void)progress.flush();
     return report;
   } catch (const verify::GroupRuleError& error) {
-    throw UsageError(error.what());
+    throw UsageError(and_what_is_kept(error.what()));
   } catch (const io::Error& error) {
-    if (!progress.flush()) throw;
-    throw io::Error(error.kind(), std::string(error.what()) + " (what was checked before it is kept in " +
-                                      progress.file().string() + "; --resume goes on from there)");
+    throw io::Error(error.kind(), and_what_is_kept(error.what()));
   }
 }
 
@@ -110,7 +113,8 @@ ExitCode run(const VerifyArguments& arguments) {
   verify::SequenceReport report = check(arguments, *sequence, options, context);
   const auto print = [&] {
     const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
-    print_report(verify::text_report(report, context, max_listed), report.verdict);
+    print_report(verify::text_report(report, context, max_listed), report.verdict,
+                 {arguments.json, arguments.html});
   };
   try {
     write_outputs(arguments, *sequence, context, report);

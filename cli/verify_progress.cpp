@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cli/exit_code.h"
+#include "cli/terminal.h"
 #include "cli/verdict.h"
 #include "io/atomic_file.h"
 
@@ -36,9 +37,16 @@ void VerifyProgress::note(const verify::SequenceReport& report) {
 
 bool VerifyProgress::flush() {
   if (!unwritten_) return has_noted_;
-  io::write_atomically(file_, verify::json_report(*unwritten_, context_));
-  unwritten_.reset();
   written_ = std::chrono::steady_clock::now();
+  try {
+    io::write_atomically(file_, verify::json_report(*unwritten_, context_));
+  } catch (const io::Error& error) {
+    if (!std::exchange(has_failed_, true)) {
+      print_notes({std::string(error.what()) + " (the check goes on; if it is stopped, it cannot be resumed from here)"});
+    }
+    return false;
+  }
+  unwritten_.reset();
   return true;
 }
 

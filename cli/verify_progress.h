@@ -21,7 +21,8 @@ class VerifyProgress {
   [[nodiscard]] std::optional<verify::SequenceReport> load() const;
   /// Keeps the report; writes it at most once a second.
   void note(const verify::SequenceReport& report);
-  /// Writes what was noted last. Whether anything was noted in this run.
+  /// Writes what was noted last. Whether anything was noted in this run, and is on disk: where it cannot be written the
+  /// check goes on, and a note on stderr says so once.
   [[nodiscard]] bool flush();
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   /// The run is complete: there is nothing to continue.
@@ -31,7 +32,7 @@ class VerifyProgress {
   std::filesystem::path report_file_, file_;
   const verify::ReportContext& context_;
   std::optional<verify::SequenceReport> unwritten_;
-  bool has_noted_ = false;
+  bool has_noted_ = false, has_failed_ = false;
   std::chrono::steady_clock::time_point written_;
 };
 

@@ -48,7 +48,7 @@ std::string escaped(std::string_view bytes) {
 void CaseLines::advance() {
   line_ = {};
   while (word_start(line_) == line_.size()) {
-    if (rest_.empty()) fail("the case ends too early");
+    if (rest_.empty()) fail("the case ends too early; copy it again");
     take_line();
   }
 }
@@ -156,7 +156,7 @@ std::string CaseLines::unescaped(std::string_view piece) const {
 }
 
 void CaseLines::fail(const std::string& what) const {
-  throw io::Error(io::ErrorKind::kBadInput, name_ + ":" + std::to_string(number_) + ": " + what);
+  throw io::Error(io::ErrorKind::kBadInput, name_ + ":" + std::to_string(std::max(number_, 1)) + ": " + what);
 }
 
 void CaseLines::take_line() {

@@ -9,57 +9,38 @@ namespace selvage::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// A folder that was absent or empty before, as it is again unless it is kept.
-class NewFolder {
- public:
-  explicit NewFolder(fs::path folder) : folder_(std::move(folder)) {
-    std::error_code status;
-    if (!fs::is_directory(folder_, status)) {
-      require_absent(folder_);
-      made_ = folder_;
-      for (fs::path above = made_.parent_path(); !above.empty() && !fs::exists(above, status);
-           above = above.parent_path()) {
-        made_ = above;
-      }
-    } else if (!fs::is_empty(folder_, status)) {
-      throw Error(ErrorKind::kFile, folder_.string() + ": is a folder that is not empty; choose another");
-    }
+fs::path absent_or_empty(fs::path folder) {
+  std::error_code status;
+  if (!fs::is_directory(folder, status)) {
+    require_absent(folder);
+  } else if (!fs::is_empty(folder, status)) {
+    throw Error(ErrorKind::kFile, folder.string() + ": is a folder that is not empty; choose another");
   }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-  ~NewFolder() {
-    std::error_code status;
-    if (is_kept_) return;
-    if (!made_.empty()) fs::remove_all(made_, status);
-    std::vector<fs::path> files;  // of a folder that is somebody's, perhaps behind a link
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, status)) files.push_back(entry.path());
-    for (const fs::path& file : files) fs::remove_all(file, status);
-  }
-  const fs::path& path() const { return folder_; }
-  void keep() { is_kept_ = true; }
-
- private:
-  fs::path folder_;
-  fs::path made_;  ///< the uppermost folder that was absent
-  bool is_kept_ = false;
-};
+  return folder;
+}
 
 class FolderOutput final : public SequenceOutput {
  public:
   FolderOutput(fs::path target, OutputHeader header)
-      : folder_(std::move(target)), header_(std::move(header)), writer_(folder_.path(), header_.sequence) {}
+      : folder_(absent_or_empty(std::move(target))), header_(std::move(header)), writer_(folder_, header_.sequence) {}
+  FolderOutput(const FolderOutput&) = delete;
+  FolderOutput& operator=(const FolderOutput&) = delete;
+  ~FolderOutput() override {
+    if (!is_finished_) writer_.discard();
+  }
 
   void append(double time_s, const MeshData& mesh) override {
-    require_same_mesh(header_, mesh, folder_.path());
+    require_same_mesh(header_, mesh, OutputFormat::kFolder, folder_);
     writer_.append(time_s, mesh.points);
   }
-  void finish() override { folder_.keep(); }
-  std::vector<fs::path> sources() const override { return {folder_.path()}; }
+  void finish() override { is_finished_ = true; }
+  std::vector<fs::path> sources() const override { return {folder_}; }
 
  private:
-  NewFolder folder_;
+  fs::path folder_;
   OutputHeader header_;
   SequenceWriter writer_;
+  bool is_finished_ = false;
 };
 
 }  // namespace

@@ -158,7 +158,7 @@ class NpzOutput final : public SequenceOutput {
     zip_.write(npy_start(npy_type(header_.sequence.precision), {header_.frame_count, header_.vertex_count, 3}));
   }
   void append(double, const MeshData& mesh) override {
-    require_same_mesh(header_, mesh, zip_.target());
+    require_same_mesh(header_, mesh, OutputFormat::kNpz, zip_.target());
     std::string bytes;
     append_points(bytes, mesh.points, header_.sequence.precision, zip_.target().string());
     zip_.write(bytes);

@@ -116,7 +116,8 @@ class ObjParser {
       if (fault != NumberFault::kNone) lines_.fail(describe(fault, token));
     }
     if (count != 3 && count != 6 && !(count == 4 && numbers[3] == 1)) {
-      lines_.fail("a vertex has " + std::to_string(count) + " numbers; give three");
+      const char* weight = count == 4 ? ", the last of which, its weight, is not 1" : "";
+      lines_.fail("a vertex has " + std::to_string(count) + " numbers" + weight + "; give three");
     }
     if (has_no_end_ && ends_in_number_) lines_.fail(kMayBeCut);
     if (mesh_.points.size() == kMostElements) lines_.fail("more than 2^31 vertices; split the mesh");

@@ -27,7 +27,7 @@ class Pc2Output final : public SequenceOutput {
         pc2_header(static_cast<std::uint32_t>(header_.vertex_count), static_cast<std::uint32_t>(header_.frame_count)));
   }
   void append(double, const MeshData& mesh) override {
-    require_same_mesh(header_, mesh, cache_.target());
+    require_same_mesh(header_, mesh, OutputFormat::kPc2, cache_.target());
     if (is_first_) written_.write(base_, obj_bytes(mesh, base_.string()));
     is_first_ = false;
     std::string bytes;

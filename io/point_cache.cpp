@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/byte_order.h"
 #include "io/extension.h"
@@ -36,13 +37,15 @@ std::uint64_t read_count(const std::string& start, std::size_t offset, std::endi
   return static_cast<std::uint64_t>(count);
 }
 
-/// Before anything is allocated by the header's counts. They are below 2^31: no product of them overflows.
+/// Before anything is allocated by the header's counts. Both are below 2^31, and a vertex has 12 bytes: so many overflow.
 void require_size(const ByteSource& source, const PointCacheHeader& header, const std::string& name) {
-  const std::uint64_t announced = header.data_offset + header.frame_count * header.frame_size();
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  const bool is_sum = header.frame_count <= (kMost - header.data_offset) / header.frame_size();
+  const std::uint64_t announced = is_sum ? header.data_offset + header.frame_count * header.frame_size() : kMost;
   if (source.size() == announced) return;
   bad_input_at_byte(name, std::min(source.size(), announced),
                     std::to_string(header.frame_count) + " frames of " + std::to_string(header.vertex_count) +
-                        " vertices make " + std::to_string(announced) + " bytes, the file has " +
+                        " vertices make " + (is_sum ? "" : "more than ") + std::to_string(announced) + " bytes, the file has " +
                         std::to_string(source.size()) + "; export it again");
 }
 

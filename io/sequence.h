@@ -76,6 +76,8 @@ class SequenceWriter {
   /// Forgets all frames from `count` on: a resumed run continues behind its checkpoint. Throws Error if fewer are
   /// listed.
   void truncate(std::size_t count);
+  /// Removes what was written, and the folders that were made for it where nothing else is in them. To be called last.
+  void discard() noexcept;
 
  private:
   struct Impl;

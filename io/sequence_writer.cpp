@@ -51,6 +51,15 @@ PosixFile lock_folder(const fs::path& folder) {
   return handle;
 }
 
+/// Those of `folder` and the folders above it that are not there, the lowest first.
+std::vector<fs::path> absent_folders(fs::path folder) {
+  if (!folder.has_filename()) folder = folder.parent_path();  // of a name that ends in a slash
+  std::vector<fs::path> absent;
+  std::error_code status;
+  for (; !folder.empty() && !fs::exists(folder, status); folder = folder.parent_path()) absent.push_back(folder);
+  return absent;
+}
+
 fs::path create_folder(const fs::path& folder) {
   std::error_code status;
   fs::create_directories(folder, status);
@@ -61,11 +70,12 @@ fs::path create_folder(const fs::path& folder) {
 /// What killed runs left of this folder's own files, and of nobody else's.
 void remove_temporaries(const fs::path& folder) {
   std::error_code status;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, status)) {
-    const std::string file = entry.path().filename().string();
+  for (fs::directory_iterator entry(folder, status), end; !status && entry != end; entry.increment(status)) {
+    const std::string file = entry->path().filename().string();
     const bool is_ours = file.starts_with("frame_") || file.starts_with(kHeaderFile) || file.starts_with(kFacesFile) ||
                          file.starts_with(kFramesFile);
-    if (is_ours && is_temporary_name(file)) fs::remove(entry.path(), status);
+    std::error_code kept;
+    if (is_ours && is_temporary_name(file)) fs::remove(entry->path(), kept);
   }
 }
 
@@ -77,8 +87,10 @@ SequenceDescription describe(const SequenceHeader& header, std::uint32_t faces_c
 
 struct SequenceWriter::Impl {
   Impl(const fs::path& where, const SequenceHeader& header, bool resume)
-      : folder(create_folder(where)), lock(lock_folder(folder)), precision(header.precision) {
-    check_header(header, folder.string());
+      : made_folders((check_header(header, where.string()), absent_folders(where))),
+        folder(create_folder(where)),
+        lock(lock_folder(folder)),
+        precision(header.precision) {
     for (const auto& corners : header.triangles) {
       for (const std::int32_t vertex : corners) {
         fewest_vertices = std::max(fewest_vertices, static_cast<std::size_t>(vertex) + 1);
@@ -94,13 +106,26 @@ struct SequenceWriter::Impl {
     }
   }
 
-  void begin(const SequenceHeader& header) {
+  void begin(const SequenceHeader& header) try {
     const std::string faces = npy_bytes(header.triangles);
     write_atomically(folder / kFacesFile, faces);
     rewrite_list();
     const std::string json = to_json(describe(header, crc32(faces)));
     (void)parse_sequence_json(json, folder.string());  // more groups than a reader takes are an error now, not then
     write_atomically(folder / kHeaderFile, json);
+  } catch (...) {
+    discard();
+    throw;
+  }
+
+  /// The header first: what lists no frame is no sequence. A folder that holds anything else stays, with that.
+  void discard() noexcept {
+    std::error_code status;
+    for (const std::string_view file : {kHeaderFile, kFramesFile, kFacesFile}) fs::remove(folder / file, status);
+    for (const FrameRecord& frame : frames) fs::remove(folder / frame.file, status);
+    fs::remove(folder / frame_file(frames.size()), status);  // renamed, and then not listed
+    remove_temporaries(folder);
+    for (const fs::path& made : made_folders) fs::remove(made, status);
   }
 
   void continue_from(const SequenceHeader& header) {
@@ -185,6 +210,7 @@ struct SequenceWriter::Impl {
     for (const FrameRecord& frame : dropped) fs::remove(folder / frame.file, status);
   }
 
+  std::vector<fs::path> made_folders;  ///< absent before, the lowest first
   fs::path folder;
   PosixFile lock;
   Precision precision;
@@ -199,6 +225,7 @@ SequenceWriter::SequenceWriter(std::filesystem::path folder, const SequenceHeade
 SequenceWriter::~SequenceWriter() = default;
 void SequenceWriter::append(double time_s, const Points& points) { impl_->append(time_s, points); }
 std::size_t SequenceWriter::frame_count() const { return impl_->frames.size(); }
+void SequenceWriter::discard() noexcept { impl_->discard(); }
 void SequenceWriter::truncate(std::size_t count) { impl_->truncate(count); }
 
 }  // namespace selvage::io

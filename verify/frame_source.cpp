@@ -89,12 +89,18 @@ Frame FrameSource::read(std::size_t i) {
   }
   require_one_role(mesh, name);
   std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
-  ResolvedRules resolved = resolve(user_rules_, mesh.groups, mesh.triangles.size());
+  ResolvedRules resolved = resolve_in(name, mesh);
   surface_changed_ = mesh.triangles != triangles_ || is_body != is_body_ || resolved != resolved_ ||
                      static_cast<std::int64_t>(mesh.points.size()) != topology_.vertex_count;
   if (surface_changed_) make_surface(mesh, std::move(is_body), std::move(resolved));
   const std::uint32_t crc32 = crc32_of(mesh.points);
   return {name, std::move(mesh.points), crc32, surface_crc32_};
+}
+
+ResolvedRules FrameSource::resolve_in(const std::string& name, const io::MeshData& mesh) const try {
+  return resolve(user_rules_, mesh.groups, mesh.triangles.size());
+} catch (const GroupRuleError& error) {
+  throw GroupRuleError(name + ": " + error.what());
 }
 
 std::uint32_t FrameSource::crc32_of_surface() const {

@@ -42,6 +42,7 @@ class FrameSource {
   [[nodiscard]] std::int64_t welded_vertices() const { return welded_vertices_; }
 
  private:
+  ResolvedRules resolve_in(const std::string& name, const io::MeshData& mesh) const;
   void weld_all();
   [[nodiscard]] std::uint32_t crc32_of_surface() const;
   void make_surface(const io::MeshData& mesh, std::vector<std::uint8_t> is_body, ResolvedRules resolved);

@@ -1,6 +1,7 @@
 #include "verify/merge.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -11,6 +12,17 @@ namespace {
 
 std::string frames(std::int64_t first, std::int64_t end) {
   return "frames " + std::to_string(first) + " to " + std::to_string(end - 1);
+}
+
+/// Mesh files that are named one by one; not a folder or a file of all frames, which may be mounted under another name.
+void require_same_files(const Part& a, const Part& b) {
+  const auto name = [](const std::string& source) { return std::filesystem::path(source).filename(); };
+  const std::vector<std::string>&of_a = a.parsed.context.sources, &of_b = b.parsed.context.sources;
+  if (of_a.size() < 2 || of_a.size() != of_b.size()) return;  // the numbers of frames are compared
+  const auto [in_a, in_b] = std::ranges::mismatch(of_a, of_b, {}, name, name);
+  if (in_a == of_a.end()) return;
+  throw MergeError(a.name + " and " + b.name + ": the files differ: " + *in_a + " and " + *in_b +
+                   "; run every shard on the same files");
 }
 
 void require_same_check(const Part& a, const Part& b) {
@@ -109,6 +121,7 @@ ParsedReport merge(std::vector<Part> parts) {
   });
   for (std::size_t i = 1; i < parts.size(); ++i) {
     require_same_check(parts[0], parts[i]);
+    require_same_files(parts[0], parts[i]);
     require_neighbours(parts[i - 1], parts[i]);
   }
   ParsedReport merged = std::move(parts.front().parsed);

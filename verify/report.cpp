@@ -150,6 +150,7 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
             ", the smallest: " + name_of(report.gap->event) + " " + count(report.gap->features[0]) + " " +
             count(report.gap->features[1]) + " in frame " + count(report.gap->frame) + "\n";
   }
+  if (report.gap_searched && !report.gap) text += "gap:        none: no pair of features without a common vertex\n";
   if (report.second_opinion != SecondOpinionScope::kNone) {
     text += "second:     " + count(report.pairs.asked_again) + " pairs decided again, " +
             count(report.pairs.disagreed) + " disagreements\n";
@@ -171,7 +172,7 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
   if (listed > 0 && report.violations.front().case_file.empty()) {
-    text += "  --cases DIR writes each as a case, which selvage replay explains\n";
+    text += "  selvage verify --cases DIR writes each as a case, which selvage replay explains\n";
   }
   const std::int64_t left_out = report.violations_total.total() - static_cast<std::int64_t>(listed);
   if (left_out > 0) text += "  and " + count(left_out) + " more (--max-violations lists more)\n";

@@ -248,7 +248,8 @@ ParsedReport parse_report(const std::string& text, const std::string& name) {
   } catch (const Json::parse_error& error) {
     return fail("not valid JSON at byte " + std::to_string(error.byte) + "; is it whole?");
   } catch (const Json::exception& error) {
-    return fail(error.what());
+    const std::string_view what = error.what();  // "[json.exception.out_of_range.403] key 'program' not found"
+    return fail(std::string(what.substr(what.find("] ") + 2)) + "; is it whole?");
   }
 }
 

@@ -130,6 +130,11 @@ TEST(LongRuns, WhatDoesNotFitTogetherIsNamedWithARemedy) {
   shard("2/2", "far.json", {"--min-distance", "0.01"});
   shard("2/2", "gap.json", {"--gap"});
   shard("2/2", "few.json", {"--max-violations", "7"});
+  ASSERT_TRUE(std::filesystem::create_directory(folder.path() / "other"));
+  auto others = files;
+  others[2] = folder.path() / "other" / "good_2.obj";
+  std::filesystem::copy(files[2], others[2]);
+  ASSERT_EQ(run_program(folder, verify(others, {"--shard", "2/2", "--json", folder.path() / "other.json"})).exit_code, 0);
   const struct {
     std::vector<std::string> reports;
     const char *what, *remedy;
@@ -137,6 +142,7 @@ TEST(LongRuns, WhatDoesNotFitTogetherIsNamedWithARemedy) {
       {{"first.json", "far.json"}, "options.min_distance differ: \"none\" and \"0x1.47ae", "with the same options"},
       {{"first.json", "gap.json"}, "options.gap differ: \"no\" and \"yes\"; ", "with the same options"},
       {{"first.json", "few.json"}, "--max-violations differ: 100 and 7; ", "with the same options"},
+      {{"first.json", "other.json"}, "good_2.obj; ", "run every shard on the same files"},
       {{"first.json"}, "no part holds frames 2 to 3; ", "run that shard (selvage verify --shard i/N)"},
       {{"first.json", "first.json"}, "both hold frames 0 to 1; ", "name shards of one N, and each once"},
       {{"none"}, "holds no report (*.json); ", "selvage verify --shard i/N --json FILE"},

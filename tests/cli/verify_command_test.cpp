@@ -180,6 +180,50 @@ TEST(VerifyCommand, WhatMayTouchIsCountedAndMustExist) {
   }
 }
 
+TEST(VerifyCommand, AGroupThatALaterFrameLacksIsNamedWithTheFrame) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "s_0.obj", b = folder.path() / "s_1.obj", json = folder.path() / "r.json";
+  const std::string button = "v 9 9 9\nv 8 9 9\nv 8 8 9\ng button\nf 7 8 9\n";
+  spit(a, two_faces(0) + button);
+  spit(b, two_faces(0) + std::string(button).replace(button.find('b'), 1, "B"));
+  const auto result = run_program(folder, {"verify", a, b, "--ignore", "button", "--json", json});
+  EXPECT_EQ(result.exit_code, 2) << result.out;
+  EXPECT_NE(result.err.find("s_1.obj: ignore: no group \"button\"; the groups are \"Button\""), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("what was checked before it is kept in " + json.string() + ".progress"), std::string::npos)
+      << result.err;
+}
+
+TEST(VerifyCommand, ProgressThatCannotBeKeptStopsNothing) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "f_0.obj", b = folder.path() / "f_1.obj", json = folder.path() / "r.json";
+  spit(a, two_faces(1));
+  spit(b, "v 0 0\n");
+  std::filesystem::create_directory(json.string() + ".progress");
+  const auto result = run_program(folder, {"verify", a, b, "--json", json});
+  EXPECT_EQ(result.exit_code, 3) << result.out;
+  EXPECT_NE(result.err.find("r.json.progress: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("the check goes on"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("f_1.obj:1: "), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("is kept in"), std::string::npos) << result.err;
+}
+
+TEST(VerifyCommand, AReportOnStdoutStandsAlone) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj";
+  spit(a, two_faces(0));
+  const auto result = run_program(folder, {"verify", a, "--json", "/dev/stdout"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["verdict"], "violated");
+  EXPECT_TRUE(result.err.starts_with("violated\n")) << result.err;
+}
+
+TEST(VerifyCommand, AGapWithoutAPairIsSaid) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a.obj";
+  spit(a, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_NE(run_program(folder, {"verify", a, "--gap"}).out.find("gap:        none: "), std::string::npos);
+}
+
 TEST(VerifyCommand, ABodyThatTheFormatCannotNameIsNamedByTheUser) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj", json = folder.path() / "a.json";

@@ -194,6 +194,44 @@ TEST(SequenceOutput, AFolderThatWasThereStaysThere) {
   EXPECT_TRUE(fs::is_empty(folder / "empty"));
 }
 
+TEST(SequenceOutput, WhatOthersPutBesideAFailureStays) {
+  for (const char* name : {"out/a/", "out/"}) {
+    const TemporaryFolder folder;
+    {
+      const auto output = create(folder / name, kTwoFrames);
+      output->append(0, mesh_of(kTwoFrames[0]));
+      (void)write_and_open(folder / "out" / "b", kTwoFrames);
+      write_plainly(folder / "out" / "render.log", "note");
+    }
+    EXPECT_EQ(open_sequence({folder / "out" / "b"})->frame_count(), 2U) << name;
+    EXPECT_EQ(read_plainly(folder / "out" / "render.log"), "note") << name;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 2) << name;
+  }
+}
+
+TEST(SequenceOutput, GroupsThatChangeAreRefusedWhereTheyAreHeldOnce) {
+  MeshData renamed = mesh_of(kTwoFrames[1]), other_body = renamed;
+  renamed.groups[0].name = "right sleeve";
+  other_body.groups[0].role = Group::Role::kBody;
+  const auto append = [](const fs::path& target, const MeshData& second) {
+    const auto output = create(target, kTwoFrames);
+    output->append(0, mesh_of(kTwoFrames[0]));
+    output->append(1, second);
+    output->finish();
+  };
+  const TemporaryFolder folder;
+  for (const char* name : {"a", "a.pc2"}) {
+    expect_error(ErrorKind::kBadInput, "the groups change between frames; write .obj",
+                 [&] { append(folder / name, renamed); });
+  }
+  expect_error(ErrorKind::kBadInput, "which faces are bodies changes between frames; write .pvd",
+               [&] { append(folder / "a.npz", other_body); });
+  append(folder / "a.npz", renamed);  // it holds no names
+  append(folder / "a.obj", renamed);
+  EXPECT_EQ(open_sequence({folder / "a_000001.obj"})->groups()[0].name, "right sleeve");
+  append(folder / "a.pvd", other_body);
+}
+
 /// Without the directory at the end, as one reads from a pipe.
 TEST(SequenceOutput, NpzCanBeReadAsAStream) {
   const TemporaryFolder folder;
