@@ -104,6 +104,11 @@ void print_totals(const sim::RunTotals& totals, const sim::World& world) {
                totals.dynamics_solves, totals.newton_rounds, totals.cg_iterations, totals.largest_residual_m,
                totals.unconverged_solves);
   }
+  if (totals.bent_steps > 0) {
+    print_notes({fmt::format("{} steps were too long for a body that turns or turns back within them, and may have passed "
+                             "cloth beside its way; every step is safe, but {}",
+                             totals.bent_steps, "lower min_step_s, or slow the body down")});
+  }
   if (totals.unconverged_solves > 0) {
     print_notes(
         {fmt::format("{} of {} implicit solves did not converge: cloth ended up to {:.2g} m from where its forces "

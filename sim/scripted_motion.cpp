@@ -1,5 +1,6 @@
 #include "sim/scripted_motion.h"
 
+#include <algorithm>
 #include <set>
 
 #include "sim/bodies/catch_up.h"
@@ -8,24 +9,45 @@ namespace selvage::sim {
 
 void ScriptedMotion::start_step() { waits_.assign(static_cast<std::size_t>(world_.x_t0.rows()), 0); }
 
+bool ScriptedMotion::goes_straight(const Positions& x, const Positions& v, const StepClock& clock) const {
+  const double t0_s = clock.time_s(), t1_s = clock.end_s();
+  const auto may_meet_cloth = [&](const Eigen::AlignedBox3d& within) {
+    const Vec3 fall = clock.dt_s() * clock.dt_s() / 2 * scene_.gravity_m_s2;
+    Eigen::AlignedBox3d cloth;
+    for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
+      const Vec3 at = x.row(i), way = clock.dt_s() * v.row(i);
+      cloth.extend(at).extend(at + way).extend(at + way + fall);
+    }
+    return cloth.squaredExteriorDistance(within) <= scene_.collision.thickness_m * scene_.collision.thickness_m;
+  };
+  return std::ranges::all_of(world_.colliders, [&](const Collider& collider) {
+    if (!collider.holds(t0_s)) return true;
+    const Collider::Bend bend = collider.bend(t0_s, t1_s);
+    return bend.leaves_line_by_m <= scene_.collision.thickness_m || !may_meet_cloth(bend.within);
+  });
+}
+
 // First the bodies, then the pins, which may hang on them.
 Positions ScriptedMotion::follow(const Positions& x, const StepClock& clock) {
   scripted_ = scripted_at(world_, clock.time_s());
   Positions x_t1 = x;
+  bow_m_.setZero(x.rows() - world_.cloth_vertex_count, 3);
+  has_bow_ = false;
   for (const Collider& collider : world_.colliders) {
     if (collider.holds(clock.time_s())) follow(collider, x, clock, x_t1);
   }
   return x_t1;
 }
 
-void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, const StepClock& clock,
-                            Positions& x) const {
+void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x) {
   const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
   const std::vector<VertexId>& vertices = collider.vertices();
   Positions script_t1 = collider.placed_at(clock.end_s(), float32, x);
+  bool is_on_script = true;
   if (scene_.squeeze == SqueezePolicy::kYield) {  // else none has ever waited
     const Positions now = x_t0(vertices, Eigen::all), script_t0 = collider.placed_at(clock.time_s(), float32, x_t0);
-    if (now != script_t0) {
+    is_on_script = now == script_t0;
+    if (!is_on_script) {
       const double least_speed_m_s = scene_.collision.thickness_m / kCatchUpTime_s;
       const auto catch_script = collider.deforms() ? catch_up_each : catch_up;
       script_t1 = catch_script(now, script_t0, script_t1, clock.dt_s(), least_speed_m_s);
@@ -34,6 +56,20 @@ void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, con
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (waits_[static_cast<std::size_t>(vertices[i])] == 0)
       x.row(vertices[i]) = script_t1.row(static_cast<Eigen::Index>(i));
+  }
+  if (is_on_script) bend(collider, (clock.time_s() + clock.end_s()) / 2, x_t0, x);
+}
+
+void ScriptedMotion::bend(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1) {
+  const std::vector<VertexId>& vertices = collider.vertices();
+  if (vertices.empty() || vertices.front() < world_.cloth_vertex_count) return;  // pins move as springs have them
+  const Positions middle = collider.placed_at(middle_s, false, x_t0);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const VertexId vertex = vertices[i];
+    if (waits_[static_cast<std::size_t>(vertex)] != 0) continue;
+    auto row = bow_m_.row(vertex - world_.cloth_vertex_count);
+    row = 2 * (x_t0.row(vertex) + x_t1.row(vertex)) - 4 * middle.row(static_cast<Eigen::Index>(i));
+    has_bow_ = has_bow_ || !row.isZero(0);
   }
 }
 

@@ -19,8 +19,16 @@ class ScriptedMotion {
 
   /// A step begins, in which nothing had to wait yet.
   void start_step();
+  /// Whether every body that may come near cloth stays within the thickness of the straight lines on which a step takes
+  /// its vertices: what they would pass on their way is met, and none turns so far that it comes back to where it was.
+  /// x, v: of cloth, at least.
+  [[nodiscard]] bool goes_straight(const Positions& x, const Positions& v, const StepClock& clock) const;
   /// x, with the vertices that are scripted now where their scripts are at the end of the step, or on their way there.
   [[nodiscard]] Positions follow(const Positions& x, const StepClock& clock);
+  /// How bodies leave the straight lines of the last motion: halfway through the step a vertex is a quarter of its row
+  /// away from the middle of its line, m. #V less those of cloth by 3; null where no body does. 0 for those that wait,
+  /// or are not where their scripts have them.
+  [[nodiscard]] const Positions* bow_m() const { return has_bow_ ? &bow_m_ : nullptr; }
   /// Bodies that had to wait in a try are known before the next one, which starts from the same state: so the dynamics
   /// sees them stand still. Where it saw them move, cloth took up a motion that never was: pinched between two spheres
   /// that stood it came to 70 m/s.
@@ -36,12 +44,15 @@ class ScriptedMotion {
   [[nodiscard]] CollisionBodies bodies() const { return bodies_of(world_, scripted_, scene_.squeeze); }
 
  private:
-  void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x) const;
+  void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x);
+  void bend(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1);
 
   const Scene& scene_;
   const World& world_;
   ScriptedVertices scripted_;
   std::vector<std::uint8_t> waits_;  ///< #V
+  Positions bow_m_;
+  bool has_bow_ = false;
 };
 
 }  // namespace selvage::sim

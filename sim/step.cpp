@@ -70,6 +70,12 @@ Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
 StepResult Simulation::step() {
   const FpEnvGuard guard;
   StepResult result;
+  bool is_straight = script_.goes_straight(x_, v_, clock_);
+  while (!is_straight && clock_.can_halve()) {
+    clock_.shorten();
+    is_straight = script_.goes_straight(x_, v_, clock_);
+  }
+  result.is_bent = !is_straight;
   const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);
   script_.start_step();
@@ -150,7 +156,8 @@ const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<
                             collision_step_.contact_table(),
                             script_.inverse_mass(),
                             world_.cloth_vertex_count,
-                            scene_.gravity_m_s2};
+                            scene_.gravity_m_s2,
+                            script_.bow_m()};
   const std::int32_t sweeps = is_last ? std::max(scene_.contact_sweeps, kLastSweeps) : scene_.contact_sweeps;
   held_to_the_end_ = held;
   HeldContacts contacts(std::move(held_to_the_end_), loads_, surface, x_, tried.candidate, clock_.dt_s(), sweeps);

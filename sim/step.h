@@ -34,6 +34,7 @@ struct StepResult {
   std::int64_t held_repulsions = 0;  ///< of its repulsions, those within the dynamics
   DynamicsReport dynamics;           ///< of the step that was taken
   double dt_s = 0, end_s = 0;
+  bool is_bent = false;    ///< some body did not go straight, though the step was as short as it may be
   Strained most_strained;  ///< of structural and shear springs, at the end of the step
   /// Tries thrown away because repulsions were not enough, the equations of implicit dynamics were not solved, or
   /// candidates were not finite or cut back.

@@ -39,12 +39,16 @@ double StepClock::time_at(std::int64_t tick) const {
 }
 
 void StepClock::halve() {
-  SELVAGE_ASSERT(can_halve());
-  ++state_.level;
-  state_.good_steps = 0;
+  shorten();
   if (state_.on_trial == 0) return;
   state_.on_trial = 0;
   state_.good_steps_asked = std::min(2 * state_.good_steps_asked, kMostGoodSteps);
+}
+
+void StepClock::shorten() {
+  SELVAGE_ASSERT(can_halve());
+  ++state_.level;
+  state_.good_steps = 0;
 }
 
 void StepClock::advance(bool good) {

@@ -39,6 +39,8 @@ class StepClock {
   [[nodiscard]] bool can_halve(double shortest_s = 0) const;
 
   void halve();
+  /// The step is halved before it is tried, which says nothing of how long steps may be later.
+  void shorten();
   /// The step is done. `good`: no collision was left after the repulsions.
   void advance(bool good);
 

@@ -194,8 +194,8 @@ class WorldBuilder {
     }
     const auto face_begin = static_cast<FaceId>(triangles_.size() - rest.triangles.size());
     for (RestPair pair : find_rest_pairs(mesh, rest.x, thickness_m)) {
-      pair.first += pair.kind == PairKind::kVf ? begin : edge_begin_;
-      pair.second += pair.kind == PairKind::kVf ? face_begin : edge_begin_;
+      pair.first += pair.kind == PairKind::kEe ? edge_begin_ : begin;
+      pair.second += pair.kind == PairKind::kEe ? edge_begin_ : face_begin;
       rest_pairs_.push_back(pair);
     }
     edge_begin_ += static_cast<EdgeId>(mesh.edges.size());

@@ -24,4 +24,19 @@ RigidFrame Linkage::at(double time_s) const {
   return frame;
 }
 
+std::vector<double> Linkage::keys_between(double t0_s, double t1_s) const {
+  std::vector<double> times;
+  for (const Link& link : links_) {
+    const std::vector<double> own = link.path.keys_between(t0_s, t1_s);
+    times.insert(times.end(), own.begin(), own.end());
+  }
+  return times;
+}
+
+double Linkage::turn_deg(double t0_s, double t1_s) const {
+  double turn_deg = 0;
+  for (const Link& link : links_) turn_deg += link.path.turn_deg(t0_s, t1_s);
+  return turn_deg;
+}
+
 }  // namespace selvage::sim

@@ -18,6 +18,9 @@ class Linkage {
 
   /// The bits are those of the path alone where it has no parent and the placement is zero.
   [[nodiscard]] RigidFrame at(double time_s) const;
+  /// Of all its motions (RigidPath): the times of keys, in any order; how far they turn together, degrees.
+  [[nodiscard]] std::vector<double> keys_between(double t0_s, double t1_s) const;
+  [[nodiscard]] double turn_deg(double t0_s, double t1_s) const;
 
  private:
   struct Link {

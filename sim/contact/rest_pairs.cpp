@@ -10,6 +10,7 @@
 #include "kernel/box_hierarchy.h"
 #include "kernel/fp_env.h"
 #include "kernel/proximities.h"
+#include "kernel/proximity.h"
 
 namespace selvage::sim {
 
@@ -22,6 +23,15 @@ std::vector<RestPair> find_rest_pairs(const Mesh& mesh, const PositionsRef& V_re
     if (!(near.proximity.distance < thickness_m)) continue;
     pairs.push_back({near.kind, near.first, near.second, near.proximity.distance});
   }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId vertex = mesh.faces[f][k];
+      const Vec3 a = V_rest.row(mesh.faces[f][(k + 1) % 3]), b = V_rest.row(mesh.faces[f][(k + 2) % 3]);
+      const double distance_m = vf_proximity({V_rest.row(vertex), a, b, b}).distance;  // an edge is a face without area
+      if (distance_m < thickness_m) pairs.push_back({PairKind::kSelf, vertex, static_cast<FaceId>(f), distance_m});
+    }
+  }
+  std::ranges::sort(pairs, {}, [](const RestPair& pair) { return std::tuple(pair.kind, pair.first, pair.second); });
   return pairs;
 }
 
@@ -29,11 +39,12 @@ InputError validate(const Mesh& mesh, const std::vector<RestPair>& pairs) {
   const auto is_of_mesh = [&](const RestPair& pair) {
     const auto [first, second] = std::pair(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
     if (pair.first < 0 || pair.second < 0) return false;
-    if (pair.kind == PairKind::kVf) {
-      return pair.first < mesh.vertex_count && second < mesh.faces.size() &&
-             std::ranges::find(mesh.faces[second], pair.first) == mesh.faces[second].end();
+    if (pair.kind != PairKind::kEe) {
+      if (pair.first >= mesh.vertex_count || second >= mesh.faces.size()) return false;
+      const bool is_corner = std::ranges::find(mesh.faces[second], pair.first) != mesh.faces[second].end();
+      return is_corner == (pair.kind == PairKind::kSelf);
     }
-    return pair.kind == PairKind::kEe && first < second && second < mesh.edges.size() &&
+    return first < second && second < mesh.edges.size() &&
            std::ranges::find_first_of(mesh.edges[first], mesh.edges[second]) == mesh.edges[first].end();
   };
   if (!std::ranges::all_of(pairs, is_of_mesh)) return InputError::kBadSurfaces;
@@ -54,7 +65,7 @@ RestDistances::RestDistances(const Mesh& mesh, std::vector<RestPair> pairs)
 
 double RestDistances::of(PairKind kind, std::int32_t first, std::int32_t second) const {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  if (empty() || kind == PairKind::kSelf) return kNone;
+  if (empty()) return kNone;
   const std::size_t at = row(kind, first);
   const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(begin_[at + 1]);
   const auto found = std::ranges::lower_bound(pairs_.begin() + static_cast<std::ptrdiff_t>(begin_[at]), end, second, {},
@@ -63,7 +74,7 @@ double RestDistances::of(PairKind kind, std::int32_t first, std::int32_t second)
 }
 
 std::size_t RestDistances::row(PairKind kind, std::int32_t first) const {
-  return (kind == PairKind::kVf ? 0 : vertex_count_) + static_cast<std::size_t>(first);
+  return (kind == PairKind::kEe ? vertex_count_ : 0) + static_cast<std::size_t>(first);  // no kVf has a kSelf's face
 }
 
 }  // namespace selvage::sim

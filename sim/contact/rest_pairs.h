@@ -10,22 +10,22 @@
 
 namespace selvage::sim {
 
-/// Repels below its distance at rest.
+/// Repels below its distance at rest; of kSelf, which does not repel, the tolerance alone is held to that.
 struct RestPair {
-  PairKind kind = PairKind::kVf;       ///< kVf or kEe
-  std::int32_t first = 0, second = 0;  ///< vertex and face; edge and an edge with a higher number
+  PairKind kind = PairKind::kVf;
+  std::int32_t first = 0, second = 0;  ///< vertex and face, its own for kSelf; edge and an edge with a higher number
   double distance_m = 0;               ///< >= 0
 
   friend bool operator==(const RestPair&, const RestPair&) = default;
 };
 
-/// All pairs of `mesh` that are nearer than `thickness_m` in the rest shape V_rest; sorted by kind, first and second.
+/// All pairs of `mesh`, its faces' own included, that are nearer than `thickness_m` in the rest shape V_rest; sorted by kind, first and second.
 /// Of one cloth: two cloths repel at their whole thickness, wherever their rest shapes lie. None where the positions
 /// are invalid. Time and memory O(n + pairs), beside that of a broad phase; once for a cloth. REQUIRES thickness_m >=
 /// 0, finite.
 [[nodiscard]] std::vector<RestPair> find_rest_pairs(const Mesh& mesh, const PositionsRef& V_rest, double thickness_m);
 
-/// kNone, kBadSurfaces (no pair of the mesh, or one whose features share a vertex), or kBadOption (a distance out of
+/// kNone, kBadSurfaces (no pair of the mesh, or one of kVf or kEe whose features share a vertex), or kBadOption (a distance out of
 /// its range).
 [[nodiscard]] InputError validate(const Mesh& mesh, const std::vector<RestPair>& pairs);
 

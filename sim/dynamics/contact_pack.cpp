@@ -316,6 +316,10 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
   const auto end = axes_of(motion.x_t1), v = axes_of(motion.v);
   const auto start = axes_of(motion.scripted_x), way = axes_of(motion.scripted_way);
   const double h = motion.h, share = motion.share, step_share = motion.step_share;
+  const bool has_bow = motion.scripted_bow != nullptr;
+  const auto bow = has_bow ? axes_of(*motion.scripted_bow) : way;
+  const double bent = has_bow ? share * (1 - share) : 0;
+  const double bends = has_bow ? step_share * (1 - 2 * share - step_share) : 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (!has_lane(lanes, lane)) continue;
@@ -328,8 +332,8 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
         }
       } else {
         for (std::size_t k = 0; k < 3; ++k) {
-          result.displacement[i][k][lane] = step_share * way[k][~row];
-          result.x[i][k][lane] = start[k][~row] + share * way[k][~row];
+          result.displacement[i][k][lane] = step_share * way[k][~row] - bends * bow[k][~row];
+          result.x[i][k][lane] = start[k][~row] + share * way[k][~row] - bent * bow[k][~row];
         }
       }
     }

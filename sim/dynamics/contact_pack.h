@@ -30,15 +30,16 @@ struct alignas(64) ContactPack {
   Lanes ever_repelled = 0, ever_rubbed = 0;
 };
 
-/// The cloth in a step of the dynamics of h seconds, x_t1 = x + h v, and what is not cloth: at x + share way at the
-/// start, from where it goes by step_share way.
+/// The cloth in a step of the dynamics of h seconds, x_t1 = x + h v, and what is not cloth: at
+/// x + s way - s (1 - s) bow, from s = share at the start to share + step_share.
 struct ContactMotion {
   LaneVectors& x_t1;
   LaneVectors& v;
   const LaneVectors& scripted_x;
   const LaneVectors& scripted_way;
   double h, share, step_share;
-  double creep_m = 0;  ///< as in FrictionCoefficients
+  double creep_m = 0;                         ///< as in FrictionCoefficients
+  const LaneVectors* scripted_bow = nullptr;  ///< null: none
 };
 
 /// The vertices of a pack, at the start of the step and how they move in it.

@@ -92,6 +92,7 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const std::ve
   const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
   scripted_t0_.copy(V_t0.bottomRows(scripted));
   scripted_way_.copy(V_t1.bottomRows(scripted) - V_t0.bottomRows(scripted));
+  if (surface.bow_m != nullptr) scripted_bow_.copy(*surface.bow_m);
   group(vf_);
   group(ee_);
   ee_.first_pack = vf_.groups.order().size() / kLanes;
@@ -194,7 +195,8 @@ bool HeldContacts::touch(FaceId a, FaceId b) const {
 ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
   const double step_share = step.h / dt_s_;
   const double creep_m = kCreepSteps * step.h * step.h * surface_.gravity_m_s2.norm();
-  return {step.x_t1, step.v, scripted_t0_, scripted_way_, step.h, step.share - step_share, step_share, creep_m};
+  const LaneVectors* const bow = surface_.bow_m != nullptr ? &scripted_bow_ : nullptr;
+  return {step.x_t1, step.v, scripted_t0_, scripted_way_, step.h, step.share - step_share, step_share, creep_m, bow};
 }
 
 void HeldContacts::bear(const MidstepMotion& step) {
@@ -360,7 +362,7 @@ PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, con
     if (is_cloth(vertex)) {
       x[i] = step.x_t1.row(vertex) - step.h * step.v.row(vertex);
     } else {
-      x[i] = V_t0_.row(vertex) + (step.share - step.h / dt_s_) * (V_t1_.row(vertex) - V_t0_.row(vertex));
+      x[i] = scripted_at(vertex, step.share - step.h / dt_s_);
     }
   }
   return x;

@@ -26,6 +26,7 @@ void RunTotals::add(const StepResult& step) {
   pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
   waiting_bodies += static_cast<std::int64_t>(report.waiting_bodies.size());
   cut_candidates += report.cut_candidates;
+  bent_steps += step.is_bent ? 1 : 0;
   dynamics_solves += step.dynamics.solves;
   newton_rounds += step.dynamics.newton_rounds;
   cg_iterations += step.dynamics.cg_iterations;
@@ -57,6 +58,7 @@ std::string RunTotals::shortfalls() const {
   add_clause(
       cut_candidates,
       fmt::format("times a vertex was cut back: it went farther in a step than {} diagonals of the scene", kMaxTravel));
+  add_clause(bent_steps, "steps were too long for a body that turns or turns back within them");
   add_clause(unconverged_solves, "implicit solves did not converge");
   return text;
 }

@@ -22,7 +22,7 @@ struct RunTotals {
   std::int64_t steps_with_collisions = 0, first_collisions = 0;
   std::int64_t impulse_rounds = 0, zone_rounds = 0, largest_zone_vertices = 0;
   std::int64_t fail_safe_rounds = 0, fail_safe_vertices = 0;
-  std::int64_t pairs_below_tolerance = 0, waiting_bodies = 0, cut_candidates = 0;
+  std::int64_t pairs_below_tolerance = 0, waiting_bodies = 0, cut_candidates = 0, bent_steps = 0;
   std::int64_t dynamics_solves = 0, newton_rounds = 0, cg_iterations = 0, unconverged_solves = 0;
   double largest_residual_m = 0;  ///< of an implicit solve
   double largest_strain = 0;      ///< of structural and shear springs, at the end of a step
@@ -37,7 +37,7 @@ struct RunTotals {
   void add(const StepResult& step);
   /// One clause for each thing that went less well than the scene asked for, "" where nothing did: the fail-safe was
   /// needed, pairs ended a step nearer than the tolerance, bodies waited, vertices were cut back (travel_limit.h),
-  /// equations were not solved. No intersection is among them: these end runs.
+  /// bodies passed by what lies beside a straight line (StepResult::is_bent), equations were not solved. No intersection is among them: these end runs.
   [[nodiscard]] std::string shortfalls() const;
 };
 
@@ -63,6 +63,7 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("pairs_below_tolerance", totals.pairs_below_tolerance);
   visit("waiting_bodies", totals.waiting_bodies);
   visit("cut_candidates", totals.cut_candidates);
+  visit("bent_steps", totals.bent_steps);
   visit("dynamics_solves", totals.dynamics_solves);
   visit("newton_rounds", totals.newton_rounds);
   visit("cg_iterations", totals.cg_iterations);

@@ -46,6 +46,27 @@ Pose RigidPath::at(double time_s) const {
   return pose;
 }
 
+std::vector<double> RigidPath::keys_between(double t0_s, double t1_s) const {
+  std::vector<double> times;
+  for (const PoseKey& key : keys_) {
+    if (t0_s < key.time_s && key.time_s < t1_s) times.push_back(key.time_s);
+  }
+  return times;
+}
+
+double RigidPath::turn_deg(double t0_s, double t1_s) const {
+  std::vector<double> times = keys_between(t0_s, t1_s);
+  times.push_back(t1_s);
+  double turn_deg = 0;
+  Vec3 from = at(t0_s).rotation_deg;
+  for (const double time_s : times) {
+    const Vec3 to = at(time_s).rotation_deg;
+    turn_deg += (to - from).norm();
+    from = to;
+  }
+  return turn_deg;
+}
+
 Pose RigidPath::rate_at(std::size_t i) const {
   if (i == 0 || i + 1 == keys_.size()) return {};
   const PoseKey &before = keys_[i - 1], &after = keys_[i + 1];

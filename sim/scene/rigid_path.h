@@ -42,6 +42,10 @@ class RigidPath {
   /// Between keys position and rotation vector are interpolated per coordinate, so every intermediate motion is rigid.
   /// At a key's time the pose is the key's, bit for bit; before the first and after the last key it stands still.
   [[nodiscard]] Pose at(double time_s) const;
+  /// The times of the keys between two times, these left out; in order.
+  [[nodiscard]] std::vector<double> keys_between(double t0_s, double t1_s) const;
+  /// How far it turns between two times, degrees: what its rotation vector goes, from key to key.
+  [[nodiscard]] double turn_deg(double t0_s, double t1_s) const;
 
  private:
   /// The change of pose per second at key i of a spline.

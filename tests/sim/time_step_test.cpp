@@ -38,6 +38,16 @@ TEST(StepClock, DoublesAfterThreeGoodStepsInARow) {
   EXPECT_EQ(clock.dt_s(), 2 * dt_s);
 }
 
+TEST(StepClock, AStepThatIsShortenedIsNoFailure) {
+  StepClock clock(25, 0.0025, 0.04);
+  clock.halve();
+  for (int i = 0; i < 4; ++i) clock.advance(true);
+  ASSERT_EQ(clock.halvings(), 0);  // on trial
+  clock.shorten();
+  EXPECT_EQ(clock.halvings(), 1);
+  EXPECT_EQ(clock.state().good_steps_asked, 3);
+}
+
 /// Good steps until the step is doubled.
 int steps_to_double(StepClock& clock) {
   const double dt_s = clock.dt_s();

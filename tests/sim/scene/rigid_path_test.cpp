@@ -1,5 +1,8 @@
 #include "sim/scene/rigid_path.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "sim/bodies/collider.h"
@@ -75,6 +78,30 @@ TEST(RigidPath, SplineKeepsAConstantVelocity) {
     EXPECT_LT((path.at(t).position_m - t * v).norm(), 1e-14);
     EXPECT_LT((path.at(t).rotation_deg - t * w).norm(), 1e-12);
   }
+}
+
+TEST(RigidPath, SaysHowFarItTurnsAndWhereItMayBend) {
+  const RigidPath path(kKeys, Interpolation::kLinear);
+  EXPECT_EQ(path.keys_between(0, 1.9), (std::vector<double>{0.5, 0.7}));
+  EXPECT_EQ(path.turn_deg(0, 0.5), 0);
+  EXPECT_NEAR(path.turn_deg(0.5, 0.7), Vec3(10, 200, -35).norm(), 1e-12);
+  EXPECT_NEAR(path.turn_deg(0.6, 1.9), Vec3(5, 100, -17.5).norm() + Vec3(-10, -200, 755).norm(), 1e-10);
+}
+
+TEST(Collider, KnowsHowFarItLeavesStraightLines) {
+  const auto on = [](std::vector<PoseKey> keys, const Vec3& vertex) {
+    return Collider("body", {0},
+                    Collider::Rigid{vertex.transpose(), Linkage({}, RigidPath(std::move(keys), Interpolation::kLinear))});
+  };
+  const Vec3 vertex(2, 0, 0), none = Vec3::Zero();
+  const Collider turning = on({{0, {}}, {1, {none, {0, 0, 60}}}}, vertex);
+  EXPECT_NEAR(turning.bend(0, 1).leaves_line_by_m, 2 * (1 - std::sqrt(0.75)), 1e-15);
+  EXPECT_NEAR(turning.bend(0, 0.5).leaves_line_by_m, 2 * (1 - std::cos(std::acos(-1) / 12)), 1e-15);
+  EXPECT_EQ(turning.bend(1, 2).leaves_line_by_m, 0);
+  EXPECT_EQ(on({{0, {}}, {1, {none, {0, 0, 360}}}}, vertex).bend(0, 1).leaves_line_by_m, std::numeric_limits<double>::infinity());
+  // There and back between the quarters; and along one line at two speeds, which leaves nothing out.
+  EXPECT_NEAR(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {0.2, {}}}, vertex).bend(0, 1).leaves_line_by_m, 3, 1e-15);
+  EXPECT_EQ(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {1, {{0, 0, 4}, none}}}, vertex).bend(0, 1).leaves_line_by_m, 0);
 }
 
 TEST(RigidPath, IsRigidAtAllTimes) {
