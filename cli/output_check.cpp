@@ -46,7 +46,8 @@ void require_no_dash(const fs::path& output) {
 }
 
 bool is_standard_output(const fs::path& file) {
-  struct stat named {}, out {};
+  using Status = struct stat;
+  Status named{}, out{};
   return !file.empty() && ::stat(file.c_str(), &named) == 0 && ::fstat(STDOUT_FILENO, &out) == 0 &&
          !S_ISCHR(out.st_mode) && named.st_dev == out.st_dev && named.st_ino == out.st_ino;
 }

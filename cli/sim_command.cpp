@@ -105,9 +105,10 @@ void print_totals(const sim::RunTotals& totals, const sim::World& world) {
                totals.unconverged_solves);
   }
   if (totals.bent_steps > 0) {
-    print_notes({fmt::format("{} steps were too long for a body that turns or turns back within them, and may have passed "
-                             "cloth beside its way; every step is safe, but {}",
-                             totals.bent_steps, "lower min_step_s, or slow the body down")});
+    print_notes(
+        {fmt::format("{} steps were too long for a body that turns or turns back within them, and may have passed "
+                     "cloth beside its way; every step is safe, but lower min_step_s, or slow the body down",
+                     totals.bent_steps)});
   }
   if (totals.unconverged_solves > 0) {
     print_notes(

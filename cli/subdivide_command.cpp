@@ -95,10 +95,11 @@ io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, cons
                                 name));
   }
   if (mesh.groups != first.groups) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: its groups are not those of the first frame; subdivide such frames one by one with "
-                                "--frame, each into a folder of its own",
-                                name));
+    throw io::Error(
+        io::ErrorKind::kBadInput,
+        fmt::format("{}: its groups are not those of the first frame; subdivide such frames one by one with "
+                    "--frame, each into a folder of its own",
+                    name));
   }
   require_in_domain(mesh.points, name);
   return mesh;

@@ -26,8 +26,7 @@ ExitCode exit_code(const verify::SequenceReport& report) {
   return ExitCode::kInternal;
 }
 
-void print_report(const std::string& text, verify::Verdict verdict,
-                  const std::vector<std::filesystem::path>& reports) {
+void print_report(const std::string& text, verify::Verdict verdict, const std::vector<std::filesystem::path>& reports) {
   const bool is_taken = std::ranges::any_of(reports, is_standard_output);
   std::FILE* to = is_taken ? stderr : stdout;
   if (!use_colour(is_taken ? STDERR_FILENO : STDOUT_FILENO)) {

@@ -113,8 +113,7 @@ ExitCode run(const VerifyArguments& arguments) {
   verify::SequenceReport report = check(arguments, *sequence, options, context);
   const auto print = [&] {
     const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
-    print_report(verify::text_report(report, context, max_listed), report.verdict,
-                 {arguments.json, arguments.html});
+    print_report(verify::text_report(report, context, max_listed), report.verdict, {arguments.json, arguments.html});
   };
   try {
     write_outputs(arguments, *sequence, context, report);

@@ -42,7 +42,8 @@ bool VerifyProgress::flush() {
     io::write_atomically(file_, verify::json_report(*unwritten_, context_));
   } catch (const io::Error& error) {
     if (!std::exchange(has_failed_, true)) {
-      print_notes({std::string(error.what()) + " (the check goes on; if it is stopped, it cannot be resumed from here)"});
+      print_notes(
+          {std::string(error.what()) + " (the check goes on; if it is stopped, it cannot be resumed from here)"});
     }
     return false;
   }

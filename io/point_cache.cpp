@@ -37,7 +37,8 @@ std::uint64_t read_count(const std::string& start, std::size_t offset, std::endi
   return static_cast<std::uint64_t>(count);
 }
 
-/// Before anything is allocated by the header's counts. Both are below 2^31, and a vertex has 12 bytes: so many overflow.
+/// Before anything is allocated by the header's counts. Both are below 2^31, and a vertex has 12 bytes: so many
+/// overflow.
 void require_size(const ByteSource& source, const PointCacheHeader& header, const std::string& name) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
   const bool is_sum = header.frame_count <= (kMost - header.data_offset) / header.frame_size();
@@ -45,8 +46,8 @@ void require_size(const ByteSource& source, const PointCacheHeader& header, cons
   if (source.size() == announced) return;
   bad_input_at_byte(name, std::min(source.size(), announced),
                     std::to_string(header.frame_count) + " frames of " + std::to_string(header.vertex_count) +
-                        " vertices make " + (is_sum ? "" : "more than ") + std::to_string(announced) + " bytes, the file has " +
-                        std::to_string(source.size()) + "; export it again");
+                        " vertices make " + (is_sum ? "" : "more than ") + std::to_string(announced) +
+                        " bytes, the file has " + std::to_string(source.size()) + "; export it again");
 }
 
 [[noreturn]] void not_increasing(const std::string& name, std::uint64_t offset, std::uint64_t frame) {

@@ -21,9 +21,9 @@ std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem:
   if (!base.empty() && !is_cache) bad_input(base.string(), "only a .pc2 or .mdd needs a base mesh; leave it out");
   if (!is_folder && !is_npz && !is_cache) return open_mesh_files(sources);
   if (sources.size() > 1) {
-    bad_input(first.string(), std::string(is_folder ? "a folder" : is_npz ? "an .npz" : "a point cache") +
-                                  " is a sequence by itself; name it alone" +
-                                  (is_cache ? ", its base mesh with --base" : ""));
+    const std::string what = is_folder ? "a folder" : is_npz ? "an .npz" : "a point cache";
+    bad_input(first.string(),
+              what + " is a sequence by itself; name it alone" + (is_cache ? ", its base mesh with --base" : ""));
   }
   if (is_folder) return open_folder_sequence(first);
   if (is_npz) return open_npz_sequence(open_file(first), first.string());

@@ -120,15 +120,17 @@ void require_absent(const fs::path& file) {
 void require_same_mesh(const OutputHeader& header, const MeshData& mesh, OutputFormat format, const fs::path& target) {
   const SequenceHeader& first = header.sequence;
   if (mesh.points.size() != header.vertex_count || mesh.triangles != first.triangles) {
-    bad_input(target.string(),
-              "the faces or the number of vertices change between frames; write .obj or .pvd, which hold a mesh a frame");
+    bad_input(
+        target.string(),
+        "the faces or the number of vertices change between frames; write .obj or .pvd, which hold a mesh a frame");
   }
   const std::size_t faces = first.triangles.size();
   if (traits(format).keeps_group_names && mesh.groups != first.groups) {
     bad_input(target.string(), "the groups change between frames; write .obj, which holds them with every frame");
   }
   if (traits(format).keeps_roles && role_bytes(faces, mesh.groups) != role_bytes(faces, first.groups)) {
-    bad_input(target.string(), "which faces are bodies changes between frames; write .pvd, which holds it with every frame");
+    bad_input(target.string(),
+              "which faces are bodies changes between frames; write .pvd, which holds it with every frame");
   }
 }
 

@@ -39,9 +39,9 @@ struct OutputHeader {
 class SequenceOutput {
  public:
   virtual ~SequenceOutput() = default;
-  /// Frames come in order, as many as the header announces. Throws Error: another mesh or other groups than those of the first
-  /// where the format has one, a value that is no float32 where it stores these (they are never rounded here), times that do not
-  /// increase, any failure of the file system.
+  /// Frames come in order, as many as the header announces. Throws Error: another mesh or other groups than those of
+  /// the first where the format has one, a value that is no float32 where it stores these (they are never rounded
+  /// here), times that do not increase, any failure of the file system.
   virtual void append(double time_s, const MeshData& mesh) = 0;
   /// REQUIRES all frames. On disk, under its own name, when it returns.
   virtual void finish() = 0;

@@ -29,8 +29,8 @@ namespace selvage::io {
                                                const char* extension);
 /// Throws Error(kFile) if `file` is there, or can have no such name.
 void require_absent(const std::filesystem::path& file);
-/// Throws Error(kBadInput) unless `mesh` has the number of vertices, the faces, and of the groups what the format keeps,
-/// as the first frame has them.
+/// Throws Error(kBadInput) unless `mesh` has the number of vertices, the faces, and of the groups what the format
+/// keeps, as the first frame has them.
 void require_same_mesh(const OutputHeader& header, const MeshData& mesh, OutputFormat format,
                        const std::filesystem::path& target);
 

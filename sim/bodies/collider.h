@@ -49,8 +49,8 @@ class Collider {
     double leaves_line_by_m = 0;  ///< how far they leave the straight lines from where they are first to where at last
     Eigen::AlignedBox3d within;   ///< where they are meanwhile; not of one that goes straight
   };
-  /// At its keys and at quarters of the time between. Infinite where it turns by more than 90 degrees, of which the ends
-  /// say little. 0 of an attachment, whose body tells.
+  /// At its keys and at quarters of the time between. Infinite where it turns by more than 90 degrees, of which the
+  /// ends say little. 0 of an attachment, whose body tells.
   [[nodiscard]] Bend bend(double t0_s, double t1_s) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;

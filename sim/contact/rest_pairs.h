@@ -19,14 +19,14 @@ struct RestPair {
   friend bool operator==(const RestPair&, const RestPair&) = default;
 };
 
-/// All pairs of `mesh`, its faces' own included, that are nearer than `thickness_m` in the rest shape V_rest; sorted by kind, first and second.
-/// Of one cloth: two cloths repel at their whole thickness, wherever their rest shapes lie. None where the positions
-/// are invalid. Time and memory O(n + pairs), beside that of a broad phase; once for a cloth. REQUIRES thickness_m >=
-/// 0, finite.
+/// All pairs of `mesh`, its faces' own included, that are nearer than `thickness_m` in the rest shape V_rest; sorted by
+/// kind, first and second. Of one cloth: two cloths repel at their whole thickness, wherever their rest shapes lie.
+/// None where the positions are invalid. Time and memory O(n + pairs), beside that of a broad phase; once for a cloth.
+/// REQUIRES thickness_m >= 0, finite.
 [[nodiscard]] std::vector<RestPair> find_rest_pairs(const Mesh& mesh, const PositionsRef& V_rest, double thickness_m);
 
-/// kNone, kBadSurfaces (no pair of the mesh, or one of kVf or kEe whose features share a vertex), or kBadOption (a distance out of
-/// its range).
+/// kNone, kBadSurfaces (no pair of the mesh, or one of kVf or kEe whose features share a vertex), or kBadOption (a
+/// distance out of its range).
 [[nodiscard]] InputError validate(const Mesh& mesh, const std::vector<RestPair>& pairs);
 
 /// Looks them up.

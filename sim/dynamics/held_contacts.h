@@ -27,9 +27,9 @@ struct MidstepMotion {
 
 /// What the contacts are on; all must outlive them. The first `cloth_count` vertices move as the dynamics says, the
 /// others as V_t0 + s (V_t1 - V_t0) - s (1 - s) bow, s from 0 to 1 in the collision step: on straight lines without.
-/// Where a body speeds up or turns, cloth that sticks to it has its speed at the end of the step then. On straight lines
-/// it met another one in every step, and slipped by (a dt)^2 / (2 mu g) until friction had caught up: 15 mm/s on a table
-/// that turned at 2 rad/s, half a metre from its axis, in steps of 1/30 s under a friction of 0.5.
+/// Where a body speeds up or turns, cloth that sticks to it has its speed at the end of the step then. On straight
+/// lines it met another one in every step, and slipped by (a dt)^2 / (2 mu g) until friction had caught up: 15 mm/s on
+/// a table that turned at 2 rad/s, half a metre from its axis, in steps of 1/30 s under a friction of 0.5.
 struct HeldSurface {
   const Mesh& mesh;
   const VertexFaces& faces;

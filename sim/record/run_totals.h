@@ -37,7 +37,8 @@ struct RunTotals {
   void add(const StepResult& step);
   /// One clause for each thing that went less well than the scene asked for, "" where nothing did: the fail-safe was
   /// needed, pairs ended a step nearer than the tolerance, bodies waited, vertices were cut back (travel_limit.h),
-  /// bodies passed by what lies beside a straight line (StepResult::is_bent), equations were not solved. No intersection is among them: these end runs.
+  /// bodies passed by what lies beside a straight line (StepResult::is_bent), equations were not solved. No
+  /// intersection is among them: these end runs.
   [[nodiscard]] std::string shortfalls() const;
 };
 

@@ -134,7 +134,8 @@ TEST(LongRuns, WhatDoesNotFitTogetherIsNamedWithARemedy) {
   auto others = files;
   others[2] = folder.path() / "other" / "good_2.obj";
   std::filesystem::copy(files[2], others[2]);
-  ASSERT_EQ(run_program(folder, verify(others, {"--shard", "2/2", "--json", folder.path() / "other.json"})).exit_code, 0);
+  ASSERT_EQ(run_program(folder, verify(others, {"--shard", "2/2", "--json", folder.path() / "other.json"})).exit_code,
+            0);
   const struct {
     std::vector<std::string> reports;
     const char *what, *remedy;

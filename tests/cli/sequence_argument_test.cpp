@@ -239,10 +239,12 @@ TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {
   EXPECT_NE(verify({"f_1.obj", "f_1.obj"}).find("f_1.obj comes right after "), std::string::npos);
   EXPECT_NE(verify({"f_0.obj", "f_2.obj", "f_3.obj"}).find("f_2.obj comes right after "), std::string::npos);
   EXPECT_NE(verify({"s1_v2.obj", "s2_v2.obj", "s9_v2.obj"}).find("s9_v2.obj comes right after "), std::string::npos);
-  EXPECT_NE(verify({"c.-003.obj", "c.-001.obj", "c.0000.obj"}).find("c.-001.obj comes right after "), std::string::npos);
+  EXPECT_NE(verify({"c.-003.obj", "c.-001.obj", "c.0000.obj"}).find("c.-001.obj comes right after "),
+            std::string::npos);
   EXPECT_NE(verify({"g_1.obj", "g_2.OBJ", "g_4.obj"}).find("g_4.obj comes right after "), std::string::npos);
   const std::string id = "_12345678901234567890";
-  EXPECT_NE(verify({"1" + id + ".obj", "2" + id + ".obj", "4" + id + ".obj"}).find("comes right after "), std::string::npos);
+  EXPECT_NE(verify({"1" + id + ".obj", "2" + id + ".obj", "4" + id + ".obj"}).find("comes right after "),
+            std::string::npos);
   EXPECT_NE(verify({"f_2.obj", "f_1.obj"}).find("in the order in which they are named"), std::string::npos);
   for (const std::vector<std::string>& even : {std::vector<std::string>{"f_08.obj", "f_09.obj", "f_10.obj"},
                                                {"f_9.obj", "f_10.obj", "f_11.obj"},

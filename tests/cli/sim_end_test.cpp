@@ -58,6 +58,25 @@ TEST_F(SimCommand, SolvesThatDoNotConvergeAreNotedAndStrictCountsThem) {
   EXPECT_EQ(sim(over_a_ball("[5, 0, -10]"), {"--strict"}).exit_code, 1);
 }
 
+TEST_F(SimCommand, StepsTooLongForABodyThatTurnsAreNotedAndStrictCountsThem) {
+  const auto over_a_blade = [](const std::string& min_step) {
+    return "[time]\nframes = 1\n" + min_step +
+           "[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.1, height_m = 0.1}\nposition_m = [0.5, 0, 0.16]\n"
+           "density_kg_m2 = 0.2\nstretch_n_m = 60\n[[body]]\nbox = {size_m = [2, 0.05, 0.3]}\n"
+           "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 10800]}]\n";
+  };
+  const auto followed = sim(over_a_blade(""), {"--strict"});
+  EXPECT_EQ(followed.exit_code, 0) << followed.err;
+  EXPECT_EQ(followed.err.find("too long"), std::string::npos) << followed.err;
+  std::filesystem::remove_all(path("out"));
+  const auto noted = sim(over_a_blade("min_step_s = 0.03\n"));
+  EXPECT_EQ(noted.exit_code, 0) << noted.err;
+  EXPECT_NE(noted.err.find("note: 1 steps were too long for a body that turns"), std::string::npos) << noted.err;
+  EXPECT_EQ(nlohmann::json::parse(slurp(path("out") + "/run.json"))["bent_steps"], 1);
+  std::filesystem::remove_all(path("out"));
+  EXPECT_EQ(sim(over_a_blade("min_step_s = 0.03\n"), {"--strict"}).exit_code, 1);
+}
+
 TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   // The ball rises until it overlaps the lid by 4 cm, with the sheet between them.
   const auto stopped = sim(scene(6, 0.2, 0.34));

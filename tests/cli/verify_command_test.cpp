@@ -181,7 +181,8 @@ TEST(VerifyCommand, WhatMayTouchIsCountedAndMustExist) {
 }
 
 /// Where a group that a rule names is missing in the second of two frames. What was kept of the first is FILE.progress.
-testing::ProgramResult verify_up_to_a_missing_group(const TemporaryFolder& folder, const std::filesystem::path& report) {
+testing::ProgramResult verify_up_to_a_missing_group(const TemporaryFolder& folder,
+                                                    const std::filesystem::path& report) {
   const auto a = folder.path() / "s_0.obj", b = folder.path() / "s_1.obj";
   const std::string button = "v 9 9 9\nv 8 9 9\nv 8 8 9\ng button\nf 7 8 9\n";
   spit(a, two_faces(0) + button);

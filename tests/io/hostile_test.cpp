@@ -293,7 +293,8 @@ std::vector<Hostile> hostile_caches() {
        "in: byte 128: 2147483647 frames"},
       // 12 times their product is 2^64 and the 11,936 bytes that are there
       {"pc2_overflow", "pc2",
-       cache_with(cache_with(pc2, 16, std::string("\x64\xca\x00\x40", 4)), 28, "\x7e\x47\x54\x55") + std::string(11840, '\0'),
+       cache_with(cache_with(pc2, 16, std::string("\x64\xca\x00\x40", 4)), 28, "\x7e\x47\x54\x55") +
+           std::string(11840, '\0'),
        "in: byte 11968: 1431586686 frames of 1073793636 vertices make more than 18446744073709551615 bytes"},
       {"pc2_start_nan", "pc2", cache_with(pc2, 20, nan_little), "in: byte 20: the start frame or the sampling rate"},
       {"pc2_rate_nan", "pc2", cache_with(pc2, 24, nan_little), "in: byte 20: the start frame or the sampling rate"},

@@ -28,12 +28,13 @@ bool meets(const StepResult& step) {
 // The blade is back where it was at the end of every frame.
 TEST(TurningBodies, ABladeThatTurnsOnceAFrameMeetsTheCloth) {
   for (const char* solver : {"explicit", "implicit"}) {
-    Simulation simulation = make(solver, "duration_s = 0.1",
-                                 "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 10, ny = 10, width_m = 0.4, "
-                                 "height_m = 0.4}\nposition_m = [0, 0.6, 0]\nrotation_deg = [0, 90, 0]\n" +
-                                     std::string(kMaterial) +
-                                     "[[cloth.pin]]\nedge = \"top\"\n[[body]]\nbox = {size_m = [2, 0.05, 0.3]}\n"
-                                     "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 10800]}]\n");
+    Simulation simulation =
+        make(solver, "duration_s = 0.1",
+             "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 10, ny = 10, width_m = 0.4, "
+             "height_m = 0.4}\nposition_m = [0, 0.6, 0]\nrotation_deg = [0, 90, 0]\n" +
+                 std::string(kMaterial) +
+                 "[[cloth.pin]]\nedge = \"top\"\n[[body]]\nbox = {size_m = [2, 0.05, 0.3]}\n"
+                 "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 10800]}]\n");
     bool has_met = false;
     while (!has_met && simulation.clock().time_s() < 0.1 - 1e-9) has_met = meets(simulation.step());
     EXPECT_TRUE(has_met) << solver;
@@ -42,12 +43,13 @@ TEST(TurningBodies, ABladeThatTurnsOnceAFrameMeetsTheCloth) {
 }
 
 TEST(TurningBodies, ABoxThatComesAndGoesWithinAStepThrowsTheCloth) {
-  Simulation simulation = make("explicit", "duration_s = 0.2",
-                               "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.1, "
-                               "height_m = 0.1}\n" +
-                                   std::string(kMaterial) +
-                                   "[[body]]\nbox = {size_m = [0.4, 0.4, 0.1]}\nkey = [{time_s = 0, position_m = [0, 0, -0.1]}, "
-                                   "{time_s = 0.013, position_m = [0, 0, 0.3]}, {time_s = 0.031, position_m = [0, 0, -0.1]}]\n");
+  Simulation simulation =
+      make("explicit", "duration_s = 0.2",
+           "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.1, "
+           "height_m = 0.1}\n" +
+               std::string(kMaterial) +
+               "[[body]]\nbox = {size_m = [0.4, 0.4, 0.1]}\nkey = [{time_s = 0, position_m = [0, 0, -0.1]}, "
+               "{time_s = 0.013, position_m = [0, 0, 0.3]}, {time_s = 0.031, position_m = [0, 0, -0.1]}]\n");
   while (simulation.clock().time_s() < 0.1 - 1e-9) simulation.step();
   EXPECT_GT(simulation.x().topRows(36).col(2).minCoeff(), 0.3);
 }

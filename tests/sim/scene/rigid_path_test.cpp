@@ -90,15 +90,17 @@ TEST(RigidPath, SaysHowFarItTurnsAndWhereItMayBend) {
 
 TEST(Collider, KnowsHowFarItLeavesStraightLines) {
   const auto on = [](std::vector<PoseKey> keys, const Vec3& vertex) {
-    return Collider("body", {0},
-                    Collider::Rigid{vertex.transpose(), Linkage({}, RigidPath(std::move(keys), Interpolation::kLinear))});
+    return Collider(
+        "body", {0},
+        Collider::Rigid{vertex.transpose(), Linkage({}, RigidPath(std::move(keys), Interpolation::kLinear))});
   };
   const Vec3 vertex(2, 0, 0), none = Vec3::Zero();
   const Collider turning = on({{0, {}}, {1, {none, {0, 0, 60}}}}, vertex);
   EXPECT_NEAR(turning.bend(0, 1).leaves_line_by_m, 2 * (1 - std::sqrt(0.75)), 1e-15);
   EXPECT_NEAR(turning.bend(0, 0.5).leaves_line_by_m, 2 * (1 - std::cos(std::acos(-1) / 12)), 1e-15);
   EXPECT_EQ(turning.bend(1, 2).leaves_line_by_m, 0);
-  EXPECT_EQ(on({{0, {}}, {1, {none, {0, 0, 360}}}}, vertex).bend(0, 1).leaves_line_by_m, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(on({{0, {}}, {1, {none, {0, 0, 360}}}}, vertex).bend(0, 1).leaves_line_by_m,
+            std::numeric_limits<double>::infinity());
   // There and back between the quarters; and along one line at two speeds, which leaves nothing out.
   EXPECT_NEAR(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {0.2, {}}}, vertex).bend(0, 1).leaves_line_by_m, 3, 1e-15);
   EXPECT_EQ(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {1, {{0, 0, 4}, none}}}, vertex).bend(0, 1).leaves_line_by_m, 0);
