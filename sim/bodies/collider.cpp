@@ -57,7 +57,7 @@ Collider::Bend Collider::bend(double t0_s, double t1_s) const {
   constexpr double kMostTurn_deg = 90;
   constexpr double kRounding = 0x1p-40;  // of places, however far out; thousands of times more than there is
   Bend bend;
-  if (std::holds_alternative<Attachment>(motion_)) return bend;
+  if (vertices_.empty() || std::holds_alternative<Attachment>(motion_)) return bend;
   const auto* rigid = std::get_if<Rigid>(&motion_);
   const Linkage& linkage = rigid != nullptr ? rigid->linkage : std::get<Animated>(motion_).linkage;
   const auto placed = [this](double time_s) { return placed_at(time_s, false, {}); };

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 10\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 11\n";
 
 template <class Number>
 void put(std::string& bytes, const Number& number) {

@@ -136,6 +136,39 @@ TEST(ContactPack, PropGivesTheSameBitsInAnyLaneOnAnyVectorUnit) {
   });
 }
 
+// Without a bow on a straight line, with it a quarter of that beside the middle.
+TEST(ContactPack, PropWhatIsNotClothGoesOnItsParabola) {
+  selvage::testing::check_property(100, 45, [] {
+    EightPairs eight = eight_pairs();
+    LaneVectors bow;
+    bow.copy(Positions::Random(4 * kLanes, 3));
+    const double share = number_between(0, 0.5), step_share = number_between(0, 0.5);
+    const auto place = [&](Eigen::Index row, double s, bool bends) -> Vec3 {
+      return eight.scripted_x.row(row) + s * eight.scripted_way.row(row) - (bends ? s * (1 - s) : 0) * bow.row(row);
+    };
+    for (const bool bends : {false, true}) {
+      ContactMotion motion = eight.motion();
+      motion.share = share;
+      motion.step_share = step_share;
+      motion.scripted_bow = bends ? &bow : nullptr;
+      PackMotion read;
+      read_motion(eight.pack, kAll, motion, read);
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          if (eight.pack.vertices[i][lane] >= 0) continue;
+          const auto row = static_cast<Eigen::Index>(~eight.pack.vertices[i][lane]);
+          const Vec3 from = place(row, share, bends), to = place(row, share + step_share, bends);
+          for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<Eigen::Index>(k);
+            RC_ASSERT(std::abs(read.x[i][k][lane] - from[axis]) < 1e-13);
+            RC_ASSERT(std::abs(read.x[i][k][lane] + read.displacement[i][k][lane] - to[axis]) < 1e-13);
+          }
+        }
+      }
+    }
+  });
+}
+
 TEST(ContactPack, PropPressesAndRubsAsOnePairDoes) {
   selvage::testing::check_property(300, 43, [] {
     EightPairs eight = eight_pairs();
