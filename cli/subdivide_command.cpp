@@ -82,25 +82,16 @@ void require_in_domain(const io::Points& points, const std::string& name) {
 io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, const io::MeshData& first) {
   io::MeshData mesh = input.frame(frame);
   const std::string name = input.frame_name(frame);
+  const auto differs = [&name](const std::string& what) {
+    return io::Error(io::ErrorKind::kBadInput, name + ": " + what +
+                                                   "; subdivide such frames one by one with --frame, each into a "
+                                                   "folder of its own");
+  };
   if (mesh.points.size() != first.points.size()) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: {} vertices, the first frame has {}; subdivide such frames one by one with "
-                                "--frame, each into a folder of its own",
-                                name, mesh.points.size(), first.points.size()));
+    throw differs(fmt::format("{} vertices, the first frame has {}", mesh.points.size(), first.points.size()));
   }
-  if (mesh.triangles != first.triangles) {
-    throw io::Error(io::ErrorKind::kBadInput,
-                    fmt::format("{}: its faces are not those of the first frame; subdivide such frames one by one with "
-                                "--frame, each into a folder of its own",
-                                name));
-  }
-  if (mesh.groups != first.groups) {
-    throw io::Error(
-        io::ErrorKind::kBadInput,
-        fmt::format("{}: its groups are not those of the first frame; subdivide such frames one by one with "
-                    "--frame, each into a folder of its own",
-                    name));
-  }
+  if (mesh.triangles != first.triangles) throw differs("its faces are not those of the first frame");
+  if (mesh.groups != first.groups) throw differs("its groups are not those of the first frame");
   require_in_domain(mesh.points, name);
   return mesh;
 }

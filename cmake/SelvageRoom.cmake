@@ -4,7 +4,8 @@ function(compile_alone target)
   set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# public_headers(TARGET NAME HEADERS...): the headers of the room NAME as public_headers.cmake writes them for users, installed or not.
+# public_headers(TARGET NAME HEADERS...): the headers of the room NAME as public_headers.cmake writes them, for users who
+# install Selvage and for those who add it to their project.
 function(public_headers target name)
   set(public "${PROJECT_BINARY_DIR}/public_headers")
   list(TRANSFORM ARGN PREPEND "${name}/")

@@ -32,7 +32,6 @@ Positions ScriptedMotion::follow(const Positions& x, const StepClock& clock) {
   scripted_ = scripted_at(world_, clock.time_s());
   Positions x_t1 = x;
   bow_m_.setZero(x.rows() - world_.cloth_vertex_count, 3);
-  has_bow_ = false;
   for (const Collider& collider : world_.colliders) {
     if (collider.holds(clock.time_s())) follow(collider, x, clock, x_t1);
   }
@@ -57,19 +56,18 @@ void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, con
     if (waits_[static_cast<std::size_t>(vertices[i])] == 0)
       x.row(vertices[i]) = script_t1.row(static_cast<Eigen::Index>(i));
   }
-  if (is_on_script) bend(collider, (clock.time_s() + clock.end_s()) / 2, x_t0, x);
+  if (is_on_script) set_bow(collider, (clock.time_s() + clock.end_s()) / 2, x_t0, x);
 }
 
-void ScriptedMotion::bend(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1) {
+void ScriptedMotion::set_bow(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1) {
   const std::vector<VertexId>& vertices = collider.vertices();
   if (vertices.empty() || vertices.front() < world_.cloth_vertex_count) return;  // pins move as springs have them
   const Positions middle = collider.placed_at(middle_s, false, x_t0);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const VertexId vertex = vertices[i];
     if (waits_[static_cast<std::size_t>(vertex)] != 0) continue;
-    auto row = bow_m_.row(vertex - world_.cloth_vertex_count);
-    row = 2 * (x_t0.row(vertex) + x_t1.row(vertex)) - 4 * middle.row(static_cast<Eigen::Index>(i));
-    has_bow_ = has_bow_ || !row.isZero(0);
+    bow_m_.row(vertex - world_.cloth_vertex_count) =
+        2 * (x_t0.row(vertex) + x_t1.row(vertex)) - 4 * middle.row(static_cast<Eigen::Index>(i));
   }
 }
 

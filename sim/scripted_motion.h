@@ -28,7 +28,7 @@ class ScriptedMotion {
   /// How bodies leave the straight lines of the last motion: halfway through the step a vertex is a quarter of its row
   /// away from the middle of its line, m. #V less those of cloth by 3; null where no body does. 0 for those that wait,
   /// or are not where their scripts have them.
-  [[nodiscard]] const Positions* bow_m() const { return has_bow_ ? &bow_m_ : nullptr; }
+  [[nodiscard]] const Positions* bow_m() const { return bow_m_.isZero(0) ? nullptr : &bow_m_; }
   /// Bodies that had to wait in a try are known before the next one, which starts from the same state: so the dynamics
   /// sees them stand still. Where it saw them move, cloth took up a motion that never was: pinched between two spheres
   /// that stood it came to 70 m/s.
@@ -45,14 +45,13 @@ class ScriptedMotion {
 
  private:
   void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x);
-  void bend(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1);
+  void set_bow(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1);
 
   const Scene& scene_;
   const World& world_;
   ScriptedVertices scripted_;
   std::vector<std::uint8_t> waits_;  ///< #V
   Positions bow_m_;
-  bool has_bow_ = false;
 };
 
 }  // namespace selvage::sim

@@ -70,12 +70,7 @@ Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
 StepResult Simulation::step() {
   const FpEnvGuard guard;
   StepResult result;
-  bool is_straight = script_.goes_straight(x_, v_, clock_);
-  while (!is_straight && clock_.can_halve()) {
-    clock_.shorten();
-    is_straight = script_.goes_straight(x_, v_, clock_);
-  }
-  result.is_bent = !is_straight;
+  result.is_bent = !shorten_for_scripts();
   const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);
   script_.start_step();
@@ -105,6 +100,15 @@ StepResult Simulation::step() {
   result.report.repulsions += tried.held.repulsions;
   result.report.frictions += tried.held.frictions;
   return result;
+}
+
+// Before any try: no response of a try tells of cloth that a body has passed beside its straight way.
+bool Simulation::shorten_for_scripts() {
+  while (!script_.goes_straight(x_, v_, clock_)) {
+    if (!clock_.can_halve()) return false;
+    clock_.shorten();
+  }
+  return true;
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are

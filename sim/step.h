@@ -70,6 +70,8 @@ class Simulation {
     std::vector<ContactLoad> loads;  ///< at its end
     CollisionStepResult safe;
   };
+  /// Whether a step is short enough then for bodies that turn.
+  bool shorten_for_scripts();
   /// From the state, in the clock's step; adds its phases, and the dynamics' report.
   Try try_step(StepResult& result);
   /// Contacts that the dynamics should hold from the beginning. `x`: scripted vertices at the end of the step.

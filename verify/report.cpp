@@ -150,7 +150,9 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
             ", the smallest: " + name_of(report.gap->event) + " " + count(report.gap->features[0]) + " " +
             count(report.gap->features[1]) + " in frame " + count(report.gap->frame) + "\n";
   }
-  if (report.gap_searched && !report.gap) text += "gap:        none: no pair of features without a common vertex\n";
+  if (report.gap_searched && !report.gap)
+    text +=
+        "gap:        none: no pair of features without a common vertex, or all farther apart than a double can say\n";
   if (report.second_opinion != SecondOpinionScope::kNone) {
     text += "second:     " + count(report.pairs.asked_again) + " pairs decided again, " +
             count(report.pairs.disagreed) + " disagreements\n";
