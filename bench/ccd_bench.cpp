@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/ccd_methods.h"
-#include "verify/exact_distance.h"
+#include "verify/decision/exact_distance.h"
 
 namespace selvage::bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bench/mesh_motion.h"
 #include "kernel/ccd.h"
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 

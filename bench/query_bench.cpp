@@ -11,7 +11,7 @@
 #include "bench/measure.h"
 #include "bench/textbook.h"
 #include "kernel/ccd.h"
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/types.h"
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "bench/broad_bench.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/number_check.h"
-#include "cli/output_check.h"
-#include "cli/terminal.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

@@ -10,15 +10,15 @@
 
 #include "bench/ccd_bench.h"
 #include "bench/query_bench.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
 #include "cli/bench_broad_command.h"
 #include "cli/bench_methods_command.h"
 #include "cli/bench_sim_command.h"
 #include "cli/bench_stability_command.h"
 #include "cli/bench_verify_command.h"
 #include "cli/command.h"
-#include "cli/number_check.h"
-#include "cli/output_check.h"
-#include "cli/terminal.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "bench/method_bench.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/hard_queries.h"
-#include "cli/output_check.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "bench/sim_bench.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "bench/stability/suite.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
-#include "cli/output_check.h"
-#include "cli/terminal.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

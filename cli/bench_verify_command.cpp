@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "bench/verify_bench.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
-#include "cli/terminal.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

@@ -12,20 +12,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/frame_range.h"
-#include "cli/group_names.h"
-#include "cli/interrupt.h"
-#include "cli/output_check.h"
-#include "cli/read_back.h"
-#include "cli/sequence_argument.h"
-#include "cli/shell_word.h"
-#include "cli/terminal.h"
-#include "cli/verdict.h"
+#include "cli/answer/read_back.h"
+#include "cli/answer/shell_word.h"
+#include "cli/answer/verdict.h"
+#include "cli/arguments/frame_range.h"
+#include "cli/arguments/group_names.h"
+#include "cli/arguments/output_check.h"
+#include "cli/arguments/sequence_argument.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
 #include "io/points.h"
 #include "io/sequence_output.h"
 #include "io/text.h"
 #include "verify/check.h"
-#include "verify/report.h"
+#include "verify/report/report.h"
 
 namespace selvage::cli {
 namespace {

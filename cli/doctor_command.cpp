@@ -14,11 +14,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "cli/fp_state.h"
-#include "cli/hostile_fp.h"
-#include "cli/output_check.h"
-#include "cli/self_check.h"
-#include "cli/version.h"
+#include "cli/arguments/output_check.h"
+#include "cli/process/fp_state.h"
+#include "cli/process/hostile_fp.h"
+#include "cli/process/self_check.h"
+#include "cli/process/version.h"
 #include "io/atomic_file.h"
 #include "kernel/fp_env.h"
 

@@ -13,18 +13,18 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "cli/answer/fuzz_table.h"
+#include "cli/answer/replay.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
+#include "cli/arguments/shard.h"
 #include "cli/command.h"
-#include "cli/fuzz_table.h"
-#include "cli/interrupt.h"
-#include "cli/number_check.h"
-#include "cli/output_check.h"
 #include "cli/page/conformance_page.h"
-#include "cli/replay.h"
-#include "cli/shard.h"
-#include "cli/terminal.h"
-#include "fuzz/campaign_stats.h"
-#include "fuzz/conformance.h"
-#include "fuzz/driver.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
+#include "fuzz/plugin/conformance.h"
+#include "fuzz/run/campaign_stats.h"
+#include "fuzz/run/driver.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

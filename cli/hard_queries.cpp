@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "fuzz/generators.h"
+#include "fuzz/draw/generators.h"
 
 namespace selvage::cli {
 namespace {

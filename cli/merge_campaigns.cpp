@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/fuzz_table.h"
-#include "cli/output_check.h"
-#include "fuzz/driver.h"
+#include "cli/answer/fuzz_table.h"
+#include "cli/arguments/output_check.h"
+#include "fuzz/run/driver.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

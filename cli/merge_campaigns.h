@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "cli/exit_code.h"
+#include "cli/process/exit_code.h"
 
 namespace selvage::cli {
 

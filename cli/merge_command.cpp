@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "cli/answer/verdict.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/exit_code.h"
 #include "cli/merge_campaigns.h"
-#include "cli/output_check.h"
 #include "cli/page/report_page.h"
-#include "cli/terminal.h"
-#include "cli/verdict.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
-#include "verify/merge.h"
+#include "verify/report/merge.h"
 
 namespace selvage::cli {
 namespace {

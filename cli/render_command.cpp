@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/choice.h"
-#include "cli/hidden_groups.h"
-#include "cli/interrupt.h"
-#include "cli/number_check.h"
+#include "cli/arguments/choice.h"
+#include "cli/arguments/hidden_groups.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/sequence_argument.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
 #include "cli/render/contact_sheet.h"
-#include "cli/sequence_argument.h"
-#include "cli/terminal.h"
 #include "io/extension.h"
 
 namespace selvage::cli {

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/replay.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/number_check.h"
-#include "cli/output_check.h"
-#include "cli/replay.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

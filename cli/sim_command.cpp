@@ -11,14 +11,14 @@
 
 #include <fmt/format.h>
 
-#include "cli/choice.h"
-#include "cli/enclosed_cloth.h"
-#include "cli/interrupt.h"
-#include "cli/output_check.h"
-#include "cli/start_check.h"
-#include "cli/terminal.h"
-#include "cli/thread_limit.h"
-#include "cli/waiting_summary.h"
+#include "cli/answer/waiting_summary.h"
+#include "cli/arguments/choice.h"
+#include "cli/arguments/output_check.h"
+#include "cli/arguments/thread_limit.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
+#include "cli/start/enclosed_cloth.h"
+#include "cli/start/start_check.h"
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"

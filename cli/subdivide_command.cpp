@@ -14,12 +14,12 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "cli/interrupt.h"
-#include "cli/number_check.h"
-#include "cli/output_check.h"
-#include "cli/sequence_argument.h"
-#include "cli/terminal.h"
-#include "cli/thread_limit.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
+#include "cli/arguments/sequence_argument.h"
+#include "cli/arguments/thread_limit.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
 #include "io/sequence_outputs.h"
 #include "io/text.h"
 #include "kernel/types.h"

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "cli/case_output.h"
+#include "cli/answer/case_output.h"
+#include "cli/answer/verdict.h"
+#include "cli/answer/verify_progress.h"
+#include "cli/arguments/output_check.h"
+#include "cli/arguments/thread_limit.h"
+#include "cli/arguments/verify_arguments.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
-#include "cli/output_check.h"
 #include "cli/page/report_page.h"
-#include "cli/terminal.h"
-#include "cli/thread_limit.h"
-#include "cli/verdict.h"
-#include "cli/verify_arguments.h"
-#include "cli/verify_progress.h"
+#include "cli/process/interrupt.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
-#include "verify/report.h"
+#include "verify/report/report.h"
 
 namespace selvage::cli {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/choice.h"
-#include "cli/hidden_groups.h"
+#include "cli/arguments/choice.h"
+#include "cli/arguments/hidden_groups.h"
+#include "cli/arguments/sequence_argument.h"
 #include "cli/page/player_page.h"
 #include "cli/page/report_words.h"
-#include "cli/sequence_argument.h"
-#include "cli/terminal.h"
+#include "cli/process/terminal.h"
 #include "io/atomic_file.h"
 
 namespace selvage::cli {

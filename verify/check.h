@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "io/sequence.h"
-#include "verify/exact_motion.h"
-#include "verify/group_rules.h"
-#include "verify/second_opinion.h"
-#include "verify/topology.h"
+#include "verify/decision/exact_motion.h"
+#include "verify/decision/second_opinion.h"
+#include "verify/surface/group_rules.h"
+#include "verify/surface/topology.h"
 
 namespace selvage::verify {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "verify/distance_filter.h"
-#include "verify/exact_distance.h"
-#include "verify/fp_guard.h"
+#include "verify/arithmetic/fp_guard.h"
+#include "verify/decision/exact_distance.h"
+#include "verify/filter/distance_filter.h"
 #include "verify/near_pairs.h"
 #include "verify/tally.h"
 #include "verify/violation.h"

@@ -1,11 +1,11 @@
 #include <utility>
 
+#include "verify/arithmetic/predicates.h"
 #include "verify/check.h"
+#include "verify/decision/exact_overlap.h"
 #include "verify/distance_check.h"
-#include "verify/exact_overlap.h"
-#include "verify/face_tree.h"
 #include "verify/part_trees.h"
-#include "verify/predicates.h"
+#include "verify/search/face_tree.h"
 #include "verify/violation.h"
 
 namespace selvage::verify {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "io/checksum.h"
-#include "verify/weld.h"
+#include "verify/surface/weld.h"
 
 namespace selvage::verify {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "io/sequence.h"
 #include "verify/check.h"
-#include "verify/group_rules.h"
-#include "verify/topology.h"
+#include "verify/surface/group_rules.h"
+#include "verify/surface/topology.h"
 
 namespace selvage::verify {
 

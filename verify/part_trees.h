@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "verify/box_pairs.h"
+#include "verify/search/box_pairs.h"
+#include "verify/surface/topology.h"
 #include "verify/tally.h"
-#include "verify/topology.h"
 
 namespace selvage::verify {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "verify/arithmetic/fp_guard.h"
 #include "verify/check.h"
-#include "verify/fp_guard.h"
 #include "verify/frame_source.h"
 #include "verify/smallest_gap.h"
 

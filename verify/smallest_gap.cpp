@@ -6,9 +6,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "verify/distance_filter.h"
-#include "verify/exact_distance.h"
-#include "verify/fp_guard.h"
+#include "verify/arithmetic/fp_guard.h"
+#include "verify/decision/exact_distance.h"
+#include "verify/filter/distance_filter.h"
 #include "verify/near_pairs.h"
 
 namespace selvage::verify {

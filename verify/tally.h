@@ -10,8 +10,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "verify/arithmetic/fp_guard.h"
 #include "verify/check.h"
-#include "verify/fp_guard.h"
 
 namespace selvage::verify {
 

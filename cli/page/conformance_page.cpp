@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/shell_word.h"
 #include "cli/page/report_words.h"
-#include "cli/shell_word.h"
-#include "fuzz/case_file.h"
-#include "fuzz/generators.h"
-#include "fuzz/shrink_query.h"
+#include "fuzz/cases/case_file.h"
+#include "fuzz/draw/generators.h"
+#include "fuzz/shrink/shrink_query.h"
 #include "io/atomic_file.h"
 #include "page/page.h"
 

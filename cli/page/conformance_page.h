@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "fuzz/conformance.h"
+#include "fuzz/plugin/conformance.h"
 
 namespace selvage::cli {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/case_output.h"
+#include "cli/answer/case_output.h"
 #include "cli/page/report_scene.h"
 #include "cli/page/report_timeline.h"
 #include "cli/page/report_words.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/sequence.h"
-#include "verify/report.h"
+#include "verify/report/report.h"
 
 namespace selvage::cli {
 

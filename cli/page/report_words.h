@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "page/html.h"
-#include "verify/report.h"
+#include "verify/report/report.h"
 
 namespace selvage::cli {
 

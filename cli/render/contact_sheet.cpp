@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/exit_code.h"
+#include "cli/process/exit_code.h"
 #include "cli/render/bitmap_font.h"
 #include "cli/render/renderer.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fuzz/file_formats.h"
-#include "fuzz/property.h"
+#include "fuzz/campaign/property.h"
+#include "fuzz/cases/file_formats.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {

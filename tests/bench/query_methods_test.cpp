@@ -7,7 +7,7 @@
 #include "bench/additive_ccd.h"
 #include "bench/inclusion_ccd.h"
 #include "bench/plain_distance.h"
-#include "fuzz/generators.h"
+#include "fuzz/draw/generators.h"
 #include "kernel/proximity.h"
 
 namespace selvage::bench {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fuzz/generators.h"
+#include "fuzz/draw/generators.h"
 
 namespace selvage::bench {
 namespace {

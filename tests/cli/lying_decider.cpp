@@ -1,5 +1,5 @@
 // The second decider of faces, but it never finds anything: linked into a program whose deciders therefore differ.
-#include "verify/second_opinion.h"
+#include "verify/decision/second_opinion.h"
 
 namespace selvage::verify {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "fuzz/motion_query.h"
+#include "fuzz/base/motion_query.h"
 
 namespace selvage::fuzz {
 

@@ -7,8 +7,8 @@
 
 #include <rapidcheck.h>
 
-#include "fuzz/case_file.h"
-#include "fuzz/generators.h"
+#include "fuzz/cases/case_file.h"
+#include "fuzz/draw/generators.h"
 
 namespace selvage::fuzz {
 

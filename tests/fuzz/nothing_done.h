@@ -1,7 +1,7 @@
 // The step that a campaign must find out: it says safe of every candidate.
 #pragma once
 
-#include "fuzz/step_oracle.h"
+#include "fuzz/oracle/step_oracle.h"
 
 namespace selvage::fuzz {
 

@@ -4,8 +4,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <rapidcheck.h>
 
-#include "fuzz/step_oracle.h"
-#include "fuzz/surface_makers.h"
+#include "fuzz/draw/surface_makers.h"
+#include "fuzz/oracle/step_oracle.h"
 #include "tests/fuzz/nothing_done.h"
 #include "tests/property.h"
 

@@ -17,7 +17,7 @@
 #include "tests/kernel/random_points.h"
 #include "tests/property.h"
 #include "tests/vector_units.h"
-#include "verify/exact_distance.h"
+#include "verify/decision/exact_distance.h"
 
 namespace selvage {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/ccd.h"
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::testing {
 

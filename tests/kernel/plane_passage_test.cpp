@@ -7,8 +7,8 @@
 #include "tests/kernel/exact.h"
 #include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"
-#include "verify/exact_distance.h"
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_distance.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage {
 

@@ -8,9 +8,9 @@
 #include "tests/verify/motion_relations.h"
 #include "tests/verify/overlap_families.h"
 #include "tests/verify/overlap_reference.h"
-#include "verify/contact.h"
-#include "verify/fp_guard.h"
-#include "verify/motion_filter.h"
+#include "verify/arithmetic/fp_guard.h"
+#include "verify/decision/contact.h"
+#include "verify/filter/motion_filter.h"
 
 namespace selvage::mutants {
 namespace {

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fuzz/campaign.h"
-#include "fuzz/query_streams.h"
-#include "fuzz/records.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/query_streams.h"
+#include "fuzz/run/records.h"
 #include "tests/mutants/child_processes.h"
 #include "tests/mutants/planted.h"
 

@@ -17,7 +17,7 @@ struct ClassWorth {
   /// Mutants that no class kills more often in a work unit of a campaign, which gives cheap classes more cases.
   std::vector<std::string> first_in_campaign;
   std::vector<std::string> alone;    ///< mutants that it alone kills
-  std::vector<std::string> records;  ///< "nearest vf" (fuzz/records.h), without a mutant
+  std::vector<std::string> records;  ///< "nearest vf" (fuzz/run/records.h), without a mutant
 
   /// Else the campaign would be as sharp without it.
   [[nodiscard]] bool earns_its_place() const {

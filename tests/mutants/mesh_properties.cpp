@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "fuzz/step_world.h"
-#include "fuzz/surface_makers.h"
+#include "fuzz/draw/step_world.h"
+#include "fuzz/draw/surface_makers.h"
 #include "kernel/collisions.h"
 #include "kernel/proximities.h"
 #include "tests/kernel/random_motion.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fuzz/choice_source.h"
+#include "fuzz/base/choice_source.h"
 
 namespace selvage::mutants {
 

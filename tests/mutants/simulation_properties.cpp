@@ -5,7 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 #include <unistd.h>
 
-#include "fuzz/step_world.h"
+#include "fuzz/draw/step_world.h"
 #include "io/atomic_file.h"
 #include "io/sequence.h"
 #include "sim/record/recorder.h"

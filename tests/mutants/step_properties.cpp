@@ -1,7 +1,7 @@
 // The collision step and its responses (S1 to S4), and that threads change nothing (K7).
 #include <oneapi/tbb/task_arena.h>
 
-#include "fuzz/step_oracle.h"
+#include "fuzz/oracle/step_oracle.h"
 #include "sim/response/impact_zone.h"
 #include "tests/mutants/drawn_property.h"
 #include "tests/mutants/properties.h"

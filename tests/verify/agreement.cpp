@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "tests/verify/motion_families.h"
-#include "verify/second_opinion.h"
+#include "verify/decision/second_opinion.h"
 
 namespace selvage::verify::testbed {
 namespace {

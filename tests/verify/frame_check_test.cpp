@@ -12,8 +12,8 @@
 #include "tests/verify/frame_plants.h"
 #include "tests/verify/sheet.h"
 #include "verify/check.h"
-#include "verify/exact_distance.h"
-#include "verify/exact_overlap.h"
+#include "verify/decision/exact_distance.h"
+#include "verify/decision/exact_overlap.h"
 
 namespace selvage::verify {
 namespace {

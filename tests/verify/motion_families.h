@@ -6,7 +6,7 @@
 #include <random>
 #include <span>
 
-#include "verify/exact_motion.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::verify::testbed {
 

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "verify/contact.h"
+#include "verify/decision/contact.h"
 
 namespace selvage::verify::testbed {
 namespace {

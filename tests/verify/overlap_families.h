@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "verify/exact_overlap.h"
+#include "verify/decision/exact_overlap.h"
 
 namespace selvage::verify::testbed {
 

@@ -8,7 +8,7 @@
 
 #include <gmpxx.h>
 
-#include "verify/exact_overlap.h"
+#include "verify/decision/exact_overlap.h"
 
 namespace selvage::verify::reference {
 

@@ -5,8 +5,8 @@
 
 #include "tests/verify/frames.h"
 #include "tests/verify/sheet.h"
-#include "verify/merge.h"
-#include "verify/report.h"
+#include "verify/report/merge.h"
+#include "verify/report/report.h"
 
 namespace selvage::verify {
 namespace {

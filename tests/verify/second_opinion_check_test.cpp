@@ -6,7 +6,7 @@
 #include "tests/verify/frames.h"
 #include "tests/verify/sheet.h"
 #include "verify/check.h"
-#include "verify/exact_overlap.h"
+#include "verify/decision/exact_overlap.h"
 
 namespace selvage::verify {
 namespace {

@@ -21,7 +21,7 @@
 #include "tests/verify/frames.h"
 #include "tests/verify/sheet.h"
 #include "verify/check.h"
-#include "verify/report.h"
+#include "verify/report/report.h"
 
 namespace selvage::verify {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/verify/sheet.h"
-#include "verify/exact_distance.h"
+#include "verify/decision/exact_distance.h"
 
 namespace selvage::verify {
 namespace {

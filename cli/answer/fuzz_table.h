@@ -1,0 +1,21 @@
+// What a campaign came to, for a person.
+#pragma once
+
+#include <string>
+
+#include "fuzz/run/ledger.h"
+
+namespace selvage::cli {
+
+/// A table for each property, complaints about dead streams, and for each finding how to see it again.
+struct FuzzTable {
+  std::string text;
+  bool held = true;  ///< nothing failed and every stream is alive
+};
+[[nodiscard]] FuzzTable fuzz_table(const fuzz::Ledger& ledger, const fuzz::Properties& properties,
+                                   const std::string& folder);
+
+/// One line for each property: its name, its promise and its streams.
+[[nodiscard]] std::string fuzz_list(const fuzz::Properties& properties);
+
+}  // namespace selvage::cli

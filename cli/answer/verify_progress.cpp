@@ -1,0 +1,59 @@
+#include "cli/answer/verify_progress.h"
+
+#include <utility>
+
+#include "cli/answer/verdict.h"
+#include "cli/process/exit_code.h"
+#include "cli/process/terminal.h"
+#include "io/atomic_file.h"
+
+namespace selvage::cli {
+
+VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
+    : report_file_(std::move(report)),
+      file_(file_of(report_file_)),
+      context_(context),
+      written_(std::chrono::steady_clock::now()) {}
+
+std::optional<verify::SequenceReport> VerifyProgress::load() const {
+  for (const std::filesystem::path& file : {file_, report_file_}) {
+    if (!std::filesystem::is_regular_file(file)) continue;
+    verify::ParsedReport parsed = verify::parse_report(io::read_file(file), file.string());
+    if (parsed.context.program != context_.program || parsed.context.options != context_.options) {
+      throw UsageError(file.string() + ": made by another version or with other options; remove it to start anew");
+    }
+    // A report that was cut short counts work on half a frame: only progress can be continued.
+    if (file == file_ || is_complete(parsed.report)) return std::move(parsed.report);
+  }
+  return std::nullopt;
+}
+
+void VerifyProgress::note(const verify::SequenceReport& report) {
+  constexpr std::chrono::seconds kInterval{1};
+  unwritten_ = report;
+  has_noted_ = true;
+  if (std::chrono::steady_clock::now() - written_ >= kInterval) (void)flush();
+}
+
+bool VerifyProgress::flush() {
+  if (!unwritten_) return has_noted_;
+  written_ = std::chrono::steady_clock::now();
+  try {
+    io::write_atomically(file_, verify::json_report(*unwritten_, context_));
+  } catch (const io::Error& error) {
+    if (!std::exchange(has_failed_, true)) {
+      print_notes(
+          {std::string(error.what()) + " (the check goes on; if it is stopped, it cannot be resumed from here)"});
+    }
+    return false;
+  }
+  unwritten_.reset();
+  return true;
+}
+
+void VerifyProgress::remove() const {
+  std::error_code absent;
+  std::filesystem::remove(file_, absent);
+}
+
+}  // namespace selvage::cli

@@ -1,0 +1,39 @@
+// What a long check has done so far, on disk: a run that is killed loses a second of work.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "verify/report/report.h"
+
+namespace selvage::cli {
+
+class VerifyProgress {
+ public:
+  /// FILE.progress, beside the report.
+  [[nodiscard]] static std::filesystem::path file_of(std::filesystem::path report) { return report += ".progress"; }
+  /// Keeps there the report on the frames that are done. `context` must outlive it.
+  VerifyProgress(std::filesystem::path report, const verify::ReportContext& context);
+
+  /// The report to continue from: progress, or a finished report; nothing where there is neither. Throws UsageError
+  /// where it was made by another program or with other options.
+  [[nodiscard]] std::optional<verify::SequenceReport> load() const;
+  /// Keeps the report; writes it at most once a second.
+  void note(const verify::SequenceReport& report);
+  /// Writes what was noted last. Whether anything was noted in this run, and is on disk: where it cannot be written the
+  /// check goes on, and a note on stderr says so once.
+  [[nodiscard]] bool flush();
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  /// The run is complete: there is nothing to continue.
+  void remove() const;
+
+ private:
+  std::filesystem::path report_file_, file_;
+  const verify::ReportContext& context_;
+  std::optional<verify::SequenceReport> unwritten_;
+  bool has_noted_ = false, has_failed_ = false;
+  std::chrono::steady_clock::time_point written_;
+};
+
+}  // namespace selvage::cli

@@ -1,0 +1,101 @@
+#include "cli/start/start_remedy.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace selvage::cli {
+namespace {
+
+class Faults {
+ public:
+  Faults(const sim::World& world, const Positions& x) : world_(world), x_(x) {}
+
+  [[nodiscard]] static bool is_without_area(const sim::FacePair& pair) { return pair[0] == pair[1]; }
+
+  [[nodiscard]] bool is_twice(const sim::FacePair& pair) const {
+    return !is_without_area(pair) && std::ranges::is_permutation(corners(pair[0]), corners(pair[1]));
+  }
+
+  /// Whether both are triangles of a fan, which is what readers make of a polygon. That of a convex one has no overlap.
+  [[nodiscard]] bool is_of_one_fan(const sim::FacePair& pair) const {
+    const auto [first, last] = std::minmax(pair[0], pair[1]);
+    for (FaceId face = first; face < last; ++face) {
+      const auto here = corners(face), next = corners(face + 1);
+      if (here[0] != next[0] || here[2] != next[1]) return false;
+    }
+    return first < last;
+  }
+
+  /// Corners of both, if of one part, that lie, to the bit, where one of the other face lies.
+  [[nodiscard]] std::set<VertexId> coincident(const sim::FacePair& pair) const {
+    std::set<VertexId> found;
+    if (part(pair[0]) != part(pair[1])) return found;
+    for (const VertexId a : corners(pair[0])) {
+      for (const VertexId b : corners(pair[1])) {
+        if (a != b && x_.row(a) == x_.row(b)) found.insert({a, b});
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::string name_of_part(FaceId face) const { return part(face)->name; }
+
+ private:
+  [[nodiscard]] std::array<VertexId, 3> corners(FaceId face) const {
+    return world_.triangles[static_cast<std::size_t>(face)];
+  }
+  [[nodiscard]] std::vector<io::Group>::const_iterator part(FaceId face) const {
+    return std::ranges::find_if(
+        world_.groups, [face](const io::Group& group) { return face >= group.face_begin && face < group.face_end; });
+  }
+
+  const sim::World& world_;
+  const Positions& x_;
+};
+
+/// Empty where no pair is at a seam.
+std::string seam_remedy(const Faults& faults, std::span<const sim::FacePair> pairs) {
+  std::set<VertexId> coincident;
+  std::string part;
+  for (const sim::FacePair& pair : pairs) {
+    const std::set<VertexId> more = faults.coincident(pair);
+    if (part.empty() && !more.empty()) part = faults.name_of_part(pair[0]);
+    coincident.insert(more.begin(), more.end());
+  }
+  if (coincident.empty()) return {};
+  return fmt::format(
+      "the mesh of \"{}\" is split at seams, where {} of these vertices lie at the place of another: weld them to one "
+      "(merge by distance 0) in the program that wrote it",
+      part, coincident.size());
+}
+
+}  // namespace
+
+std::string start_remedy(const sim::World& world, const Positions& x, std::span<const sim::FacePair> pairs,
+                         bool repair_failed) {
+  const Faults faults(world, x);
+  if (std::ranges::any_of(pairs, Faults::is_without_area)) return "take the faces without area out of the mesh";
+  for (const sim::FacePair& pair : pairs) {
+    if (!faults.is_twice(pair)) continue;
+    return fmt::format("faces {} and {} have the same corners: take one of them out of the mesh", pair[0], pair[1]);
+  }
+  for (const sim::FacePair& pair : pairs) {
+    if (!faults.is_of_one_fan(pair)) continue;
+    return fmt::format(
+        "faces {} and {} go around one corner, as those of a polygon do, which is split into triangles around its "
+        "first: one that is not convex overlaps itself then; export triangles instead",
+        pair[0], pair[1]);
+  }
+  const std::string move = repair_failed ? "move them apart" : "move them apart, or let --repair do it";
+  const std::string seams = seam_remedy(faults, pairs);
+  if (seams.empty()) return move;
+  const bool nothing_else =
+      std::ranges::none_of(pairs, [&](const sim::FacePair& pair) { return faults.coincident(pair).empty(); });
+  if (!nothing_else) return seams + "; the others: " + move;
+  return repair_failed ? seams : seams + ", or have --repair open them";
+}
+
+}  // namespace selvage::cli

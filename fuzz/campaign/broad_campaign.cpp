@@ -1,0 +1,62 @@
+#include "fuzz/campaign/broad_campaign.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/campaign/mesh_property.h"
+#include "fuzz/cases/broad_case.h"
+#include "kernel/assert.h"
+
+namespace selvage::fuzz {
+namespace {
+
+double choose_reach(ChoiceSource& source, const StepWorld& world) {
+  return source.coin() ? std::ldexp(world.gap_m, source.range(-20, 3)) : 0;
+}
+
+/// All vertices, or some.
+std::vector<std::uint8_t> choose_active(ChoiceSource& source, const StepWorld& world) {
+  std::vector<std::uint8_t> active;
+  if (!source.coin()) return active;
+  for (Eigen::Index i = 0; i < world.x.rows(); ++i) active.push_back(source.n(4) == 1 ? 1 : 0);
+  return active;
+}
+
+class BroadCampaign final : public MeshProperty {
+ public:
+  BroadCampaign() : MeshProperty("broad", std::string(broad_kind().promise)) {
+    for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 40});
+    counters_ = {"motions", "pairs"};
+  }
+
+  Outcome run(const Stream& stream, ChoiceSource source) override {
+    const BroadTrial trial = try_broad(drawn(stream, source));
+    return {{1, trial.retrial.failure.empty() ? 0 : 1, {2, trial.pairs}, 0}, trial.retrial.failure};
+  }
+
+  [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
+    return counts.cases > 50 && counts.of[1] < counts.cases ? "hardly any pairs" : "";
+  }
+
+ private:
+  [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
+    const auto surface = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
+    SELVAGE_ASSERT(surface != surface_classes().end());
+    const StepWorld world = make_step_world(source, *surface);
+    std::array<Positions, 3> x{world.x};
+    std::array<BroadQuestion, 2> questions;
+    for (std::size_t motion = 0; motion < 2; ++motion) {
+      std::string_view candidate_class;
+      x[motion + 1] = choose_candidate(source, world, x[motion], candidate_class);
+      questions[motion].active = choose_active(source, world);
+      questions[motion].reach = choose_reach(source, world);
+    }
+    return broad_case(world.mesh, x, questions);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Property> make_broad_campaign() { return std::make_unique<BroadCampaign>(); }
+
+}  // namespace selvage::fuzz

@@ -1,0 +1,52 @@
+#include "fuzz/campaign/simulation_campaign.h"
+
+#include <algorithm>
+
+#include "fuzz/cases/scene_case.h"
+#include "fuzz/draw/random_scene.h"
+#include "fuzz/shrink/shrink_choices.h"
+
+namespace selvage::fuzz {
+namespace {
+
+constexpr std::int64_t kSteps = 80;  ///< of a case at most
+/// A trial takes tenths of a second.
+constexpr std::int64_t kSceneChoiceTrials = 100, kTextTrials = 300;
+
+class SimulationCampaign final : public Property {
+ public:
+  SimulationCampaign() : Property("simulation", std::string(scene_kind().promise)) {
+    weight_ = 2;
+    for (const std::string_view name : scene_classes()) streams_.push_back({std::string(name), 0, 1});
+    counters_ = {"steps", "collisions", "zones", "fail-safe", "stopped", "not started"};
+  }
+
+  Outcome run(const Stream& stream, ChoiceSource source) override {
+    const SceneTrial trial = try_scene(random_scene(stream.name, source), kSteps);
+    Outcome outcome{{1, trial.retrial.failure.empty() ? 0 : 1, {}, 0}, trial.retrial.failure};
+    outcome.counts.of = {trial.steps,          trial.with_collisions, trial.with_zones,
+                         trial.with_fail_safe, trial.stopped,         !trial.retrial.unfit.empty()};
+    return outcome;
+  }
+
+  [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
+    return counts.cases > 20 && counts.of[5] * 2 > counts.cases ? "most scenes begin in contact" : "";
+  }
+
+  std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
+                   bool shrunk) override {
+    if (!shrunk) return kept_text(KeptBytes(scene_case(random_scene(stream.name, source), kSteps)), origin, failure);
+    const Choices choices = shrink_choices(
+        source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kSceneChoiceTrials);
+    ChoiceSource again = ChoiceSource::from_words(choices);
+    const std::string scene = random_scene(stream.name, again);
+    const ByteCase simplest = scene_case(scene, std::max<std::int64_t>(1, try_scene(scene, kSteps).steps));
+    return kept_text(KeptBytes(shrink(simplest, failure, kTextTrials)), origin, failure);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Property> make_simulation_campaign() { return std::make_unique<SimulationCampaign>(); }
+
+}  // namespace selvage::fuzz

@@ -1,0 +1,50 @@
+// A failure as a file that holds all that is needed to see it again (F3), at every level but the query's
+// (case_file.h, overlap_case.h):
+//   selvage-case 1 step                 format version, kind
+//   seed step:soup:1:123                where it came from: property, stream, seed, number
+//   failure touches                     the promise that was broken, in a word
+//   ...                                 the case itself, as its kind writes it
+// Kinds: step, broad, subdivision (mesh_case.h), simulation, file (byte_case.h), drawn (drawn_case.h).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fuzz/base/case_text.h"
+
+namespace selvage::fuzz {
+
+/// What became of a case when it was run again.
+struct Retrial {
+  std::string failure;             ///< the broken promise in a word, or empty
+  std::vector<std::string> facts;  ///< what happened, a line each
+  std::string unfit;               ///< why nothing is promised about this case, or empty; then it was not run
+};
+
+class KeptCase {
+ public:
+  virtual ~KeptCase() = default;
+
+  [[nodiscard]] virtual std::string kind() const = 0;
+  [[nodiscard]] virtual std::string promise() const = 0;
+  /// The lines of the case itself.
+  [[nodiscard]] virtual std::string body() const = 0;
+  /// Runs the code under test; what it throws is a failure.
+  [[nodiscard]] virtual Retrial retry() const = 0;
+};
+
+/// `origin`: PROPERTY:STREAM:SEED:NUMBER, one word. `failure`: the word of the broken promise.
+[[nodiscard]] std::string kept_text(const KeptCase& kept, const std::string& origin, const std::string& failure);
+
+struct ParsedCase {
+  std::string origin, failure;  ///< as the file says
+  std::unique_ptr<KeptCase> kept;
+};
+/// Throws io::Error naming `name` and the line.
+[[nodiscard]] ParsedCase parse_kept_case(std::string_view text, const std::string& name);
+/// The kind that the text names, whether or not there is one so called. Throws io::Error where it is no case at all.
+[[nodiscard]] std::string kind_of_case(std::string_view text, const std::string& name);
+
+}  // namespace selvage::fuzz

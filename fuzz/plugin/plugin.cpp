@@ -1,0 +1,241 @@
+#include "fuzz/plugin/plugin.h"
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fuzz/run/guarded_run.h"
+#include "io/atomic_file.h"
+#include "io/checksum.h"
+#include "io/fail.h"
+#include "io/text.h"
+#include "kernel/fp_env.h"
+
+namespace selvage::fuzz {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& library, const std::string& why) {
+  throw io::Error(io::ErrorKind::kBadInput, library.string() + ": " + why);
+}
+
+/// What somebody did to this thread's environment, by name; it is not repaired here.
+std::string fp_misdeed() {
+  const unsigned defects = fp_env_defects();
+  if ((defects & kFpRounding) != 0) return "changed-rounding-mode";
+  return (defects & (kFpFlush | kFpDenormals)) != 0 ? "set-flush-to-zero" : "";
+}
+
+/// Of this process, by whichever thread.
+std::atomic<std::int64_t> fork_count = 0;
+
+/// Begins before somebody else's code runs.
+class ForkWatch {
+ public:
+  ForkWatch() {
+    static const int is_counting = pthread_atfork(
+        nullptr, [] { ++fork_count; }, nullptr);
+    if (is_counting != 0) throw std::system_error(is_counting, std::generic_category(), "pthread_atfork");
+    forks_ = fork_count;
+  }
+  /// A misdeed, or nothing. A child that comes back ends here: it would be a second worker with the pipes of the first.
+  [[nodiscard]] std::string misdeed() const {
+    if (getpid() != process_) _exit(0);
+    if (fork_count == forks_) return "";
+    while (waitpid(-1, nullptr, WNOHANG) > 0) {  // thousands that ended would fill the table of processes
+    }
+    return "forked";
+  }
+
+ private:
+  pid_t process_ = getpid();
+  std::int64_t forks_;
+};
+
+/// Memory with a pattern on both sides, which nobody has a reason to change.
+template <class T, std::size_t N>
+class Fenced {
+ public:
+  Fenced() {
+    std::memset(before_, kPattern, sizeof before_);
+    std::memset(after_, kPattern, sizeof after_);
+  }
+  [[nodiscard]] bool is_whole() const {
+    const auto untouched = [](const unsigned char* bytes) {
+      for (std::size_t i = 0; i < kFence; ++i) {
+        if (bytes[i] != kPattern) return false;
+      }
+      return true;
+    };
+    return untouched(before_) && untouched(after_);
+  }
+  T* data() { return values_; }
+  T& operator[](std::size_t i) { return values_[i]; }
+
+ private:
+  static constexpr std::size_t kFence = 256;
+  static constexpr unsigned char kPattern = 0xa5;
+  alignas(64) unsigned char before_[kFence];
+  T values_[N] = {};
+  unsigned char after_[kFence];
+};
+
+selvage_query plain(const MotionQuery& query) {
+  selvage_query plain{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      plain.x_t0[i][axis] = query.x_t0[i][axis];
+      plain.x_t1[i][axis] = query.x_t1[i][axis];
+    }
+  }
+  return plain;
+}
+
+bool is_same(const selvage_query& a, const selvage_query& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Whether the parts that say something have the same bits.
+bool is_same(const selvage_answer& a, const selvage_answer& b, bool has_toi) {
+  const bool has_time = has_toi && a.verdict == SELVAGE_COLLIDES;
+  return a.verdict == b.verdict &&
+         (!has_time || std::bit_cast<std::uint64_t>(a.toi) == std::bit_cast<std::uint64_t>(b.toi));
+}
+
+/// What a query is put into a batch with: queries with other answers, made of nothing but the query, so that a case
+/// replays and shrinks. Five, because that shares no factor with the lanes of any vector unit: a kernel that answers
+/// one vector with another one's answers, or a lane with its neighbour's, meets different queries there.
+using Company = std::array<selvage_query, 5>;
+
+Company company_of(const selvage_query& query) {
+  Company company;
+  company.fill(query);
+  auto& [itself, reversed, still_at_t0, still_at_t1, turned] = company;
+  std::swap(reversed.x_t0, reversed.x_t1);
+  std::memcpy(still_at_t0.x_t1, query.x_t0, sizeof query.x_t0);
+  std::memcpy(still_at_t1.x_t0, query.x_t1, sizeof query.x_t1);
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::memcpy(turned.x_t0[i], query.x_t0[(i + 1) % 4], sizeof turned.x_t0[i]);
+    std::memcpy(turned.x_t1[i], query.x_t1[(i + 1) % 4], sizeof turned.x_t1[i]);
+  }
+  return company;
+}
+
+/// Two vectors of 8 or one of 16 and a tail of 5, five of 4 and a tail of 1; the last slot holds the query itself.
+constexpr std::size_t kBatch = 21;
+
+/// What nobody answers with: to be overwritten.
+constexpr selvage_answer kUnanswered{0x5a5a5a5a, -1};
+
+std::string judge_form(const selvage_answer& answer, bool has_toi) {
+  if (answer.verdict != SELVAGE_SEPARATED && answer.verdict != SELVAGE_COLLIDES) return "invalid-verdict";
+  const bool is_time = answer.toi >= 0 && answer.toi <= 1;
+  return has_toi && answer.verdict == SELVAGE_COLLIDES && !is_time ? "invalid-time" : "";
+}
+
+}  // namespace
+
+Plugin::Plugin(const std::filesystem::path& library) {
+  const FpEnvGuard guard;
+  const ForkWatch forks;
+  const std::filesystem::path file = std::filesystem::absolute(library);  // dlopen searches for bare names
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) refuse(library, std::string("cannot be loaded: ") + dlerror());
+  const auto entry = std::bit_cast<selvage_plugin_entry_function>(dlsym(handle, "selvage_plugin_entry"));
+  if (entry == nullptr) refuse(library, "has no function selvage_plugin_entry");
+  plugin_ = entry();
+  load_misdeed_ = forks.misdeed();
+  if (load_misdeed_.empty()) load_misdeed_ = fp_misdeed();
+  if (plugin_ == nullptr) refuse(library, "selvage_plugin_entry returns nothing");
+  if (plugin_->version != SELVAGE_PLUGIN_VERSION) {
+    refuse(library, "is built for version " + std::to_string(plugin_->version) +
+                        " of selvage-plugin.h, this is version " + std::to_string(SELVAGE_PLUGIN_VERSION));
+  }
+  const bool are_lengths = plugin_->tolerance >= 0 && std::isfinite(plugin_->tolerance) &&
+                           plugin_->relative_tolerance >= 0 && std::isfinite(plugin_->relative_tolerance);
+  if (plugin_->answer == nullptr || plugin_->name == nullptr || !are_lengths) {
+    refuse(library, "declares no answer function, no name, or a tolerance that is none");
+  }
+  io::printable(plugin_->name, sizeof info_.name - 1).copy(info_.name, sizeof info_.name - 1);
+  info_.tolerance = plugin_->tolerance;
+  info_.relative_tolerance = plugin_->relative_tolerance;
+  info_.has_toi = plugin_->has_toi != 0;
+  info_.has_batch = plugin_->answer_batch != nullptr;
+}
+
+Plugin::Answer Plugin::ask(const MotionQuery& query, bool in_batch) const {
+  const FpEnvGuard guard;  // asked in a clean environment, whatever it left behind the last time
+  const std::int32_t kind = query.kind == PairKind::kVf ? SELVAGE_VF : SELVAGE_EE;
+  const selvage_query original = plain(query);
+  Answer result = ask_alone(kind, original);
+  if (in_batch && info_.has_batch && result.misdeed.empty()) result.misdeed = ask_batch(kind, original, result.answer);
+  return result;
+}
+
+Plugin::Answer Plugin::ask_alone(std::int32_t kind, const selvage_query& query) const {
+  Fenced<selvage_query, 1> asked;
+  Fenced<selvage_answer, 1> given;
+  asked[0] = query;
+  given[0] = kUnanswered;
+  Answer result;
+  const ForkWatch forks;
+  const auto start = std::chrono::steady_clock::now();
+  plugin_->answer(kind, asked.data(), given.data());
+  result.nanoseconds = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+  result.answer = given[0];
+  result.misdeed = forks.misdeed();
+  if (result.misdeed.empty()) result.misdeed = fp_misdeed();
+  if (result.misdeed.empty() && !(asked.is_whole() && given.is_whole())) result.misdeed = "wrote-out-of-bounds";
+  if (result.misdeed.empty() && !is_same(asked[0], query)) result.misdeed = "changed-the-query";
+  if (result.misdeed.empty()) result.misdeed = judge_form(result.answer, info_.has_toi);
+  return result;
+}
+
+std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, const selvage_answer& answer) const {
+  const Company company = company_of(query);
+  std::array<selvage_answer, std::tuple_size_v<Company>> alone{answer};
+  for (std::size_t i = 1; i < company.size(); ++i) {
+    const Answer one = ask_alone(kind, company[i]);
+    if (!one.misdeed.empty()) return one.misdeed;
+    alone[i] = one.answer;
+  }
+  Fenced<selvage_query, kBatch> queries;
+  Fenced<selvage_answer, kBatch> answers;
+  for (std::size_t i = 0; i < kBatch; ++i) queries[i] = company[i % company.size()], answers[i] = kUnanswered;
+  const ForkWatch forks;
+  plugin_->answer_batch(kind, kBatch, queries.data(), answers.data());
+  if (std::string misdeed = forks.misdeed(); !misdeed.empty()) return misdeed;
+  if (std::string misdeed = fp_misdeed(); !misdeed.empty()) return misdeed;
+  if (!(queries.is_whole() && answers.is_whole())) return "wrote-out-of-bounds";
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    if (!is_same(queries[i], company[i % company.size()])) return "changed-the-query";
+    if (!is_same(answers[i], alone[i % company.size()], info_.has_toi)) return "batch-differs";
+  }
+  return "";
+}
+
+PluginInfo probe_plugin(const std::filesystem::path& library, double seconds) {
+  if (access(library.c_str(), R_OK) != 0) io::file_error(library.string(), "open", errno);
+  std::optional<Plugin> plugin;
+  const auto probe = run_guarded<PluginInfo>(
+      {[&] { plugin.emplace(library); }, seconds}, [&] { return plugin->info(); }, seconds);
+  if (!probe.death.empty()) {
+    const std::string limit = probe.death == "hung" ? "; give it more time with --case-time, if it needs it" : "";
+    refuse(library, "does not survive being loaded: " + probe.death + limit);
+  }
+  return probe.result;
+}
+
+std::uint32_t crc32_of_plugin(const std::filesystem::path& library) { return io::crc32(io::read_file(library)); }
+
+}  // namespace selvage::fuzz

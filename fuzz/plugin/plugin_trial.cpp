@@ -1,0 +1,66 @@
+#include "fuzz/plugin/plugin_trial.h"
+
+#include <array>
+#include <optional>
+
+#include "fuzz/base/case_text.h"
+#include "fuzz/oracle/closest_approach.h"
+#include "fuzz/run/guarded_run.h"
+#include "fuzz/run/worker.h"
+
+namespace selvage::fuzz {
+PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch) {
+  PluginJudgement judgement;
+  judgement.answer = plugin.ask(query, in_batch);
+  judgement.failure = judgement.answer.misdeed;
+  if (!judgement.failure.empty()) return judgement;
+  const selvage_answer& answer = judgement.answer.answer;
+  judgement.alarm = answer.verdict == SELVAGE_COLLIDES;
+  const bool has_time = judgement.alarm && plugin.info().has_toi;
+  const verify::MotionAgainst exact = motion_against(query, has_time ? answer.toi : 0);
+  judgement.touches = exact.touches;
+  if (exact.touches && !judgement.alarm) judgement.failure = "missed";
+  if (exact.touches && has_time && answer.toi > 0 && exact.order < 0) judgement.failure = "late-time";
+  if (!exact.touches && judgement.alarm) {
+    const double gap = plugin.info().tolerance + plugin.info().relative_tolerance * extent(query);
+    const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
+    if (closest_approach(query, gap, hints, kEnoughTests) == Approach::kBeyond) judgement.failure = "alarm-too-far";
+  }
+  return judgement;
+}
+
+std::string words_of(const Plugin::Answer& answer, bool has_toi) {
+  if (!answer.misdeed.empty()) return answer.misdeed;
+  if (answer.answer.verdict != SELVAGE_COLLIDES) return "separated";
+  return has_toi ? "collides at t = " + hex(answer.answer.toi) : "collides";
+}
+
+std::string failure_at_load(const std::string& misdeed) { return misdeed + "-at-load"; }
+
+PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& query, bool in_batch,
+                       double case_seconds) {
+  struct Plain {
+    char failure[kFailureWord] = {};
+    bool has_answer = false;
+    selvage_answer answer{};
+  };
+  PluginTrial trial;
+  trial.info = probe_plugin(library, case_seconds);
+  std::optional<Plugin> plugin;
+  const auto ask = [&] {
+    Plain plain;
+    const PluginJudgement judgement = judge_plugin(*plugin, query, in_batch);
+    const std::string& misdeed = plugin->load_misdeed();
+    (misdeed.empty() ? judgement.failure : failure_at_load(misdeed)).copy(plain.failure, kFailureWord - 1);
+    plain.has_answer = judgement.answer.misdeed.empty();
+    plain.answer = judgement.answer.answer;
+    return plain;
+  };
+  const auto run = run_guarded<Plain>({[&] { plugin.emplace(library); }, case_seconds}, ask, case_seconds);
+  trial.failure = run.death.empty() ? run.result.failure : run.death;
+  trial.has_answer = run.result.has_answer;
+  trial.answer = run.result.answer;
+  return trial;
+}
+
+}  // namespace selvage::fuzz

@@ -1,0 +1,34 @@
+// What a plugin is worth on one query: its answer against exact arithmetic.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "fuzz/plugin/plugin.h"
+
+namespace selvage::fuzz {
+
+struct PluginJudgement {
+  std::string failure;  ///< missed, late-time, alarm-too-far, a misdeed of Plugin::Answer, or nothing
+  bool touches = false, alarm = false;
+  Plugin::Answer answer;
+};
+[[nodiscard]] PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch);
+
+/// "separated", "collides", "collides at t = 0x1p-1"; or the misdeed.
+[[nodiscard]] std::string words_of(const Plugin::Answer& answer, bool has_toi);
+
+/// The failure of a plugin that did `misdeed` while it was loaded.
+[[nodiscard]] std::string failure_at_load(const std::string& misdeed);
+
+struct PluginTrial {
+  PluginInfo info;
+  std::string failure;      ///< as above, or how it died
+  bool has_answer = false;  ///< it came back, and gave an answer that is one
+  selvage_answer answer{};
+};
+/// Loads it and asks it once, in a process of its own. Throws io::Error(kBadInput), as probe_plugin() does.
+[[nodiscard]] PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& query, bool in_batch,
+                                     double case_seconds);
+
+}  // namespace selvage::fuzz
