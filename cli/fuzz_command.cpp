@@ -168,9 +168,10 @@ fuzz::DriverOptions driver_options(const FuzzArguments& arguments) {
 }
 
 /// A campaign that was stopped has work left, whatever it has found: whoever reads 1 as an answer would not go on.
-ExitCode exit_code_of(bool finished, bool held) {
+ExitCode exit_code_of(bool finished, bool held, bool is_whole) {
   if (!finished) return ExitCode::kInterrupted;
-  return held ? ExitCode::kClean : ExitCode::kViolation;
+  if (!held) return ExitCode::kViolation;
+  return is_whole ? ExitCode::kClean : ExitCode::kLimit;
 }
 
 /// Someone else's code under the query level.
@@ -202,7 +203,8 @@ ExitCode run_plugin(const FuzzArguments& arguments) {
   io::write_atomically(plain, text);
   io::write_atomically(html, conformance_page(ledger, *properties.front(), info, page));
   fmt::print("{}", text);
-  return exit_code_of(finished, ledger.properties.front().findings.empty());
+  const fuzz::PropertyLedger& done = ledger.properties.front();
+  return exit_code_of(finished, done.findings.empty(), done.streams_without_cases() == 0);
 }
 
 ExitCode run(const FuzzArguments& arguments) {
@@ -225,17 +227,18 @@ ExitCode run(const FuzzArguments& arguments) {
   fmt::print("{}{} cases in {:.1f} s, {:.1f} s of processor time: {:.0f} a second\n", table.text, status.cases,
              status.seconds, status.processor_seconds,
              static_cast<double>(status.cases) / std::max(status.seconds, 1e-3));
-  return exit_code_of(finished, table.held);
+  return exit_code_of(finished, table.held, table.is_whole);
 }
 
 }  // namespace
 
 void add_fuzz_command(CLI::App& program, Job& job) {
-  CLI::App& fuzz = add_command(program, "fuzz",
-                               "Attacks what Selvage promises with constructed cases, judged by exact arithmetic, in "
-                               "worker processes. Exit code 1 if a promise broke or a class of cases has gone dead; "
-                               "failures are shrunk and kept. docs/fuzzing.md says more",
-                               "selvage fuzz ccd --time 60s --seed 7");
+  CLI::App& fuzz =
+      add_command(program, "fuzz",
+                  "Attacks what Selvage promises with constructed cases, judged by exact arithmetic, in "
+                  "worker processes. Exit code 1 if a promise broke or a class of cases has gone dead, 5 if "
+                  "there was no time for a class; failures are shrunk and kept. docs/fuzzing.md says more",
+                  "selvage fuzz ccd --time 60s --seed 7");
   const auto arguments = std::make_shared<FuzzArguments>();
   fuzz.add_option("PROPERTY", arguments->properties,
                   "Which promises to attack, as --list names them; all if none is named");

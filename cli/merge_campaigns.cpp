@@ -86,7 +86,8 @@ ExitCode merge_campaigns(const std::vector<fs::path>& sources, const fs::path& o
   io::write_atomically(output / fuzz::kLedgerFile, fuzz::to_json(merged));
   const FuzzTable table = fuzz_table(merged, properties, output.string());
   fmt::print("{}", table.text);
-  return table.held ? ExitCode::kClean : ExitCode::kViolation;
+  if (!table.held) return ExitCode::kViolation;
+  return table.is_whole ? ExitCode::kClean : ExitCode::kLimit;
 }
 
 }  // namespace selvage::cli

@@ -3,8 +3,6 @@
 #include <bit>
 #include <cstdint>
 
-// A unit of its own: here stands all arithmetic of the broad phase (the rest compares), and none of it can be moved out
-// of the guard that the callers hold.
 namespace selvage {
 
 namespace {

@@ -66,9 +66,11 @@ struct MovingBox {
 /// A vertex on its way from row v of V_t0 to row v of V_t1, grown by reach / 2. With reach = 0 the box is exact. Else
 /// each bound is rounded outward, by less than two units in the last place. Growth is monotone: growing before uniting
 /// equals growing after it.
-/// REQUIRES reach >= 0, |coordinate| <= kMaxCoordinate: then no bound overflows for any finite reach. The caller holds
-/// an FpEnvGuard.
-[[nodiscard]] Box vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v, double reach);
+/// REQUIRES a finite reach >= 0, |coordinate| <= kMaxCoordinate: then no bound overflows. The caller holds an
+/// FpEnvGuard: here stands all arithmetic of the broad phase (the rest compares), and as it is not inlined none of it
+/// can be moved out of the guard's scope.
+[[nodiscard, gnu::noinline]] Box vertex_box(const PositionsRef& V_t0, const PositionsRef& V_t1, VertexId v,
+                                            double reach);
 
 /// How far one box holds a motion.
 enum class MotionBoxes : std::uint8_t {

@@ -1,5 +1,6 @@
 #include "kernel/box_hierarchy.h"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -85,7 +86,7 @@ void BoxHierarchy::refit(const PositionsRef& V_t0, const PositionsRef& V_t1, con
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(V_t0.rows() == impl_->mesh.vertex_count && V_t1.rows() == impl_->mesh.vertex_count);
   SELVAGE_REQUIRE(options.active.empty() || std::ssize(options.active) == impl_->mesh.vertex_count);
-  SELVAGE_REQUIRE(options.reach >= 0);
+  SELVAGE_REQUIRE(options.reach >= 0 && std::isfinite(options.reach));
   impl_->choose(V_t0, V_t1);
   impl_->boxes->refit(impl_->mesh, *impl_->chosen, V_t0, V_t1, options);
 }

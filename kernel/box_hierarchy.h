@@ -29,8 +29,8 @@ class BoxHierarchy {
   BoxHierarchy& operator=(BoxHierarchy&&) noexcept;
 
   /// Boxes of the motion from V_t0 to V_t1 (pass one twice for an instant), grown as CandidateOptions says. O(#V + #F),
-  /// in parallel; O(#F log #F) where the tree is made or chosen again. REQUIRES #V flags or none, a reach >= 0, and
-  /// validate() == kNone, which alone it does not ask: without it candidates may be missing.
+  /// in parallel; O(#F log #F) where the tree is made or chosen again. REQUIRES #V flags or none, a finite reach >= 0,
+  /// and validate() == kNone, which alone it does not ask: without it candidates may be missing.
   void refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options);
   /// Equal to find_candidates_brute_force for the last refit (K6), for any thread count (K7).
   [[nodiscard]] Candidates candidates() const;

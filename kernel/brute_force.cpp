@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "kernel/assert.h"
 #include "kernel/box.h"
 #include "kernel/candidates.h"
@@ -39,7 +41,7 @@ Candidates find_candidates_brute_force(const Mesh& mesh, const PositionsRef& V_t
   const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count);
   SELVAGE_REQUIRE(V_t0.rows() == mesh.vertex_count && V_t1.rows() == mesh.vertex_count);
   SELVAGE_REQUIRE(options.active.empty() || options.active.size() == vertex_count);
-  SELVAGE_REQUIRE(options.reach >= 0);
+  SELVAGE_REQUIRE(options.reach >= 0 && std::isfinite(options.reach));
 
   std::vector<Feature> of_vertex(vertex_count), of_edge, of_face;
   for (std::size_t v = 0; v < vertex_count; ++v) {

@@ -37,12 +37,14 @@ struct Candidates {
 };
 
 /// What is called with a part of them. The parts hold every candidate once, in no order; calls come from several
-/// threads at once.
+/// threads at once. It may run parallel code of its own.
 using CandidateVisitor = std::function<void(const Candidates& part)>;
 
 /// What counts as a candidate.
 struct CandidateOptions {
   /// Each feature's box is grown by half of this, rounded outward: pairs that come nearer than `reach` are found.
+  /// Finite,
+  /// >= 0.
   double reach = 0;
   /// #V flags, or empty for "all": a pair counts only if one of its vertices is active. Scripted bodies against
   /// each other, and pairs that a response did not touch, cost nothing.

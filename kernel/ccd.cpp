@@ -1,11 +1,17 @@
 #include "kernel/ccd.h"
 
+#include <limits>
+
 #include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
 
-// The queries proper stand in ccd_query.cpp: a unit of its own, so that no floating-point operation can be moved out of
-// the guard's scope.
 namespace selvage {
+
+InputError validate(const CcdOptions& options) {
+  const bool is_length = options.tolerance >= 0 && options.tolerance < std::numeric_limits<double>::infinity();
+  if (!is_length) return InputError::kBadTolerance;
+  return options.max_intervals >= 1 ? InputError::kNone : InputError::kBadOption;
+}
 
 CcdResult vf_ccd(const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1, const CcdOptions& options) {
   const FpEnvGuard guard;

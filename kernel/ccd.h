@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "kernel/mesh.h"
 #include "kernel/types.h"
 
 namespace selvage {
@@ -14,10 +15,14 @@ struct CcdOptions {
   std::int32_t max_intervals = 4096;  ///< bound on the time intervals one query examines (K8)
 };
 
+/// kBadTolerance, kBadOption (max_intervals < 1) or kNone. A query answers kUnresolved under options with an error.
+[[nodiscard]] InputError validate(const CcdOptions& options);
+
 /// What a query answers.
 enum class CcdVerdict : std::uint8_t {
   kSeparated,   ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
-  kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]: 2^-39 of their size, or tolerance
+  kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]: at most 2^-39 of their size
+                ///< (kMotion), or, at t = 1, the upper end of a bracket of their distance that tolerance is in (kEnd)
   kUnresolved,  ///< the limit, or that of double-double arithmetic (K8), was reached: a collision at toi_lower to
                 ///< whoever must be safe
 };
@@ -36,7 +41,8 @@ struct CcdResult {
   double toi_lower = 0;                ///< PROVED: no touch in [0, toi_lower); 1 when separated or cause is kEnd
   double gap_bound = 0;                ///< length; PROVED for kCollides
   std::array<double, 4> weights = {};  ///< as in Proximity, at toi_lower (kMotion) or 1 (kEnd)
-  Vec3 normal = Vec3::Zero();          ///< as in Proximity, from the last certified separation before touch
+  Vec3 normal = Vec3::Zero();          ///< as in Proximity, at a time shortly before the touch (kMotion) or at 1; up to
+                                       ///< its sign where the features touch at t = 0: no side is behind them
   std::int32_t intervals = 0;          ///< time intervals examined: a deterministic measure of work
 };
 

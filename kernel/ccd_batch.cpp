@@ -13,12 +13,6 @@
 
 namespace selvage {
 
-InputError validate(const CcdOptions& options) {
-  const bool is_length = options.tolerance >= 0 && options.tolerance < std::numeric_limits<double>::infinity();
-  if (!is_length) return InputError::kBadTolerance;
-  return options.max_intervals >= 1 ? InputError::kNone : InputError::kBadOption;
-}
-
 namespace {
 
 /// Preparing the lanes costs some 35 ns a vertex; a query that they spare costs 130 ns.

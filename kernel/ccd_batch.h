@@ -14,9 +14,6 @@
 
 namespace selvage {
 
-/// kBadTolerance, kBadOption (max_intervals < 1) or kNone. A query answers kUnresolved under options with an error.
-[[nodiscard]] InputError validate(const CcdOptions& options);
-
 /// A pair that is not separated.
 struct BatchAnswer {
   std::size_t candidate;  ///< its place in the list

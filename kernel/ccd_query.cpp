@@ -1,6 +1,4 @@
 // One query from the caller's points to the caller's labels: domain, canonical order, cull, search.
-#include <limits>
-
 #include "kernel/canonical_order.h"
 #include "kernel/ccd_detail.h"
 #include "kernel/ccd_search.h"
@@ -10,14 +8,6 @@ namespace selvage::detail {
 
 namespace {
 
-bool in_domain(const Vec3* x, std::size_t count) {
-  bool inside = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (int axis = 0; axis < 3; ++axis) inside &= std::fabs(x[i][axis]) <= kMaxCoordinate;  // false for NaN
-  }
-  return inside;
-}
-
 PairPoints ordered(const CanonicalOrder& order, const Vec3* x, std::size_t count) {
   PairPoints points;
   for (std::size_t i = 0; i < count; ++i) points[i] = to_double3(x[order.original[i]]);
@@ -26,8 +16,7 @@ PairPoints ordered(const CanonicalOrder& order, const Vec3* x, std::size_t count
 
 CcdResult query(PairKind kind, const Vec3* x_t0, const Vec3* x_t1, const CcdOptions& options) {
   const std::size_t count = kind == PairKind::kSelf ? 3 : 4;
-  const bool valid_tolerance = options.tolerance >= 0 && options.tolerance < std::numeric_limits<double>::infinity();
-  if (!valid_tolerance || options.max_intervals < 1 || !in_domain(x_t0, count) || !in_domain(x_t1, count)) return {};
+  if (validate(options) != InputError::kNone || !in_domain({x_t0, count}) || !in_domain({x_t1, count})) return {};
   const CanonicalOrder order = canonical_order(kind, x_t0, x_t1);
   if (cull(swept_corners(kind, order, x_t0, x_t1), options.tolerance)) {
     CcdResult result;

@@ -1,6 +1,7 @@
 #include "kernel/collisions.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <tuple>
 
@@ -41,11 +42,14 @@ std::array<Vec3, N> points(const PositionsRef& V, const std::array<VertexId, 4>&
   return x;
 }
 
+/// Thrown in a task where there are more collisions than are wanted: oneTBB ends all others.
+struct TooMany {};
+
 class CollisionFinder {
  public:
   CollisionFinder(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
-                  std::span<const std::uint8_t> active)
-      : mesh_(mesh), V_t0_(V_t0), V_t1_(V_t1), options_(options), active_(active) {}
+                  std::span<const std::uint8_t> active, std::size_t most_collisions)
+      : mesh_(mesh), V_t0_(V_t0), V_t1_(V_t1), options_(options), active_(active), most_collisions_(most_collisions) {}
 
   CollisionReport find(const Candidates& candidates) {
     const CcdBatch batch(mesh_, V_t0_, V_t1_, options_, candidates.vf.size() + candidates.ee.size());
@@ -100,10 +104,18 @@ class CollisionFinder {
       const auto& pair = pairs[answer.candidate];
       if (!moves_near(kind, pair_vertices(mesh_, pair))) continue;
       const auto [first, second] = pair;
-      block.collisions.push_back({kind, first, second, answer.ccd});
+      add({kind, first, second, answer.ccd}, block);
     }
     block.intervals += report.intervals;
     block.count(pairs);
+  }
+
+  void add(const Collision& collision, Block& block) const {
+    block.collisions.push_back(collision);
+    if (collision.ccd.cause == CcdCause::kMotion &&
+        count_.fetch_add(1, std::memory_order_relaxed) >= most_collisions_) {
+      throw TooMany();
+    }
   }
 
   /// Asked of what was found, too: else what is found would depend on which boxes the candidates come from.
@@ -119,7 +131,7 @@ class CollisionFinder {
     const auto vertices = pair_vertices(mesh_, PairKind::kSelf, vertex, face);
     const CcdResult ccd = self_ccd(points<3>(V_t0_, vertices), points<3>(V_t1_, vertices), options_);
     block.intervals += ccd.intervals;
-    if (ccd.verdict != CcdVerdict::kSeparated) block.collisions.push_back({PairKind::kSelf, vertex, face, ccd});
+    if (ccd.verdict != CcdVerdict::kSeparated) add({PairKind::kSelf, vertex, face, ccd}, block);
   }
 
   /// Each corner of the face against the opposite edge.
@@ -155,6 +167,8 @@ class CollisionFinder {
   const PositionsRef& V_t1_;
   const CcdOptions& options_;
   std::span<const std::uint8_t> active_;
+  const std::size_t most_collisions_;
+  mutable std::atomic<std::size_t> count_ = 0;  ///< of kMotion
   CollisionReport report_;
 };
 
@@ -177,19 +191,26 @@ std::size_t few_candidates(const Mesh& mesh) {
 
 CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                 const PositionsRef& V_t1, const CcdOptions& options,
-                                std::span<const std::uint8_t> active, std::size_t most_listed) {
+                                std::span<const std::uint8_t> active, const CollisionLimits& limits) {
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
   SELVAGE_REQUIRE(validate(options) == InputError::kNone);
-  CollisionFinder finder(mesh, V_t0, V_t1, options, active);
+  CollisionFinder finder(mesh, V_t0, V_t1, options, active, limits.most_collisions);
   const auto list = [&](MotionBoxes boxes, std::size_t most) {
     hierarchy.refit(V_t0, V_t1, {options.tolerance, active, boxes});
     return hierarchy.candidates(most);
   };
-  const std::size_t few = std::min(few_candidates(mesh), most_listed);
-  if (const auto candidates = list(MotionBoxes::kSwept, few)) return finder.find(*candidates);
-  if (const auto candidates = list(MotionBoxes::kMoving, most_listed)) return finder.find(*candidates);
-  return finder.find(hierarchy, most_listed);
+  const std::size_t few = std::min(few_candidates(mesh), limits.most_listed);
+  try {
+    if (const auto candidates = list(MotionBoxes::kSwept, few)) return finder.find(*candidates);
+    if (const auto candidates = list(MotionBoxes::kMoving, limits.most_listed)) return finder.find(*candidates);
+    return finder.find(hierarchy, limits.most_listed);
+  } catch (const TooMany&) {
+    CollisionReport report;
+    report.toi_lower = 0;
+    report.is_complete = false;
+    return report;
+  }
 }
 
 }  // namespace selvage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "kernel/box_hierarchy.h"
@@ -24,10 +25,17 @@ struct CollisionReport {
   std::int64_t ee_candidates = 0;     ///< edge-edge queries made
   std::int64_t self_candidates = 0;   ///< queries made of vertices against their faces' opposite edges
   std::int64_t intervals = 0;         ///< time intervals they examined: a deterministic measure of work
+  bool is_complete = true;            ///< or there are more than the caller wants to know: see find_collisions()
 };
 
-/// Candidates that take half a gigabyte: as found, and listed.
-inline constexpr std::size_t kMostListed = std::size_t{1} << 25;
+/// What a search for collisions may take.
+struct CollisionLimits {
+  /// Candidates that are listed before they are asked; more are asked as they are found. The default takes half a
+  /// gigabyte: as found, and listed.
+  std::size_t most_listed = std::size_t{1} << 25;
+  /// Where more than so many pairs are not proved free of touch (kMotion), the search is given up.
+  std::size_t most_collisions = std::numeric_limits<std::size_t>::max();
+};
 
 /// The vertices of a pair in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, p} for kSelf.
 [[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
@@ -46,12 +54,12 @@ inline constexpr std::size_t kMostListed = std::size_t{1} << 25;
 /// candidate or not. A step without motion (V_t0 = V_t1) is a step: pairs within tolerance are found, touching ones
 /// with toi_lower 0. `hierarchy` belongs to `mesh` and is refit here; `active` as in CandidateOptions. REQUIRES
 /// validate() == kNone of the positions and of the options, which it asks. In parallel; results are ordered, and equal
-/// bits for any thread count (K7). Up to `most_listed` candidates are listed before they are asked; more are asked as
-/// they are found. So memory is O(#V + #F + most_listed + #collisions), also where features cross in the step so far
-/// that there are O(#F^2) candidates, and it takes as long.
+/// bits for any thread count (K7). Memory is O(#V + #F + most_listed + #collisions), also where features cross in the
+/// step so far that there are O(#F^2) candidates, and it takes as long, unless `limits` ends it: then the report is not
+/// complete, names none, and has a toi_lower of 0.
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
                                               const PositionsRef& V_t1, const CcdOptions& options,
                                               std::span<const std::uint8_t> active = {},
-                                              std::size_t most_listed = kMostListed);
+                                              const CollisionLimits& limits = {});
 
 }  // namespace selvage

@@ -1,10 +1,12 @@
-// The floating-point environment that the proofs assume: round to nearest, no flush to zero, no denormals-are-zero.
+// The floating-point environment that the proofs assume: round to nearest, no flush to zero, no denormals-are-zero, no
+// traps.
 #pragma once
 
 namespace selvage {
 
-/// Sets the environment for a scope and restores what it found. Stands at every public entry of the kernel and at the
-/// start of every worker task: a library linked with -ffast-math changes FTZ and DAZ of the whole process.
+/// Sets the environment for a scope and restores what it found, whatever was changed inside. Stands at every public
+/// entry of the kernel and at the start of every worker task: a library linked with -ffast-math changes FTZ and DAZ of
+/// the whole process.
 class FpEnvGuard {
  public:
   FpEnvGuard() noexcept;

@@ -53,7 +53,7 @@ const char* describe(InputError error) {
     case InputError::kNone:
       return "no error";
     case InputError::kSizeMismatch:
-      return "the arrays differ in size; pass #V rows of positions for every time";
+      return "the arrays differ in size; pass #V rows of positions for every time, and an entry a vertex of all else";
     case InputError::kNotFinite:
       return "a coordinate is NaN or infinite; check the simulation that produced it";
     case InputError::kTooLarge:

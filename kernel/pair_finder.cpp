@@ -7,6 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "kernel/fp_env.h"
 #include "kernel/pair_buffer.h"
@@ -143,7 +144,9 @@ class Visiting {
     if (list.vf.size() + list.ee.size() >= kListSize) give(list);
   }
   void give(Candidates& list) {
-    visit_(list);
+    // A visitor that waits for parallel code of its own could be given another cluster to search meanwhile, in this
+    // thread, whose list and workspace are in use.
+    tbb::this_task_arena::isolate([&] { visit_(list); });
     list.vf.clear();
     list.ee.clear();
   }

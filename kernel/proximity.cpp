@@ -26,11 +26,7 @@ Proximity unknown_proximity() {
 }
 
 Proximity proximity(PairKind kind, const std::array<Vec3, 4>& x) {
-  for (const Vec3& point : x) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(std::fabs(point[axis]) <= kMaxCoordinate)) return unknown_proximity();
-    }
-  }
+  if (!in_domain(x)) return unknown_proximity();
   const CanonicalOrder order = canonical_order(kind, x.data(), x.data());
   PairPoints points;
   for (std::size_t i = 0; i < 4; ++i) points[i] = to_double3(x[order.original[i]]);

@@ -79,10 +79,8 @@ class Attempt {
     groups_.observe(motion_);
     report_.cut_candidates = limit_travel(groups_, motion_);
     if (options_.repulsion) repel();
-    {
-      const PhaseTimer timer(report_.phases.search);
-      tracker_.start(motion_);
-    }
+    is_abandoned_ = !search();
+    if (is_abandoned_) return std::nullopt;
     report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
     if (options_.repulsion) meet_collisions();
     is_abandoned_ = report_.first_collisions > patience_.collisions;
@@ -104,6 +102,7 @@ class Attempt {
 
  private:
   void repel();
+  bool search();
   void meet_collisions();
   void apply_impulses();
   void move_impact_zones();
@@ -156,6 +155,20 @@ void Attempt::repel() {
   report_.proximities = std::ssize(held_) + proximities_.count();
   report_.repulsions = contacts.count().repulsions;
   report_.frictions = contacts.count().frictions;
+}
+
+/// Of all that collides. A motion that meets far too much is cut back first, or given up where its caller has no
+/// patience with so much: then false.
+bool Attempt::search() {
+  const PhaseTimer timer(report_.phases.search);
+  const std::size_t most = kMostMeetings * static_cast<std::size_t>(mesh_.vertex_count);
+  for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
+    if (tracker_.start(motion_, most)) return true;
+    report_.first_collisions = static_cast<std::int64_t>(most) + 1;
+    if (patience_.collisions < report_.first_collisions) return false;
+    report_.cut_candidates = std::max(report_.cut_candidates, halve_travel(groups_, motion_));
+  }
+  return tracker_.start(motion_);
 }
 
 /// What repulsions leave, as contacts: dynamics that know of them do better than impulses at the end of the step.

@@ -37,13 +37,15 @@ enum class StepStatus : std::uint8_t {
 struct CollisionStepReport {
   StepStatus status = StepStatus::kInvalidInput;
   InputError input_error = InputError::kNone;
-  /// Candidates of cloth that were farther from their start than 1024 diagonals of the scene's box, and were cut back
-  /// to that before anything else (travel_limit.h): the simulation has blown up.
+  /// Candidates of cloth that were cut back before anything else, as the simulation has blown up (travel_limit.h):
+  /// those farther from their start than 1024 diagonals of the scene's box, or all, by halves, where more than 64 pairs
+  /// a vertex would collide.
   std::int64_t cut_candidates = 0;
   /// Contacts that are held, and other pairs that are near at the start and approaching (StartProximities::count()).
   std::int64_t proximities = 0;
   std::int64_t repulsions = 0, frictions = 0;
-  std::int64_t first_collisions = 0;  ///< left by the repulsions, before any impulse of section 7.4
+  /// Left by the repulsions, before any impulse of section 7.4; at least so many where the step was abandoned.
+  std::int64_t first_collisions = 0;
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
   std::int32_t largest_zone = 0;             ///< vertices
   std::int64_t fail_safe_vertices = 0;       ///< 0 in ordinary scenes

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "fuzz/cases/case_file.h"
-#include "fuzz/cases/overlap_case.h"
+#include "fuzz/kept/case_file.h"
+#include "fuzz/kept/overlap_case.h"
 #include "io/atomic_file.h"
 #include "io/fail.h"
 #include "verify/report/report.h"

@@ -63,7 +63,7 @@ FuzzTable fuzz_table(const fuzz::Ledger& ledger, const fuzz::Properties& propert
       for (GroupRow* row : {&groups[stream.group], &all}) {
         row->counts += done.rows[i];
         row->streams += 1;
-        row->alive += complaint.empty() ? 1 : 0;
+        row->alive += complaint.empty() && done.rows[i].cases > 0 ? 1 : 0;
       }
     }
     const auto print = [&](const std::string& name, const GroupRow& row) {
@@ -75,6 +75,13 @@ FuzzTable fuzz_table(const fuzz::Ledger& ledger, const fuzz::Properties& propert
     print("all", all);
     table.text += accuracy_text(done.total_accuracy());
     table.text += complaints;
+    const std::int64_t unasked = done.streams_without_cases();
+    if (unasked > 0) {
+      table.text +=
+          fmt::format("  {} of {} streams have had no case: nothing is known of them{}\n", unasked, all.streams,
+                      ledger.shards > 1 ? " from this shard" : "; give it more --time or --cases");
+    }
+    table.is_whole = table.is_whole && (ledger.shards > 1 ? all.counts.cases > 0 : unasked == 0);
     for (const auto& [key, finding] : done.findings) {
       table.text +=
           fmt::format("  {}: {} {} times, first in case {}\n", key.first, key.second, finding.count, finding.number);

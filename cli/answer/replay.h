@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bench/textbook.h"
-#include "fuzz/cases/case_file.h"
-#include "fuzz/cases/kept_case.h"
-#include "fuzz/cases/overlap_case.h"
+#include "fuzz/kept/case_file.h"
+#include "fuzz/kept/kept_case.h"
+#include "fuzz/kept/overlap_case.h"
 #include "fuzz/oracle/query_oracle.h"
 #include "fuzz/plugin/plugin_trial.h"
 #include "fuzz/run/worker.h"

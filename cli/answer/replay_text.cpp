@@ -119,14 +119,17 @@ std::string plugin_text(const fuzz::PluginTrial& plugin, const MotionReplay& rep
   if (plugin.has_answer && plugin.info.has_toi && plugin.answer.verdict == SELVAGE_COLLIDES) {
     text += fmt::format(" ({:.17g})", plugin.answer.toi);
     if (replay.exact.touches) {
-      const double early = replay.exact.first.lower_approx - plugin.answer.toi;
+      const bool is_early = replay.exact.first.lower_approx >= plugin.answer.toi;
+      const double early =
+          (is_early ? replay.exact.first.upper_approx : replay.exact.first.lower_approx) - plugin.answer.toi;
       text += fmt::format(", {:.6g} of the step {} the first touch", std::abs(early), early < 0 ? "behind" : "before");
     }
   }
   text = fmt::format("  plugin:   {}: {}: {}\n", plugin.info.name, text,
                      plugin.failure.empty() ? "conforms" : "FAILS: " + plugin.failure);
   if (replay.kept.plugin && replay.kept.plugin->failure != (plugin.failure.empty() ? "none" : plugin.failure)) {
-    text += fmt::format("            it was kept for '{}'\n", replay.kept.plugin->failure);
+    text += fmt::format("            it was kept for '{}'{}\n", replay.kept.plugin->failure,
+                        plugin.failure.empty() ? ": its answer depends on what it was asked before" : "");
   }
   return text;
 }

@@ -9,8 +9,8 @@
 
 #include "cli/answer/shell_word.h"
 #include "cli/page/report_words.h"
-#include "fuzz/cases/case_file.h"
 #include "fuzz/draw/generators.h"
+#include "fuzz/kept/case_file.h"
 #include "fuzz/shrink/shrink_query.h"
 #include "io/atomic_file.h"
 #include "page/page.h"
@@ -53,9 +53,10 @@ struct FailureWords {
   std::string_view failure, words;
 };
 /// The gravest first; those of no plugin in particular come behind them, as they are called.
-constexpr std::array<FailureWords, 3> kFailures{{{"missed", "contact missed"},
+constexpr std::array<FailureWords, 4> kFailures{{{"missed", "contact missed"},
                                                  {"late-time", "time of impact too late"},
-                                                 {"alarm-too-far", "alarm beyond the declared gap"}}};
+                                                 {"alarm-too-far", "alarm beyond the declared gap"},
+                                                 {"unsteady", "answer that depends on earlier ones"}}};
 
 std::string words_for(const std::string& failure) {
   const auto* known = std::ranges::find(kFailures, failure, &FailureWords::failure);
@@ -125,11 +126,12 @@ struct Verdict {
 };
 Verdict verdict_of(const fuzz::PropertyLedger& done, const ConformanceRun& run) {
   if (!done.findings.empty()) return {"violated", "\u2715", "does not conform"};
-  if (done.total().cases == 0 || !run.is_finished) return {"unknown", "?", "unknown"};
+  if (done.streams_without_cases() > 0 || !run.is_finished) return {"unknown", "?", "unknown"};
   return {"clean", "\u2713", "nothing found"};
 }
 
-std::string lead(const std::vector<Counterexample>& all, const ConformanceRow& total, const ConformanceRun& run) {
+std::string lead(const std::vector<Counterexample>& all, const fuzz::PropertyLedger& done, const ConformanceRun& run) {
+  const ConformanceRow total(done.total());
   std::string sentence =
       fmt::format("{}, {} of them exact touches", counted(total.queries, "constructed case"), grouped(total.touches));
   std::map<std::string, std::int64_t, ByGravity> kinds;
@@ -139,6 +141,10 @@ std::string lead(const std::vector<Counterexample>& all, const ConformanceRow& t
   for (const auto& [failure, count] : kinds) {
     sentence += fmt::format("{}{} {}", separator, words_for(failure), count == 1 ? "once" : grouped(count) + " times");
     separator = ", ";
+  }
+  if (const std::int64_t unasked = done.streams_without_cases(); unasked > 0) {
+    sentence += fmt::format(". Of {} of the {} classes nothing is known: they were asked nothing", grouped(unasked),
+                            grouped(std::ssize(done.rows)));
   }
   return sentence + (run.is_finished ? "." : ". The campaign was interrupted.");
 }
@@ -152,7 +158,7 @@ Html header(const fuzz::PropertyLedger& done, const std::vector<Counterexample>&
       element("div", {{"class", std::string("verdict ") + verdict.style}},
               element("span", {{"class", "mark"}, {"aria-hidden", "true"}}, element("span", {}, text(verdict.mark))) +
                   element("h1", {{"id", "verdict"}}, text(std::string(info.name) + ": " + verdict.name)));
-  return html + element("p", {{"class", "lead"}}, text(lead(all, ConformanceRow(done.total()), run)));
+  return html + element("p", {{"class", "lead"}}, text(lead(all, done, run)));
 }
 
 Html detailed_fact(const std::string& name, const std::string& value, const std::string& detail) {

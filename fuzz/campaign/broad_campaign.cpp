@@ -1,26 +1,13 @@
 #include "fuzz/campaign/broad_campaign.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fuzz/campaign/mesh_property.h"
-#include "fuzz/cases/broad_case.h"
+#include "fuzz/kept/broad_case.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
-
-double choose_reach(ChoiceSource& source, const StepWorld& world) {
-  return source.coin() ? std::ldexp(world.gap_m, source.range(-20, 3)) : 0;
-}
-
-/// All vertices, or some.
-std::vector<std::uint8_t> choose_active(ChoiceSource& source, const StepWorld& world) {
-  std::vector<std::uint8_t> active;
-  if (!source.coin()) return active;
-  for (Eigen::Index i = 0; i < world.x.rows(); ++i) active.push_back(source.n(4) == 1 ? 1 : 0);
-  return active;
-}
 
 class BroadCampaign final : public MeshProperty {
  public:
@@ -49,7 +36,7 @@ class BroadCampaign final : public MeshProperty {
       std::string_view candidate_class;
       x[motion + 1] = choose_candidate(source, world, x[motion], candidate_class);
       questions[motion].active = choose_active(source, world);
-      questions[motion].reach = choose_reach(source, world);
+      questions[motion].reach = choose_length(source, world);
     }
     return broad_case(world.mesh, x, questions);
   }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "fuzz/cases/file_case.h"
-#include "fuzz/cases/file_formats.h"
+#include "fuzz/kept/file_case.h"
+#include "fuzz/kept/file_formats.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fuzz/campaign/property.h"
-#include "fuzz/cases/mesh_case.h"
+#include "fuzz/kept/mesh_case.h"
 
 namespace selvage::fuzz {
 

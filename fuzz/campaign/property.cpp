@@ -1,6 +1,7 @@
 #include "fuzz/campaign/property.h"
 
 #include "fuzz/campaign/broad_campaign.h"
+#include "fuzz/campaign/collisions_campaign.h"
 #include "fuzz/campaign/file_campaign.h"
 #include "fuzz/campaign/query_streams.h"
 #include "fuzz/campaign/simulation_campaign.h"
@@ -20,6 +21,7 @@ Properties all_properties() {
   Properties properties;
   for (const QueryProperty& property : query_properties()) properties.push_back(make_query_campaign(property));
   properties.push_back(make_broad_campaign());
+  properties.push_back(make_collisions_campaign());
   properties.push_back(make_step_campaign());
   properties.push_back(make_simulation_campaign());
   properties.push_back(make_subdivision_campaign());

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fuzz/campaign/campaign.h"
-#include "fuzz/cases/case_file.h"
+#include "fuzz/campaign/query_campaign.h"
+#include "fuzz/kept/case_file.h"
 #include "fuzz/shrink/shrink_choices.h"
 #include "fuzz/shrink/shrink_query.h"
 #include "kernel/assert.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fuzz/cases/scene_case.h"
 #include "fuzz/draw/random_scene.h"
+#include "fuzz/kept/scene_case.h"
 #include "fuzz/shrink/shrink_choices.h"
 
 namespace selvage::fuzz {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fuzz/cases/drawn_case.h"
-#include "fuzz/cases/step_case.h"
+#include "fuzz/kept/drawn_case.h"
+#include "fuzz/kept/step_case.h"
 #include "fuzz/shrink/shrink_choices.h"
 #include "fuzz/shrink/shrink_mesh.h"
 #include "kernel/assert.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fuzz/campaign/mesh_property.h"
-#include "fuzz/cases/subdivision_case.h"
+#include "fuzz/kept/subdivision_case.h"
 #include "fuzz/oracle/step_oracle.h"
 #include "kernel/assert.h"
 

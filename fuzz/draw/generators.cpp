@@ -78,6 +78,7 @@ std::vector<QueryClass> make_classes() {
       {'G', 50, "huge", scaled_by(341, 985),
        Bands{HitBand{0.632, 0.856}, HitBand{0.639, 0.865}, HitBand{0.578, 0.782}}},  // up to kMaxCoordinate =
                                                                                      // 2^1000
+      {'G', 50, "tiny", make::tiny, Bands{HitBand{0.636, 0.861}, HitBand{0.633, 0.856}, HitBand{0.568, 0.769}}},
       {'G', 40, "subnormal", scaled_by(-1074, -1040),
        Bands{HitBand{0.643, 0.869}, HitBand{0.651, 0.881}, HitBand{0.563, 0.761}}},
       {'G', 50, "mixed-axes", make::mixed_axes,

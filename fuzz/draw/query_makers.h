@@ -57,6 +57,8 @@ MotionQuery exchange(ChoiceSource& source, PairKind kind);
 
 // scale_makers.cpp: the exponent range
 MotionQuery scaled(ChoiceSource& source, PairKind kind, int exponent_first, int exponent_last);
+/// In units of 2^-1040 to 2^-341, half of them where cubes or squares of coordinates begin to underflow.
+MotionQuery tiny(ChoiceSource& source, PairKind kind);
 /// Axes with units of their own, or one of 2^-340 to 2^340 for all: contacts stay contacts.
 MotionQuery mixed_axes(ChoiceSource& source, PairKind kind);
 /// Every coordinate with an exponent of its own.

@@ -68,16 +68,14 @@ Recording record() {
     BoxHierarchy hierarchy(mesh);
     hierarchy.refit(x_t0, simulation.x(), {.reach = scene.collision.thickness_m, .active = {}});
     const Candidates candidates = hierarchy.candidates();
-    for (std::size_t i = 0; i < candidates.vf.size(); i += kStride) {
-      const auto& face = mesh.faces[static_cast<std::size_t>(candidates.vf[i].face)];
-      recording.queries[0].push_back(
-          query_of(PairKind::kVf, {candidates.vf[i].vertex, face[0], face[1], face[2]}, x_t0, simulation.x()));
-    }
-    for (std::size_t i = 0; i < candidates.ee.size(); i += kStride) {
-      const auto& a = mesh.edges[static_cast<std::size_t>(candidates.ee[i].a)];
-      const auto& b = mesh.edges[static_cast<std::size_t>(candidates.ee[i].b)];
-      recording.queries[1].push_back(query_of(PairKind::kEe, {a[0], a[1], b[0], b[1]}, x_t0, simulation.x()));
-    }
+    const auto keep = [&](PairKind kind, const auto& pairs) {
+      for (std::size_t i = 0; i < pairs.size(); i += kStride) {
+        recording.queries[static_cast<std::size_t>(kind)].push_back(
+            query_of(kind, pair_vertices(mesh, pairs[i]), x_t0, simulation.x()));
+      }
+    };
+    keep(PairKind::kVf, candidates.vf);
+    keep(PairKind::kEe, candidates.ee);
   }
   return recording;
 }

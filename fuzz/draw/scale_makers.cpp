@@ -22,6 +22,18 @@ MotionQuery scaled(ChoiceSource& source, PairKind kind, int exponent_first, int 
   return to_query(kind, motion, source.range(exponent_first, exponent_last));
 }
 
+MotionQuery tiny(ChoiceSource& source, PairKind kind) {
+  const LatticeMotion motion = small_contact(source, kind);
+  switch (source.n(4)) {
+    case 1:
+      return to_query(kind, motion, source.range(-380, -340));
+    case 2:
+      return to_query(kind, motion, source.range(-550, -490));
+    default:
+      return to_query(kind, motion, source.range(-1040, -341));
+  }
+}
+
 MotionQuery mixed_axes(ChoiceSource& source, PairKind kind) {
   const LatticeMotion motion = small_contact(source, kind);
   if (source.one_in(4)) return to_query(kind, motion, source.range(-340, 340));

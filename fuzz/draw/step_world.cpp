@@ -97,6 +97,17 @@ std::vector<std::uint8_t> body_faces(const StepWorld& world, const Triples& face
 
 }  // namespace
 
+double choose_length(ChoiceSource& source, const StepWorld& world) {
+  return source.coin() ? std::ldexp(world.gap_m, source.range(-20, 3)) : 0;
+}
+
+std::vector<std::uint8_t> choose_active(ChoiceSource& source, const StepWorld& world) {
+  std::vector<std::uint8_t> active;
+  if (!source.coin()) return active;
+  for (Eigen::Index i = 0; i < world.x.rows(); ++i) active.push_back(source.n(4) == 1 ? 1 : 0);
+  return active;
+}
+
 std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult& result) {
   std::int64_t count = 0;
   for (const verify::Violation& violation : result.violations) {

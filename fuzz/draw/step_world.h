@@ -64,6 +64,11 @@ void connect(StepWorld& world, const Triples& faces);
 [[nodiscard]] Positions choose_candidate(ChoiceSource& source, const StepWorld& world, const Positions& x,
                                          std::string_view& candidate_class);
 
+/// A length that matters for what is near, or zero.
+[[nodiscard]] double choose_length(ChoiceSource& source, const StepWorld& world);
+/// #V flags, of which about a quarter are set, or none at all: every vertex is active.
+[[nodiscard]] std::vector<std::uint8_t> choose_active(ChoiceSource& source, const StepWorld& world);
+
 /// Violations of the exact check that concern cloth: those whose vertices are all scripted are not the step's.
 [[nodiscard]] std::int64_t cloth_violations(const StepWorld& world, const verify::CheckResult& result);
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "fuzz/campaign/property.h"
-#include "fuzz/cases/file_formats.h"
+#include "fuzz/kept/file_formats.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {

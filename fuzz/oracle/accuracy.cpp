@@ -88,7 +88,7 @@ AccuracySample measure_accuracy(const MotionQuery& query, bool touches, bool ala
   if (!touches) {
     sample.gap = gap_class(query);
   } else if (alarm && toi) {
-    sample.early_time = bin_of(exact_motion(query, verify::Detail::kFirstTime).first.lower_approx - *toi);
+    sample.early_time = bin_of(exact_motion(query, verify::Detail::kFirstTime).first.upper_approx - *toi);
     const double size = extent(query);
     sample.early_distance = size > 0 ? bin_of(rounded_distance(query, *toi) / size) : 0;
   }

@@ -33,8 +33,13 @@ double speed_upper(const MotionQuery& query, std::size_t i, std::size_t j) {
 }  // namespace
 
 double rounded_distance(const MotionQuery& query, double t) {
+  // Seen from a point that goes along: far from the origin, or fast, positions would round by more than the features
+  // are apart. Differences of the largest coordinates are beyond the domain, and stay as they are.
+  const bool is_far_out = max_coordinate(query) > kMaxCoordinate / 2;
+  const Vec3 origin_t0 = is_far_out ? Vec3(Vec3::Zero()) : query.x_t0[0];
+  const Vec3 origin_t1 = is_far_out ? Vec3(Vec3::Zero()) : query.x_t1[0];
   std::array<Vec3, 4> x;
-  for (std::size_t i = 0; i < 4; ++i) x[i] = (1 - t) * query.x_t0[i] + t * query.x_t1[i];
+  for (std::size_t i = 0; i < 4; ++i) x[i] = (1 - t) * (query.x_t0[i] - origin_t0) + t * (query.x_t1[i] - origin_t1);
   if (query.kind == PairKind::kSelf) x[3] = x[2];
   return query.kind == PairKind::kEe ? ee_proximity(x).distance : vf_proximity(x).distance;
 }

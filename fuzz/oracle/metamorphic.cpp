@@ -48,7 +48,7 @@ MotionQuery relabel(const MotionQuery& query, const Relabelling& relabelling) {
 
 /// Points that coincide at both ends are one point to the kernel: it may give either of them the weight.
 bool has_twins(const MotionQuery& query) {
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(point_count(query.kind)); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (query.x_t0[i] == query.x_t0[j] && query.x_t1[i] == query.x_t1[j]) return true;
     }
@@ -66,13 +66,13 @@ bool same_core(const CcdResult& a, const CcdResult& b) {
 bool answers_follow_relabelling(const MotionQuery& query, const CcdResult& answer, CcdKernel kernel) {
   // Where coordinates tie, the search for the closest point may pick either of several closest points, but the labels
   // cannot decide which: the answer's direction is still the same up to the swap of the features.
-  const bool weights_are_unique = query.kind == PairKind::kSelf || !has_twins(query);
+  const bool weights_are_unique = !has_twins(query);
   for (const Relabelling& relabelling : relabellings(query.kind)) {
     const CcdResult other = kernel(relabel(query, relabelling));
     if (!same_core(answer, other) || answer.gap_bound != other.gap_bound) return false;
     const Vec3 normal = relabelling.swaps_features ? Vec3(-other.normal) : other.normal;
     if (answer.normal != normal && weights_are_unique) return false;
-    for (std::size_t i = 0; i < 4 && weights_are_unique && query.kind != PairKind::kSelf; ++i) {
+    for (std::size_t i = 0; i < 4 && weights_are_unique; ++i) {
       if (other.weights[i] != answer.weights[relabelling.order[i]]) return false;
     }
   }

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "fuzz/campaign/query_streams.h"
-#include "fuzz/cases/case_file.h"
+#include "fuzz/kept/case_file.h"
 #include "fuzz/plugin/plugin_trial.h"
 #include "fuzz/shrink/shrink_query.h"
 
@@ -36,7 +36,7 @@ class Conformance final : public Property {
     if (!has_loaded_cleanly_) return load_failure();
     const auto [query_class, kind] = query_stream(stream);
     const MotionQuery query = make_query(*query_class, kind, source);
-    const PluginJudgement verdict = judge_plugin(*plugin_, query, source.one_in(16));
+    const PluginJudgement verdict = judge_steadily(*plugin_, query, source.one_in(16));
     Outcome outcome{{1, verdict.failure.empty() ? 0 : 1, {}, 0}, verdict.failure};
     outcome.counts.of = {verdict.touches,
                          verdict.alarm,
@@ -58,7 +58,7 @@ class Conformance final : public Property {
     MotionQuery query = make_query(*query_class, kind, source);
     query.options = CcdOptions{.tolerance = 0};  // the plugin has its own
     const bool in_batch = source.one_in(16);
-    if (shrunk) {
+    if (shrunk && failure != kUnsteady) {
       query = shrink(query, [&](const MotionQuery& simpler) {
                 beat_();
                 return judge_plugin(*plugin_, simpler, in_batch).failure == failure;

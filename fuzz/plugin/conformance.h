@@ -12,7 +12,8 @@
 
 namespace selvage::fuzz {
 
-/// Streams for all classes, vf and ee. Failures: missed, late-time, alarm-too-far, and the misdeeds of Plugin::Answer.
+/// Streams for all classes, vf and ee. Failures: missed, late-time, alarm-too-far, unsteady, and
+/// the misdeeds of Plugin::Answer.
 /// A process that finds another CRC-32 than `crc32` of the library does not start.
 [[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32);
 

@@ -49,7 +49,13 @@ std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const
     report += "  " + key.second + ": " + key.first + ", " + std::to_string(finding.count) + " times, first in case " +
               std::to_string(finding.number) + "; smallest: " + folder + "/" + finding.file + "\n";
   }
-  return report + (done.findings.empty() ? "  nothing found\n" : "");
+  const std::int64_t unasked = done.streams_without_cases();
+  if (unasked > 0) {
+    report +=
+        "  " + std::to_string(unasked) + " of " + std::to_string(done.rows.size()) +
+        " classes were asked nothing: nothing is known of them; give it more --time or --cases, or fewer shards\n";
+  }
+  return report + (done.findings.empty() && unasked == 0 ? "  nothing found\n" : "");
 }
 
 namespace {
@@ -100,6 +106,7 @@ std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
                                {"failures", done.rows[i].failures},
                                {"accuracy", json_of(done.accuracy[i])}});
   }
+  json["classes_without_queries"] = done.streams_without_cases();
   json["accuracy"] = json_of(done.total_accuracy());
   json["findings"] = nlohmann::ordered_json::array();
   for (const auto& [key, finding] : done.findings) {

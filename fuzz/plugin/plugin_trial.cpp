@@ -9,6 +9,7 @@
 #include "fuzz/run/worker.h"
 
 namespace selvage::fuzz {
+
 PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch) {
   PluginJudgement judgement;
   judgement.answer = plugin.ask(query, in_batch);
@@ -26,6 +27,14 @@ PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, boo
     const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
     if (closest_approach(query, gap, hints, kEnoughTests) == Approach::kBeyond) judgement.failure = "alarm-too-far";
   }
+  return judgement;
+}
+
+PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, bool in_batch) {
+  PluginJudgement judgement = judge_plugin(plugin, query, in_batch);
+  const bool has_answer = judgement.answer.misdeed.empty();
+  if (judgement.failure.empty() || !has_answer) return judgement;
+  if (judge_plugin(plugin, query, in_batch).failure != judgement.failure) judgement.failure = kUnsteady;
   return judgement;
 }
 

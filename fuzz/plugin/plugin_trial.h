@@ -9,11 +9,15 @@
 namespace selvage::fuzz {
 
 struct PluginJudgement {
-  std::string failure;  ///< missed, late-time, alarm-too-far, a misdeed of Plugin::Answer, or nothing
+  std::string failure;  ///< missed, late-time, alarm-too-far, kUnsteady, a misdeed of Plugin::Answer, or nothing
   bool touches = false, alarm = false;
   Plugin::Answer answer;
 };
 [[nodiscard]] PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch);
+/// Asked again at once where it fails: an answer that is another then depends on what was asked before, and no case can
+/// keep that.
+inline constexpr const char* kUnsteady = "unsteady";
+[[nodiscard]] PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, bool in_batch);
 
 /// "separated", "collides", "collides at t = 0x1p-1"; or the misdeed.
 [[nodiscard]] std::string words_of(const Plugin::Answer& answer, bool has_toi);

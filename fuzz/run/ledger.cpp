@@ -43,6 +43,10 @@ void add(PropertyLedger& to, const PropertyLedger& from) {
 
 }  // namespace
 
+std::int64_t PropertyLedger::streams_without_cases() const {
+  return std::ranges::count(rows, std::int64_t{0}, &Counts::cases);
+}
+
 Counts PropertyLedger::total() const {
   Counts sum;
   for (const Counts& row : rows) sum += row;

@@ -39,6 +39,8 @@ struct PropertyLedger {
   std::vector<Accuracy> accuracy = {};                              ///< a stream
   [[nodiscard]] Counts total() const;
   [[nodiscard]] Accuracy total_accuracy() const;
+  /// Streams of which no case has run: nothing is known of them.
+  [[nodiscard]] std::int64_t streams_without_cases() const;
   friend bool operator==(const PropertyLedger&, const PropertyLedger&) = default;
 };
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "fuzz/cases/byte_case.h"
+#include "fuzz/kept/byte_case.h"
 
 namespace selvage::fuzz {
 namespace {

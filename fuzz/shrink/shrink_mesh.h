@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "fuzz/cases/mesh_case.h"
+#include "fuzz/kept/mesh_case.h"
 
 namespace selvage::fuzz {
 

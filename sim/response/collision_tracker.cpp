@@ -23,9 +23,10 @@ bool CollisionTracker::has_motion_collision() const {
   return std::ranges::any_of(report_.collisions, [](const Collision& c) { return c.ccd.cause != CcdCause::kEnd; });
 }
 
-CollisionReport CollisionTracker::find(const StepMotion& motion, std::span<const std::uint8_t> active) {
+CollisionReport CollisionTracker::find(const StepMotion& motion, std::span<const std::uint8_t> active,
+                                       const CollisionLimits& limits) {
   const CcdOptions options{contacts_.tolerance_upper(), max_intervals_};
-  CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options, active);
+  CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options, active, limits);
   if (!contacts_.is_uniform()) hold_to_own_tolerance(motion, found);
   for (Collision& collision : found.collisions) {
     if (std::ranges::any_of(vertices(collision), [&](VertexId v) { return motion.moves(v); })) continue;
@@ -71,12 +72,14 @@ void CollisionTracker::count(const CollisionReport& found) {
   for (const Collision& c : report_.collisions) report_.toi_lower = std::min(report_.toi_lower, c.ccd.toi_lower);
 }
 
-void CollisionTracker::start(StepMotion& motion) {
+bool CollisionTracker::start(StepMotion& motion, std::size_t most) {
   motion.take_changed();
-  CollisionReport found = find(motion, surface_);
+  CollisionReport found = find(motion, surface_, {.most_collisions = most});
   report_ = {};
+  if (!found.is_complete) return false;
   report_.collisions = std::move(found.collisions);
   count(found);
+  return true;
 }
 
 void CollisionTracker::update(StepMotion& motion) {

@@ -18,8 +18,8 @@ class CollisionTracker {
   CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts, std::int32_t max_intervals,
                    std::vector<std::uint8_t> surface);
 
-  /// Tests everything.
-  void start(StepMotion& motion);
+  /// Tests everything. False, and nothing is known, where more than `most` pairs are not proved free of touch.
+  bool start(StepMotion& motion, std::size_t most = CollisionLimits{}.most_collisions);
   /// Tests what changed since the last call.
   void update(StepMotion& motion);
 
@@ -33,7 +33,8 @@ class CollisionTracker {
   [[nodiscard]] std::array<VertexId, 4> vertices(const Collision& collision) const;
 
  private:
-  [[nodiscard]] CollisionReport find(const StepMotion& motion, std::span<const std::uint8_t> active);
+  [[nodiscard]] CollisionReport find(const StepMotion& motion, std::span<const std::uint8_t> active,
+                                     const CollisionLimits& limits = {});
   /// Asks pairs that are apart by the largest tolerance alone for their own.
   void hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const;
   void count(const CollisionReport& found);

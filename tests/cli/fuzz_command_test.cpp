@@ -78,6 +78,22 @@ TEST(FuzzCommand, ShardsThatDoNotFitTogetherAreNamedWithARemedy) {
   }
 }
 
+TEST(FuzzCommand, WhatHadNoCaseIsNotCleared) {
+  const TemporaryFolder folder;
+  const auto shard = [&](const std::string& part) {
+    return testing::run_program(folder, {"fuzz", "scale", "--cases", "1", "--jobs", "1", "--shard", part, "--artifacts",
+                                         folder.path() / ("part" + part.substr(0, 1))});
+  };
+  const auto first = shard("1/2"), second = shard("2/2");
+  EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
+  EXPECT_EQ(second.exit_code, 5) << second.out << second.err;
+  EXPECT_NE(second.out.find(" streams have had no case: nothing is known of them"), std::string::npos) << second.out;
+  EXPECT_NE(second.out.find(" 0/"), std::string::npos) << second.out;
+  const auto merged = testing::run_program(
+      folder, {"merge", folder.path() / "part1", folder.path() / "part2", "-o", folder.path() / "whole"});
+  EXPECT_EQ(merged.exit_code, 0) << merged.out << merged.err;
+}
+
 TEST(FuzzCommand, OurOwnKernelsAccuracyIsReported) {
   const TemporaryFolder folder;
   const auto artifacts = folder.path() / "artifacts";

@@ -53,5 +53,11 @@ inline CcdResult biased(const MotionQuery& query) {
   moved.x_t0[0].x() += 0x1p-30;
   return selvage_kernel(moved);
 }
+/// Its weights do not move with the points of an edge, of the third kind of event alone.
+inline CcdResult forgets_labels(const MotionQuery& query) {
+  CcdResult result = selvage_kernel(query);
+  if (query.kind == PairKind::kSelf) result.weights = {1, 0.75, 0.25, 0};
+  return result;
+}
 
 }  // namespace selvage::fuzz

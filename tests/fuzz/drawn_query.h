@@ -7,8 +7,8 @@
 
 #include <rapidcheck.h>
 
-#include "fuzz/cases/case_file.h"
 #include "fuzz/draw/generators.h"
+#include "fuzz/kept/case_file.h"
 
 namespace selvage::fuzz {
 

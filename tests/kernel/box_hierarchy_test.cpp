@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include "tests/kernel/public_frames.h"
 #include "tests/kernel/random_motion.h"
@@ -53,14 +57,18 @@ std::pair<Mesh, Positions> sheet(VertexId n, const Position& position) {
   return {make_mesh(static_cast<VertexId>(V.rows()), F), V};
 }
 
-/// What is visited, put together.
-Candidates visited(const BoxHierarchy& hierarchy) {
+/// What is visited, put together; `work` is what the visitor does besides.
+Candidates visited(
+    const BoxHierarchy& hierarchy, const std::function<void()>& work = [] {}) {
   Candidates all;
   std::mutex mutex;
   hierarchy.visit_candidates([&](const Candidates& part) {
-    const std::scoped_lock lock(mutex);
-    all.vf.insert(all.vf.end(), part.vf.begin(), part.vf.end());
-    all.ee.insert(all.ee.end(), part.ee.begin(), part.ee.end());
+    {
+      const std::scoped_lock lock(mutex);
+      all.vf.insert(all.vf.end(), part.vf.begin(), part.vf.end());
+      all.ee.insert(all.ee.end(), part.ee.begin(), part.ee.end());
+    }
+    work();
   });
   std::ranges::sort(all.vf);
   std::ranges::sort(all.ee);
@@ -125,6 +133,29 @@ TEST(BoxHierarchy, EveryVectorUnitFindsTheSamePairs) {
     expect_brute_force(mesh, V, V, {0.5, active});
     expect_brute_force(mesh, V, V * 2, {0.5, {}, MotionBoxes::kMoving});
     expect_brute_force(mesh, V, -V, {0.5, active, MotionBoxes::kMoving});
+  });
+}
+
+TEST(BoxHierarchy, AVisitorMayRunParallelCodeOfItsOwn) {
+  const auto [mesh, V] = sheet(79, [](VertexId i, VertexId j) {  // in four layers
+    return Eigen::RowVector3d(i % 20, j, 0.01 * (i / 20));
+  });
+  BoxHierarchy hierarchy(mesh);
+  hierarchy.refit(V, V, {0.5, {}});
+  const Candidates expected = hierarchy.candidates();
+  // Some of what the visitor runs is slow in other threads, so that its own waits for it and looks for work.
+  const auto work = [] {
+    const auto visiting = std::this_thread::get_id();
+    tbb::parallel_for(
+        0, 32,
+        [&](int) {
+          const bool is_stolen = std::this_thread::get_id() != visiting;
+          std::this_thread::sleep_for(std::chrono::microseconds(is_stolen ? 3000 : 50));
+        },
+        tbb::simple_partitioner());
+  };
+  testing::with_threads(8, [&] {
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(visited(hierarchy, work) == expected);
   });
 }
 

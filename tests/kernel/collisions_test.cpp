@@ -181,17 +181,32 @@ TEST(FindCollisions, PropEqualsOneQueryAfterAnother) {
     BoxHierarchy hierarchy(mesh);
     CollisionReport report, of_one_thread;
     CollisionReport in_parts, in_parts_of_one_thread;  // not listed before they are asked
-    const auto find_all = [&](std::size_t most_listed) {
-      return find_collisions(mesh, hierarchy, motion.V_t0, motion.V_t1, options, motion.active, most_listed);
+    const auto find_some = [&](const CollisionLimits& limits) {
+      return find_collisions(mesh, hierarchy, motion.V_t0, motion.V_t1, options, motion.active, limits);
     };
+    const auto find_all = [&](std::size_t most_listed) { return find_some({.most_listed = most_listed}); };
+    // Given up exactly where one more is found than wanted.
+    const auto ends_at = [&](std::size_t most_listed, const CollisionReport& all) {
+      const auto motions = static_cast<std::size_t>(
+          std::ranges::count(all.collisions, CcdCause::kMotion, [](const Collision& c) { return c.ccd.cause; }));
+      if (!find_some({most_listed, motions}).is_complete) return false;
+      if (motions == 0) return true;
+      const CollisionReport fewer = find_some({most_listed, motions - 1});
+      return !fewer.is_complete && fewer.collisions.empty() && fewer.toi_lower == 0;
+    };
+    bool ends_in_threads = false, ends_in_one = false;
     testing::with_threads(*rc::gen::element(2, 3, 8), [&] {
-      report = find_all(kMostListed);
+      report = find_all(CollisionLimits{}.most_listed);
       in_parts = find_all(1);
+      ends_in_threads = ends_at(CollisionLimits{}.most_listed, report) && ends_at(1, in_parts);
     });
     testing::with_threads(1, [&] {
-      of_one_thread = find_all(kMostListed);
+      of_one_thread = find_all(CollisionLimits{}.most_listed);
       in_parts_of_one_thread = find_all(1);
+      ends_in_one = ends_at(CollisionLimits{}.most_listed, of_one_thread) && ends_at(1, in_parts_of_one_thread);
     });
+    RC_ASSERT(ends_in_threads);
+    RC_ASSERT(ends_in_one);
     RC_ASSERT(swept.loses_none());
     const Reference& expected = swept.candidate_count() > few_candidates(mesh) ? moving : swept;
     RC_ASSERT(expected.agrees_with(report));
@@ -267,7 +282,7 @@ TEST(FindCollisions, TheHostsFloatingPointEnvironmentHidesNone) {
     CollisionReport report;
     testing::in_host_environment(set_environment, [&] {
       BoxHierarchy hierarchy(mesh);
-      report = find_collisions(mesh, hierarchy, V_t0, V_t1, {tolerance, 4096}, {}, most_listed);
+      report = find_collisions(mesh, hierarchy, V_t0, V_t1, {tolerance, 4096}, {}, {.most_listed = most_listed});
     });
     return report;
   };
@@ -278,7 +293,7 @@ TEST(FindCollisions, TheHostsFloatingPointEnvironmentHidesNone) {
   constexpr double kLeast = std::numeric_limits<double>::denorm_min();
   const double near = std::numeric_limits<double>::min();
   rests.V << -1, -1, near, 1, -1, near, 0, 1, near, 0, 0, near + kLeast, -1, 0, 9, 1, 0, 9;
-  for (const std::size_t most_listed : {kMostListed, std::size_t{0}}) {
+  for (const std::size_t most_listed : {CollisionLimits{}.most_listed, std::size_t{0}}) {
     const auto count = [&](auto set_environment) {
       const CollisionReport fall = found(falls.mesh, falls.V, falls_t1, 2, most_listed, set_environment);
       EXPECT_LT(fall.toi_lower, 0.5);

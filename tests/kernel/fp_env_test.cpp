@@ -41,6 +41,16 @@ TEST_F(FpEnvTest, EveryDirectedRoundingIsSeenAndRepaired) {
   }
 }
 
+TEST_F(FpEnvTest, WhatChangesInsideTheGuardStaysThere) {
+  for (const int direction : kDirections) {
+    {
+      const FpEnvGuard guard;
+      std::fesetround(direction);
+    }
+    EXPECT_EQ(fp_env_defects(), 0U);
+  }
+}
+
 TEST_F(FpEnvTest, ACleanEnvironmentIsLeftAlone) {
   const FpEnvGuard guard;
   EXPECT_FALSE(guard.repaired());

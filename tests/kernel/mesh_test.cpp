@@ -55,8 +55,10 @@ TEST(Requirements, AreAskedBeforeAnythingIsProved) {
     EXPECT_DEATH(static_cast<void>(find_candidates_brute_force(mesh, V, V, {0, active})),
                  "is called without what it requires: .*active");
   }
-  for (const double reach : {-1.0, kNan}) {
+  for (const double reach : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
     EXPECT_DEATH(hierarchy.refit(V, V, {reach, {}}), "refit is called without what it requires: .*reach");
+    EXPECT_DEATH(static_cast<void>(find_candidates_brute_force(mesh, V, V, {reach, {}})),
+                 "is called without what it requires: .*reach");
   }
 }
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/query_campaign.h"
 #include "fuzz/campaign/query_streams.h"
 #include "fuzz/run/records.h"
 #include "tests/mutants/child_processes.h"

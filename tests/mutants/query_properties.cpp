@@ -1,5 +1,5 @@
 // Queries against exact arithmetic (K1 to K5), class after class; kept failures.
-#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/query_campaign.h"
 #include "tests/mutants/properties.h"
 
 namespace selvage::mutants {

@@ -151,6 +151,27 @@ TEST(CollisionStep, CandidatesBeyondTheDomainAreCutNotRefused) {
   }
 }
 
+// Of 128 vertices 75,000 pairs would touch there.
+TEST(CollisionStep, AMeshAtOnePointIsCutBackBeforeAllPairsAreListed) {
+  StepScene scene;
+  scene.add(sheet(8), Vec3::Zero());
+  scene.add(sheet(8), Vec3(0, 0, 0.5));
+  ASSERT_EQ(scene.V_t0.rows(), 128);
+  scene.V_candidate.setZero();
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.cut_candidates, 128);
+  EXPECT_LT(result.report.first_collisions, 64 * 128);
+
+  const Mesh mesh = scene.mesh();
+  CollisionStep step(mesh, scene.options);
+  const CollisionStepResult abandoned =
+      step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, Patience{.collisions = 1000});
+  EXPECT_EQ(abandoned.report.status, StepStatus::kAbandoned);
+  EXPECT_EQ(abandoned.report.first_collisions, 64 * 128 + 1);
+  EXPECT_EQ(abandoned.x, scene.V_t0);
+}
+
 TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRound) {
   // Paper, 7.4. The node is a corner of a small triangle that hangs between the two.
   StepScene scene;

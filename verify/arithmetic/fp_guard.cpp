@@ -9,50 +9,44 @@
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
-
-namespace selvage::verify {
-namespace {
-
-// MXCSR: rounding mode in bits 13-14 (0: to nearest), FTZ bit 15, DAZ bit 6.
-constexpr unsigned kUnwanted = 0x6000U | 0x8000U | 0x0040U;
-
-}  // namespace
-
-FpGuard::FpGuard() noexcept : saved_(_mm_getcsr()) {
-  if ((saved_ & kUnwanted) != 0) _mm_setcsr(saved_ & ~kUnwanted);
-}
-FpGuard::~FpGuard() {
-  if ((saved_ & kUnwanted) != 0) _mm_setcsr(saved_);
-}
-
-}  // namespace selvage::verify
-
-#elif defined(__aarch64__)
-
-namespace selvage::verify {
-namespace {
-
-// FPCR: rounding mode in bits 22-23 (0: to nearest), FZ bit 24.
-constexpr unsigned long kUnwanted = 0x01C00000UL;
-
-unsigned long read_fpcr() {
-  unsigned long value = 0;
-  asm volatile("mrs %0, fpcr" : "=r"(value));
-  return value;
-}
-void write_fpcr(unsigned long value) { asm volatile("msr fpcr, %0" : : "r"(value)); }
-
-}  // namespace
-
-FpGuard::FpGuard() noexcept : saved_(static_cast<unsigned>(read_fpcr())) {
-  if ((saved_ & kUnwanted) != 0) write_fpcr(saved_ & ~kUnwanted);
-}
-FpGuard::~FpGuard() {
-  if ((saved_ & kUnwanted) != 0) write_fpcr(saved_);
-}
-
-}  // namespace selvage::verify
-
-#else
+#elif !defined(__aarch64__)
 #error "no floating-point guard for this processor: write one here"
 #endif
+
+namespace selvage::verify {
+namespace {
+
+// With an exception unmasked, what overflows on the way to a filter's "unclear" would end the process.
+#if defined(__x86_64__)
+// MXCSR: DAZ bit 6, exception masks bits 7-12, rounding mode bits 13-14 (0: to nearest), FTZ bit 15.
+constexpr unsigned kControlBits = 0xffc0;
+constexpr unsigned kControlWanted = 0x1f80;
+
+unsigned read_control() { return _mm_getcsr(); }
+void write_control(unsigned control) { _mm_setcsr(control); }
+#else
+// FPCR: exception traps bits 8-12 and 15, rounding mode bits 22-23 (0: to nearest), FZ bit 24.
+constexpr unsigned kControlBits = 0x01c09f00;
+constexpr unsigned kControlWanted = 0;
+
+unsigned read_control() {
+  unsigned long control = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(control));
+  return static_cast<unsigned>(control);
+}
+void write_control(unsigned control) {
+  asm volatile("msr fpcr, %0" : : "r"(static_cast<unsigned long>(control)) : "memory");
+}
+#endif
+
+}  // namespace
+
+FpGuard::FpGuard() noexcept : saved_(read_control()) {
+  if ((saved_ & kControlBits) != kControlWanted) write_control((saved_ & ~kControlBits) | kControlWanted);
+}
+// Also what was changed inside the scope, as a second decider or a caller's function may.
+FpGuard::~FpGuard() {
+  if (((read_control() ^ saved_) & kControlBits) != 0) write_control(saved_);
+}
+
+}  // namespace selvage::verify

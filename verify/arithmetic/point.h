@@ -1,10 +1,24 @@
 // Where a vertex is, as the checker takes it: stored doubles.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace selvage::verify {
 
 using Point = std::array<double, 3>;
+
+/// Throws std::invalid_argument, in the name of what was asked, where a coordinate is not finite.
+template <std::size_t N>
+void require_finite(const std::array<Point, N>& points, const char* asked) {
+  for (const Point& point : points) {
+    if (!std::ranges::all_of(point, [](double x) { return std::isfinite(x); })) {
+      throw std::invalid_argument(std::string(asked) + ": a coordinate is not finite");
+    }
+  }
+}
 
 }  // namespace selvage::verify

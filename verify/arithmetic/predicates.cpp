@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verify/arithmetic/direction.h"
 #include "verify/arithmetic/dyadic.h"
+#include "verify/arithmetic/gaps.h"
 
 namespace selvage::verify {
 namespace {

@@ -22,21 +22,12 @@ MotionAnswer exact_answer(std::optional<FirstTouch> touch, Detail detail) {
   return answer;
 }
 
-template <std::size_t N>
-void require_finite(const std::array<Point, N>& x) {
-  for (const Point& point : x) {
-    if (!(std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))) {
-      throw std::invalid_argument("exact motion: a coordinate is not finite");
-    }
-  }
-}
-
 /// The filter's answer where it suffices.
 template <std::size_t N, class Triage, class Exact>
 MotionAnswer decide(const std::array<Point, N>& x_t0, const std::array<Point, N>& x_t1, Detail detail,
                     const Triage& triage_motion, const Exact& first_touch) {
-  require_finite(x_t0);
-  require_finite(x_t1);
+  require_finite(x_t0, "exact motion");
+  require_finite(x_t1, "exact motion");
   const FpGuard guard;
   const MotionTriage triage = triage_motion(x_t0, x_t1);
   if (triage == MotionTriage::kApart) return {};
@@ -58,8 +49,8 @@ template <std::size_t N, class Triage, class Exact>
 MotionAgainst decide_against(const std::array<Point, N>& x_t0, const std::array<Point, N>& x_t1, double t,
                              const Triage& triage_motion, const Exact& first_touch) {
   if (!std::isfinite(t)) throw std::invalid_argument("exact motion: a time must be finite");
-  require_finite(x_t0);
-  require_finite(x_t1);
+  require_finite(x_t0, "exact motion");
+  require_finite(x_t1, "exact motion");
   const FpGuard guard;
   const MotionTriage triage = triage_motion(x_t0, x_t1);
   if (triage == MotionTriage::kApart) return {};

@@ -5,7 +5,7 @@
 #include "verify/arithmetic/fp_guard.h"
 #include "verify/arithmetic/predicates.h"
 #include "verify/decision/triangle_pair.h"
-#include "verify/filter/separation.h"
+#include "verify/filter/overlap_filter.h"
 
 namespace selvage::verify {
 namespace {
@@ -74,6 +74,8 @@ const char* name_of(OverlapKind kind) {
 
 OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
                             const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b) {
+  require_finite(a, "exact overlap");
+  require_finite(b, "exact overlap");
   const FpGuard guard;
   const bool share_none = !shares(face_a, face_b[0]) && !shares(face_a, face_b[1]) && !shares(face_a, face_b[2]);
   if (share_none && triage_apart(a, b)) return {OverlapKind::kNone, false};
@@ -92,6 +94,7 @@ OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std
 }
 
 bool exact_degenerate(const std::array<Point, 3>& a) {
+  require_finite(a, "exact overlap");
   const FpGuard guard;
   return Predicates(a).projection_axis(0, 1, 2) < 0;
 }

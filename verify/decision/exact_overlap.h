@@ -26,11 +26,12 @@ struct OverlapAnswer {
 };
 
 /// Corners by index (to know what is shared) and by position. Zero-area triangles are the union of their edges.
-/// Duplicate vertices (equal position, other index) are a touch.
+/// Duplicate vertices (equal position, other index) are a touch. Throws std::invalid_argument unless all is finite.
 [[nodiscard]] OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
                                           const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b);
 
-/// Whether the corners are exactly collinear (or coincide): the face is not embedded, kind `degenerate`.
+/// Whether the corners are exactly collinear (or coincide): the face is not embedded, kind `degenerate`. Throws
+/// likewise.
 [[nodiscard]] bool exact_degenerate(const std::array<Point, 3>& a);
 
 }  // namespace selvage::verify

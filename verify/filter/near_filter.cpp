@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verify/arithmetic/direction.h"
+#include "verify/arithmetic/gaps.h"
 
 namespace selvage::verify {
 namespace {

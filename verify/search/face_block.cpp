@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/arithmetic/direction.h"
+#include "verify/arithmetic/gaps.h"
 
 namespace selvage::verify {
 namespace {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
+#include <string>
 
 namespace selvage::verify {
 namespace {
@@ -38,7 +40,13 @@ bool names_representatives(const Surface& surface, const std::array<std::int32_t
   });
 }
 
+// As many edges as fit into their numbers, where no two faces share one.
+constexpr std::size_t kMaxFaceCount = std::numeric_limits<std::int32_t>::max() / 3;
+
 void check_faces(const Surface& surface, std::size_t vertex_count) {
+  if (surface.triangles.size() > kMaxFaceCount) {
+    throw std::invalid_argument("Surface: more than " + std::to_string(kMaxFaceCount) + " faces");
+  }
   if (!surface.is_body.empty() && surface.is_body.size() != surface.triangles.size()) {
     throw std::invalid_argument("Surface: is_body must be empty or have one entry a face");
   }
@@ -52,7 +60,8 @@ void check_faces(const Surface& surface, std::size_t vertex_count) {
     const auto& [a, b, c] = surface.triangles[f];
     for (const std::int32_t v : {a, b, c}) {
       if (v < 0 || static_cast<std::size_t>(v) >= vertex_count) {
-        throw std::invalid_argument("Surface: a face names a vertex that does not exist");
+        throw std::invalid_argument(
+            "Surface: a face names a vertex that does not exist; pass positions of all vertices of the mesh");
       }
     }
     const bool repeats = a == b || b == c || c == a;

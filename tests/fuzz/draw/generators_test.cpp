@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/query_campaign.h"
 
 namespace selvage::fuzz {
 namespace {

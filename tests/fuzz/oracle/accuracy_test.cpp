@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fuzz/oracle/closest_approach.h"
+
 namespace selvage::fuzz {
 namespace {
 
@@ -51,6 +53,27 @@ TEST(Accuracy, ATimeIsComparedWithTheFirstTouch) {
   EXPECT_EQ(measure_accuracy(falls, true, true, 0.5).early_time, bin_of(0));
   EXPECT_EQ(measure_accuracy(falls, true, true, std::nullopt).early_time, -1);
   EXPECT_EQ(measure_accuracy(falls, true, false, std::nullopt).early_time, -1);
+}
+
+// What moves along with the features takes no part of what is measured.
+TEST(Accuracy, ADistanceIsThatOfTheFeaturesHoweverFarOutTheyGo) {
+  MotionQuery falls = above_a_triangle(1, -2);  // touches at t = 1/3
+  for (std::size_t i = 0; i < 4; ++i) {
+    falls.x_t0[i] += Vec3(0x1p40, -0x1p41, 3);
+    falls.x_t1[i] += Vec3(-0x1p41, 0x1p40, 0x1p40);
+  }
+  EXPECT_LT(rounded_distance(falls, 1.0 / 3), 0x1p-50);
+}
+
+TEST(Accuracy, ATimeBelowAnIrrationalTouchIsEarly) {
+  MotionQuery query;  // the plane of the face turns as the point falls: the touch is at a root of 2
+  query.x_t0 = {Vec3(0.25, 0.25, 1), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  query.x_t1 = {Vec3(0.25, 0.25, -1), Vec3(0, 0, 0), Vec3(2, 0, 1), Vec3(0, 1, 0)};
+  const verify::ExactTime first = exact_motion(query, verify::Detail::kFirstTime).first;
+  ASSERT_NE(first.lower, first.upper);
+  const AccuracySample sample = measure_accuracy(query, true, true, first.lower_approx);
+  EXPECT_GT(sample.early_time, bin_of(0));
+  EXPECT_LE(sample.early_time, bin_of(0x1p-54));
 }
 
 TEST(Accuracy, AGapIsThatOfTheNearestApproach) {

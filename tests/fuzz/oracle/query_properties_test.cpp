@@ -2,7 +2,7 @@
 // can fail, by kernels that are known to be bad. RC_PARAMS="seed=S max_success=N" makes longer runs.
 #include <gtest/gtest.h>
 
-#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/query_campaign.h"
 #include "fuzz/oracle/proximity_oracle.h"
 #include "fuzz/oracle/query_oracle.h"
 #include "fuzz/oracle/query_property.h"
@@ -179,6 +179,7 @@ TEST(KernelPromises, EveryPropertyFindsItsBadKernels) {
       {"ccd", late, "late-toi", 200},
       {"ccd", forgets_end, "end-missed", 400},
       {"symmetry", biased, "asymmetric", 2000},
+      {"symmetry", forgets_labels, "asymmetric", 2000},
       {"scale", biased, "scale-dependent", 2000},
   };
   for (const BadKernel& one : bad) {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/global_control.h>
 
-#include "fuzz/cases/case_file.h"
+#include "fuzz/kept/case_file.h"
 #include "fuzz/plugin/conformance.h"
 #include "fuzz/run/driver.h"
 #include "fuzz/shrink/shrink_query.h"
@@ -192,6 +192,38 @@ TEST(Plugin, OneCaseIsRunInAProcessOfItsOwn) {
   }
 }
 
+// What no case can keep is not made simpler, and not called anything else.
+TEST(Plugin, AnAnswerThatDependsOnEarlierOnesIsUnsteady) {
+  const TemporaryFolder folder;
+  const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_remembers.so";
+  const std::filesystem::path artifacts = folder.path() / "artifacts";
+  const auto run =
+      run_program(folder, {"fuzz", "--plugin", library, "--cases", "1", "--jobs", "1", "--artifacts", artifacts});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  const auto findings = nlohmann::json::parse(slurp(artifacts / "conformance.json"))["findings"];
+  ASSERT_FALSE(findings.empty());
+  for (const auto& finding : findings) EXPECT_EQ(finding["failure"], "unsteady") << finding;
+  const auto replayed =
+      run_program(folder, {"replay", "--plugin", library, artifacts / findings[0]["smallest"].get<std::string>()});
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  EXPECT_NE(replayed.out.find("it was kept for 'unsteady': its answer depends on what it was asked before"),
+            replayed.out.npos)
+      << replayed.out;
+}
+
+TEST(Plugin, WhatWasAskedNothingIsNotCleared) {
+  const TemporaryFolder folder;
+  const std::filesystem::path artifacts = folder.path() / "artifacts";
+  const auto run = run_program(folder, {"fuzz", "--plugin", SELVAGE_KERNEL_PLUGIN, "--cases", "1", "--jobs", "1",
+                                        "--shard", "2/2", "--artifacts", artifacts});
+  EXPECT_EQ(run.exit_code, 5) << run.out << run.err;
+  EXPECT_NE(run.out.find(" classes were asked nothing: nothing is known of them"), run.out.npos) << run.out;
+  EXPECT_EQ(run.out.find("nothing found"), run.out.npos) << run.out;
+  const auto report = nlohmann::json::parse(slurp(artifacts / "conformance.json"));
+  EXPECT_EQ(report["classes_without_queries"], report["classes"].size());
+  EXPECT_EQ(between(slurp(artifacts / "conformance.html"), "<h1 id=\"verdict\">", "<"), "selvage kernel: unknown");
+}
+
 TEST(Plugin, ReplayAsksAPluginAsACampaignDoes) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.case", overlap = folder.path() / "overlap.case", json = folder.path() / "r.json";
@@ -281,7 +313,7 @@ TEST(Plugin, PartsOfACampaignAreNotJoined) {
     arguments.push_back(folder.path() / ("part-" + part.substr(0, 1)));
     const auto run = run_program(folder, {"fuzz", "--plugin", SELVAGE_KERNEL_PLUGIN, "--cases", "1", "--jobs", "1",
                                           "--shard", part, "--artifacts", arguments.back()});
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.exit_code, part == "1/2" ? 0 : 5) << run.err;  // the second has nothing to do
   }
   const auto refused = run_program(folder, arguments);
   EXPECT_EQ(refused.exit_code, 3) << refused.out;

@@ -205,8 +205,13 @@ TEST(Driver, OutOfTimeItWaitsForAHangNoLongerThanForACase) {
   const DriverOptions options = options_for(folder.path(), 0);
   EXPECT_LT(run_out_of_time(properties, options), 5);
   const PropertyLedger ledger = parse_ledger(slurp(folder.path() / kLedgerFile), "ledger").properties[0];
-  EXPECT_EQ(ledger.findings.at({"two", "hung"}).count, 1);
-  EXPECT_EQ(slurp(folder.path() / ledger.findings.at({"two", "hung"}).file), "slow:two:1:0");
+  const auto hung = ledger.findings.find({"two", "hung"});
+  if (hung == ledger.findings.end()) {  // a driver that gets no processor does not see it asleep for long enough
+    EXPECT_EQ(ledger.open.at(0), (UnitPlace{1, 0}));
+  } else {
+    EXPECT_EQ(hung->second.count, 1);
+    EXPECT_EQ(slurp(folder.path() / hung->second.file), "slow:two:1:0");
+  }
 }
 
 /// Waits for its child as for a disk, which is no sleep.

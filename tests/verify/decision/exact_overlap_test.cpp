@@ -10,7 +10,7 @@
 
 #include "tests/verify/overlap_families.h"
 #include "tests/verify/overlap_reference.h"
-#include "verify/filter/separation.h"
+#include "verify/filter/overlap_filter.h"
 
 namespace selvage::verify {
 namespace {
@@ -121,6 +121,22 @@ TEST(ExactOverlap, DegenerateIsExactlyCollinear) {
   EXPECT_FALSE(exact_degenerate({{{0, 0, 0}, {1, 1, 1}, {3, 3, std::nextafter(3.0, 4.0)}}}));
   EXPECT_FALSE(exact_degenerate({{{0, 0, 0}, {0x1p-1074, 0, 0}, {0, 0x1p-1074, 0}}}));
   EXPECT_FALSE(exact_degenerate({{{-1e308, 0, 0}, {1e308, 0, 0}, {0, 0x1p-1074, 0}}}));
+}
+
+TEST(ExactOverlap, RefusesWhatIsNotFinite) {
+  constexpr std::array<std::int32_t, 3> kA = {0, 1, 2}, kB = {3, 4, 5};
+  const std::array<Point, 3> unit = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<Point, 3> other = {{{0, 0, 5}, {1, 0, 5}, {0, 1, 5}}};
+        other[corner][axis] = bad;
+        EXPECT_THROW(static_cast<void>(exact_overlap(kA, other, kB, unit)), std::invalid_argument);
+        EXPECT_THROW(static_cast<void>(exact_overlap(kA, unit, kB, other)), std::invalid_argument);
+        EXPECT_THROW(static_cast<void>(exact_degenerate(other)), std::invalid_argument);
+      }
+    }
+  }
 }
 
 TEST(ExactOverlap, AgreesWithClippingOnSmallIntegers) {

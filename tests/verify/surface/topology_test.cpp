@@ -1,6 +1,12 @@
 #include "verify/surface/topology.h"
 
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 namespace selvage::verify {
 
@@ -36,6 +42,16 @@ TEST(Topology, RefusesWhatIsNoSurface) {
   const std::vector<std::array<std::int32_t, 3>> unnamed = {{0, 1, 3}};
   EXPECT_THROW(static_cast<void>(make_topology({unnamed, {}, {}, {}, foreign}, 4)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(make_topology({good, {}, {}, {}, too_few}, 4)), std::invalid_argument);
+}
+
+TEST(Topology, RefusesMoreFacesThanEdgeNumbersWithoutReadingThem) {
+  constexpr std::size_t kTooMany = std::numeric_limits<std::int32_t>::max() / 3 + 1;
+  constexpr std::size_t kBytes = kTooMany * sizeof(std::array<std::int32_t, 3>);
+  void* const unreadable = mmap(nullptr, kBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  ASSERT_NE(unreadable, MAP_FAILED);
+  const std::span faces(static_cast<const std::array<std::int32_t, 3>*>(unreadable), kTooMany);
+  EXPECT_THROW(static_cast<void>(make_topology({faces, {}}, 3)), std::invalid_argument);
+  munmap(unreadable, kBytes);
 }
 
 TEST(Topology, EdgesAndVerticesOfWeldedFacesAreThoseOfTheRepresentatives) {

@@ -1,0 +1,45 @@
+#include "fuzz/campaign/collisions_campaign.h"
+
+#include <algorithm>
+
+#include "fuzz/campaign/mesh_property.h"
+#include "fuzz/draw/step_world.h"
+#include "fuzz/kept/collisions_case.h"
+#include "kernel/assert.h"
+
+namespace selvage::fuzz {
+namespace {
+
+class CollisionsCampaign final : public MeshProperty {
+ public:
+  CollisionsCampaign() : MeshProperty("collisions", std::string(collisions_kind().promise)) {
+    for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 40});
+    counters_ = {"pairs", "alarms"};
+  }
+
+  Outcome run(const Stream& stream, ChoiceSource source) override {
+    const CollisionsTrial trial = try_collisions(drawn(stream, source));
+    return {{1, trial.retrial.failure.empty() ? 0 : 1, {trial.pairs, trial.alarms}, 0}, trial.retrial.failure};
+  }
+
+  [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
+    return counts.cases > 50 && counts.of[1] < counts.cases ? "hardly any collisions" : "";
+  }
+
+ private:
+  [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
+    const auto surface = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
+    SELVAGE_ASSERT(surface != surface_classes().end());
+    const StepWorld world = make_step_world(source, *surface);
+    std::string_view candidate_class;
+    const Positions x_t1 = choose_candidate(source, world, world.x, candidate_class);
+    const double tolerance = choose_length(source, world);
+    return collisions_case(world.mesh, world.x, x_t1, tolerance, choose_active(source, world));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Property> make_collisions_campaign() { return std::make_unique<CollisionsCampaign>(); }
+
+}  // namespace selvage::fuzz
