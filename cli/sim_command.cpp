@@ -48,7 +48,8 @@ const char* name_of_pair(PairKind kind) {
 }
 
 void print_witness(const sim::Simulation& simulation, const sim::CollisionStepReport& report) {
-  say("stopped at {:.6f} s: no position of the cloth is safe between its scripted bodies", simulation.clock().time_s());
+  say("stopped at {:.6f} s: no safe position of the cloth was found between its scripted bodies",
+      simulation.clock().time_s());
   if (report.witness) {
     const sim::World& world = simulation.world();
     const Collision& pair = *report.witness;

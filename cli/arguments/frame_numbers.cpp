@@ -72,9 +72,13 @@ std::optional<std::string> jump_in_numbers(const std::vector<std::filesystem::pa
   }
   for (std::size_t i = 1; i < names.size(); ++i) {
     if (difference(i) == step && step > 0) continue;
-    return fmt::format("{} comes right after {}; {}", files[i].string(), files[i - 1].string(),
-                       difference(i) > 0 ? "what is missing between is not checked"
-                                         : "files are checked in the order in which they are named");
+    const bool is_elsewhere = std::ranges::any_of(
+        names, [&](const NumberedName& name) { return name.numbers[*number] == names[i - 1].numbers[*number] + step; });
+    return fmt::format(
+        "{} comes right after {}; {}", files[i].string(), files[i - 1].string(),
+        difference(i) > 0 && !is_elsewhere
+            ? "what is missing between is not checked"
+            : "files are checked in the order in which they are named, which is not that of their numbers");
   }
   return std::nullopt;
 }

@@ -311,8 +311,8 @@ Scene read_root(TomlTable root) {
   scene.solver = root.choice("solver", {"explicit", "implicit"}) == 0 ? Solver::kExplicit : Solver::kImplicit;
   if (scene.solver == Solver::kExplicit) {
     scene.strain.strain_rate = root.number("strain_rate_limit", {0, 0.9}, scene.strain.strain_rate);
-  } else if (root.has("strain_rate_limit")) {
-    root.fail("strain_rate_limit", "strain_rate_limit is for solver = \"explicit\" alone; leave it out");
+  } else if (root.number("strain_rate_limit", {0, 0.9}, 0) > 0) {
+    root.fail("strain_rate_limit", "strain_rate_limit is for solver = \"explicit\" alone; leave it out, or make it 0");
   } else {
     scene.strain.strain_rate = 0;
   }

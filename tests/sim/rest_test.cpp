@@ -132,6 +132,32 @@ TEST(Rest, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
   }
 }
 
+// In steps as long as a frame, too: each went on moving, by 5 mm a frame, when a share of what cloth falls in such a
+// step was a kick that was borne (sim/step_allowance.cpp).
+TEST(Rest, SheetsDrapedOverABallComeToRestInStepsOfAFrame) {
+  for (const auto& [vertices, thickness_m] : {std::pair("20", "0.006"), {"25", "0.005"}}) {
+    Simulation simulation(parse_scene(
+        "gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 1\n[time]\nframes_per_s = 30\nframes = 180\n[collision]\nthickness_m "
+        "= " +
+            std::string(thickness_m) + "\nfriction_static = 0.5\nfriction_kinetic = 0.4\n" +
+            "[[cloth]]\nsheet = {nx = " + vertices + ", ny = " + vertices + ", width_m = 0.6, height_m = 0.6}\n" +
+            "position_m = [0, 0, 0.32]\nrotation_deg = [0, 0, 80]\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = "
+            "20\n"
+            "bend_n_m = 0.6\ndamping_ratio = 0.1\n[[body]]\nsphere = {radius_m = 0.15}\nposition_m = [0, 0, 0.15]\n" +
+            plane(),
+        "drape.toml"));
+    double most_in_a_frame_m = 0;
+    for (std::int64_t frame = 0; frame < 180; ++frame) {
+      const Positions x = simulation.x();
+      while (simulation.clock().state().frame == frame) simulation.step();
+      if (frame >= 150) {
+        most_in_a_frame_m = std::max(most_in_a_frame_m, (simulation.x() - x).rowwise().norm().maxCoeff());
+      }
+    }
+    EXPECT_LT(most_in_a_frame_m, 5e-4) << vertices << " vertices a side";
+  }
+}
+
 TEST(Rest, SheetOverTheEdgeOfABoxComesToRest) {
   // Its weight and its friction hold it with room to spare: 43 % hangs, and an edge turned by 90 degrees divides the
   // pull by exp(0.6 pi / 2) = 2.6. It moved by 6 mm in the fifth second, at steps of 1/60 s or a tenth of that, when

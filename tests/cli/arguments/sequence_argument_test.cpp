@@ -245,7 +245,12 @@ TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {
   const std::string id = "_12345678901234567890";
   EXPECT_NE(verify({"1" + id + ".obj", "2" + id + ".obj", "4" + id + ".obj"}).find("comes right after "),
             std::string::npos);
-  EXPECT_NE(verify({"f_2.obj", "f_1.obj"}).find("in the order in which they are named"), std::string::npos);
+  for (const std::vector<std::string>& shuffled :
+       {std::vector<std::string>{"f_2.obj", "f_1.obj"}, {"f_1.obj", "f_10.obj", "f_2.obj"}}) {
+    EXPECT_NE(verify(shuffled).find("in the order in which they are named, which is not that of their numbers"),
+              std::string::npos)
+        << shuffled[1];
+  }
   for (const std::vector<std::string>& even : {std::vector<std::string>{"f_08.obj", "f_09.obj", "f_10.obj"},
                                                {"f_9.obj", "f_10.obj", "f_11.obj"},
                                                {"f_10.obj", "f_20.obj", "f_30.obj"},
