@@ -246,7 +246,7 @@ TEST(SequenceArgument, AJumpInTheNumbersIsSaid) {
   EXPECT_NE(verify({"1" + id + ".obj", "2" + id + ".obj", "4" + id + ".obj"}).find("comes right after "),
             std::string::npos);
   for (const std::vector<std::string>& shuffled :
-       {std::vector<std::string>{"f_2.obj", "f_1.obj"}, {"f_1.obj", "f_10.obj", "f_2.obj"}}) {
+       {std::vector<std::string>{"f_2.obj", "f_1.obj"}, {"f_1.obj", "f_10.obj", "f_11.obj", "f_2.obj"}}) {
     EXPECT_NE(verify(shuffled).find("in the order in which they are named, which is not that of their numbers"),
               std::string::npos)
         << shuffled[1];
