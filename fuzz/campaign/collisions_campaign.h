@@ -1,5 +1,4 @@
-// The kernel's whole-mesh answer against exact arithmetic, as a part of a campaign: what no query alone can see (K1 to
-// K3).
+// The collisions of a whole mesh against exact arithmetic, as a part of a campaign (K1 to K3, K6).
 #pragma once
 
 #include <memory>
@@ -8,6 +7,7 @@
 
 namespace selvage::fuzz {
 
+/// A stream for each class of surfaces. A case is a mesh and a motion.
 [[nodiscard]] std::unique_ptr<Property> make_collisions_campaign();
 
 }  // namespace selvage::fuzz

@@ -62,10 +62,12 @@ CollisionsJudgement judge(const AnsweredMotion& motion) {
     const bool is_answered = next != motion.report.collisions.end() &&
                              std::tie(next->kind, next->first, next->second) == std::tie(kind, first, second);
     if (!is_asked && !is_answered) return;
-    const std::string pair = std::string(name_of(kind)) + " " + std::to_string(first) + " " + std::to_string(second);
-    if (!is_asked) fail("not-asked", "without an active vertex: " + pair);
+    const auto fail_pair = [&](std::string_view failure, const char* how) {
+      fail(failure, how + std::string(name_of(kind)) + " " + std::to_string(first) + " " + std::to_string(second));
+    };
+    if (!is_asked) fail_pair("not-asked", "without an active vertex: ");
     const CcdResult answer = is_answered ? (next++)->ccd : left_out();
-    if (answer.toi_lower < motion.report.toi_lower) fail("late-toi", "before the toi_lower of all: " + pair);
+    if (answer.toi_lower < motion.report.toi_lower) fail_pair("late-toi", "before the toi_lower of all: ");
     if (is_answered && next - motion.report.collisions.begin() > kJudgedAlarms) return;
     MotionQuery query{kind, {}, {}, motion.options};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -75,7 +77,7 @@ CollisionsJudgement judge(const AnsweredMotion& motion) {
     ++judgement.pairs;
     const Disagreement disagreement = judge(query, answer).disagreement;
     if (disagreement != Disagreement::kNone)
-      fail(name_of(disagreement), (is_answered ? "answered: " : "left out: ") + pair);
+      fail_pair(name_of(disagreement), is_answered ? "answered: " : "left out: ");
   });
   if (next != motion.report.collisions.end())
     fail("malformed", "what is answered is no pair of the mesh, or out of order");

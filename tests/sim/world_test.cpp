@@ -1,0 +1,109 @@
+#include "sim/world.h"
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/small_scene.h"
+
+namespace selvage {
+
+using namespace sim;
+using testing::ScratchFolder;
+using testing::small_scene_text;
+
+TEST(World, PartsAreInOrderAndPinsAreColliders) {
+  const Scene scene = parse_scene(small_scene_text(1), "small.toml");
+  const World world = build_world(scene);
+  ASSERT_EQ(world.groups.size(), 3u);
+  EXPECT_EQ(world.groups[0].name, "sheet");
+  EXPECT_EQ(world.groups[2].role, io::Group::Role::kBody);
+  EXPECT_EQ(world.groups[2].face_end, static_cast<FaceId>(world.triangles.size()));
+  EXPECT_EQ(world.cloth_vertex_count, 196);
+  EXPECT_NEAR(1 / world.inverse_mass[0], 0.3 * 0.49 / 196, 1e-15);
+  EXPECT_EQ(world.inverse_mass.back(), 0);
+  EXPECT_EQ(world.body_count, 2);
+}
+
+TEST(World, DescriptionNamesOnlyWhatIsModelled) {
+  Scene full = parse_scene(small_scene_text(1), "small.toml");
+  full.contact_sweeps = 4;
+  const std::string all = describe(full, build_world(full));
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "ball", "4 sweeps"}) {
+    EXPECT_NE(all.find(part), std::string::npos) << part;
+  }
+  const Scene bare = parse_scene(R"(
+strain_limit = 0
+strain_rate_limit = 0
+[time]
+frames = 1
+[[cloth]]
+sheet = {nx = 4, ny = 4, width_m = 0.3, height_m = 0.3}
+density_kg_m2 = 0.3
+stretch_n_m = 40
+)",
+                                 "bare.toml");
+  const std::string least = describe(bare, build_world(bare));
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "body", "pin", "drag", "sweeps"}) {
+    EXPECT_EQ(least.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(World, RefusesAnUnstableDynamicsStep) {
+  std::string text = small_scene_text(1);
+  text.replace(text.find("[time]\n"), 7, "[time]\ndynamics_step_s = 0.02\n");
+  EXPECT_THROW((void)build_world(parse_scene(text, "small.toml")), io::Error);
+}
+
+// More than a million steps a frame: with 1e20 N/m their number was no int, and the cloth stayed where it was.
+TEST(World, RefusesSpringsThatNoStepOfTheDynamicsIsShortEnoughFor) {
+  for (const char* stiffness : {"1e14", "1e20", "1e30"}) {
+    std::string text = small_scene_text(1);
+    text.replace(text.find("stretch_n_m = 40"), 16, std::string("stretch_n_m = ") + stiffness);
+    EXPECT_THROW((void)build_world(parse_scene(text, "small.toml")), io::Error) << stiffness;
+    EXPECT_NO_THROW((void)build_world(parse_scene("solver = \"implicit\"\n" + text, "small.toml"))) << stiffness;
+  }
+}
+
+TEST(World, ReadsMeshFilesBesideTheScene) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path() / "two.obj") << "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 100 100 0\nf 1 2 3\nf 2 4 3\n";
+  const Scene scene = testing::write_and_read_scene(folder.path() / "mesh.toml", R"(
+[time]
+frames = 1
+[[cloth]]
+mesh = {file = "two.obj", scale = 0.01}
+density_kg_m2 = 0.5
+stretch_n_m = 40
+bend_n_m = 1
+masses = "area"
+[[cloth.pin]]
+vertices = [3]
+)");
+  const World world = build_world(scene);
+  EXPECT_EQ(world.x_t0(3, 0), 1);
+  EXPECT_EQ(world.springs.springs().size(), 6u);
+  EXPECT_NEAR(1 / world.inverse_mass[1], 0.5 / 3, 1e-15);
+  EXPECT_EQ(world.colliders.at(0).vertices(), std::vector<VertexId>{3});
+  Scene beyond = scene;
+  beyond.cloths[0].pins[0].vertices = {4};
+  EXPECT_THROW((void)build_world(beyond), io::Error);
+}
+
+TEST(World, VerticesOfNoFaceAreNamedWhereTheyAreCloth) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path() / "loose.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 6 6 6\nf 1 2 3\n";
+  const std::string cloth = "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 0.5\nstretch_n_m = 40\n";
+  const std::string loose = "mesh = {file = \"loose.obj\"}\n";
+  const auto description = [&](const std::string& text) {
+    const Scene scene = testing::write_and_read_scene(folder.path() / "loose.toml", text);
+    return describe(scene, build_world(scene));
+  };
+  EXPECT_NE(description(cloth + loose).find("2 cloth vertices of no face"), std::string::npos);
+  const std::string sheet = "sheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}\n";
+  EXPECT_EQ(description(cloth + sheet + "[[body]]\n" + loose).find("of no face"), std::string::npos);
+}
+
+}  // namespace selvage
