@@ -1,7 +1,11 @@
 // One motion of a mesh as a case of the kernel's whole-mesh answer: broad phase, lanes and queries together.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "fuzz/kept/mesh_case.h"
+#include "kernel/mesh.h"
 
 namespace selvage::fuzz {
 
