@@ -161,7 +161,7 @@ void Attempt::repel() {
 /// patience with so much: then false.
 bool Attempt::search() {
   const PhaseTimer timer(report_.phases.search);
-  const std::size_t most = kMostMeetings * static_cast<std::size_t>(mesh_.vertex_count);
+  const std::size_t most = std::max(kLeastMostMeetings, kMostMeetings * static_cast<std::size_t>(mesh_.vertex_count));
   for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
     if (tracker_.start(motion_, most)) return true;
     report_.first_collisions = static_cast<std::int64_t>(most) + 1;

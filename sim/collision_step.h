@@ -39,7 +39,7 @@ struct CollisionStepReport {
   InputError input_error = InputError::kNone;
   /// Candidates of cloth that were cut back before anything else, as the simulation has blown up (travel_limit.h):
   /// those farther from their start than 1024 diagonals of the scene's box, or all, by halves, where more than 64 pairs
-  /// a vertex would collide.
+  /// a vertex, and than 16,384, would collide.
   std::int64_t cut_candidates = 0;
   /// Contacts that are held, and other pairs that are near at the start and approaching (StartProximities::count()).
   std::int64_t proximities = 0;
