@@ -22,7 +22,8 @@ inline constexpr double kMaxTravel = 1024;
 /// one for ten vertices in its worst search. All pairs of a mesh at one point take 40 us each: without this limit 3 s
 /// for 128 vertices, 55 s for 512, and 3 minutes and 3 GB for 968.
 inline constexpr std::size_t kMostMeetings = 64;
-/// So many are borne by the smallest mesh, too: a search that ends there costs as much as one that ends by itself.
+/// So many are borne by the smallest mesh, too, whose whole search costs less than several that are given up: 54 vertices
+/// with coordinates of all magnitudes took 3.4 s, and 11.4 where 3,456 were too many.
 inline constexpr std::size_t kLeastMostMeetings = std::size_t{1} << 14;
 /// How often the motion of cloth is halved for that; then all is tested. What is left is bodies that pass each other.
 inline constexpr int kMostHalvings = 8;
