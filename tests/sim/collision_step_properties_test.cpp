@@ -242,7 +242,7 @@ TEST(CollisionStepProperties, ImpulsesAndFrictionKeepMomentumAndAddNoEnergy) {
     const Positions before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
     const CollisionStepResult result = scene.step();
     RC_ASSERT(exact_defect(scene, result) == "");
-    RC_PRE(result.report.fail_safe_rounds == 0 && result.report.cut_candidates == 0);
+    RC_PRE(result.report.fail_safe_rounds == 0);
     RC_ASSERT(energy(scene, result.velocity) <= energy(scene, before) * (1 + 1e-12));
     double scale = 0;
     for (Eigen::Index v = 0; v < before.rows(); ++v) {
