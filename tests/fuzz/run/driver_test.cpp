@@ -199,19 +199,23 @@ TEST(Driver, AUnitThatIsCutShortGoesOnFromThere) {
 
 // A hang that sleeps once held up the end of a campaign by 20 case times a case.
 TEST(Driver, OutOfTimeItWaitsForAHangNoLongerThanForACase) {
-  const TemporaryFolder folder;
-  Properties properties;
-  properties.push_back(std::make_unique<Slow>(endless_sleep));
-  const DriverOptions options = options_for(folder.path(), 0);
-  EXPECT_LT(run_out_of_time(properties, options), 5);
-  const PropertyLedger ledger = parse_ledger(slurp(folder.path() / kLedgerFile), "ledger").properties[0];
-  const auto hung = ledger.findings.find({"two", "hung"});
-  if (hung == ledger.findings.end()) {  // a driver that gets no processor does not see it asleep for long enough
-    EXPECT_EQ(ledger.open.at(0), (UnitPlace{1, 0}));
-  } else {
+  // A driver that gets no processor does not see it asleep for long enough, and gives up without a verdict.
+  constexpr int kAttempts = 5;
+  bool is_heard = false;
+  for (int attempt = 0; attempt < kAttempts && !is_heard; ++attempt) {
+    const TemporaryFolder folder;
+    Properties properties;
+    properties.push_back(std::make_unique<Slow>(endless_sleep));
+    const DriverOptions options = options_for(folder.path(), 0);
+    EXPECT_LT(run_out_of_time(properties, options), 5);
+    const PropertyLedger ledger = parse_ledger(slurp(folder.path() / kLedgerFile), "ledger").properties[0];
+    const auto hung = ledger.findings.find({"two", "hung"});
+    is_heard = hung != ledger.findings.end();
+    if (!is_heard) continue;
     EXPECT_EQ(hung->second.count, 1);
     EXPECT_EQ(slurp(folder.path() / hung->second.file), "slow:two:1:0");
   }
+  EXPECT_TRUE(is_heard);
 }
 
 /// Waits for its child as for a disk, which is no sleep.
