@@ -227,7 +227,7 @@ void Simulation::commit(Try& tried) {
     dynamics_->final_velocity(tried.end, script_.inverse_mass(), dt_s);
   }
   v_.topRows(cloth) = tried.end.v;
-  loads_ = had_room(safe.report) ? std::move(tried.loads) : std::vector<ContactLoad>();
+  loads_ = had_room(safe.report) ? std::move(tried.loads) : ContactLoads();
 }
 
 void Simulation::restore(const SimulationState& state) {

@@ -25,7 +25,7 @@ namespace selvage::sim {
 struct SimulationState {
   Positions x, v;  ///< #V by 3, m and m/s
   StepClock::State clock;
-  std::vector<ContactLoad> loads;  ///< at x; sorted by vertex and face
+  ContactLoads loads;  ///< at x
 };
 
 struct StepResult {
@@ -67,7 +67,7 @@ class Simulation {
     Positions candidate;             ///< #V by 3: of the dynamics and the scripts
     Motion end;                      ///< of the dynamics
     RepulsionCount held;             ///< in the dynamics
-    std::vector<ContactLoad> loads;  ///< at its end
+    ContactLoads loads;  ///< at its end
     CollisionStepResult safe;
   };
   /// Whether a step is short enough then for bodies that turn.
@@ -101,7 +101,7 @@ class Simulation {
   ScriptedMotion script_;
   VertexFaces vertex_faces_;
   Positions x_, v_;
-  std::vector<ContactLoad> loads_;
+  ContactLoads loads_;
   std::vector<RepulsionContact> held_to_the_end_;  ///< by the last run of the dynamics; memory that stays
 };
 

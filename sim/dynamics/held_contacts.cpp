@@ -37,7 +37,7 @@ constexpr double kNearer = 1 - 1e-6;
 
 constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
 
-std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.vertex, load.face}; }
+std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.first, load.second}; }
 
 template <class Columns>
 Vec3 vector_in(const Columns& columns, std::size_t lane) {
@@ -77,7 +77,7 @@ void each_pack(std::span<ContactPack> packs, Body body) {
 
 }  // namespace
 
-HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const std::vector<ContactLoad>& loads,
+HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const ContactLoads& loads,
                            const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s,
                            int sweeps)
     : surface_(surface),
@@ -162,12 +162,10 @@ void HeldContacts::set_sweeps(const std::vector<std::int32_t>& sweeps) {
   }
 }
 
-void HeldContacts::begin_with(const std::vector<ContactLoad>& loads) {
+void HeldContacts::begin_with(const ContactLoads& loads) {
   parallel_each(std::ssize(place_of_), [&](Eigen::Index i) {
     const std::size_t place = place_of_[static_cast<std::size_t>(i)];
-    const RepulsionContact& contact = contacts_[static_cast<std::size_t>(i)];
-    if (contact.kind != PairKind::kVf) return;
-    const ContactLoad* const load = load_of(contact, loads);
+    const ContactLoad* const load = load_of(contacts_[static_cast<std::size_t>(i)], loads);
     if (load == nullptr) return;
     ContactPack& pack = packs_[place / kLanes];
     pack.load_m_s2[place % kLanes] = load->acceleration_m_s2;
@@ -175,15 +173,16 @@ void HeldContacts::begin_with(const std::vector<ContactLoad>& loads) {
   });
 }
 
-/// That of its pair; else that of the vertex on a face beside. Over an edge or a corner of the surface a vertex lies on
+/// That of its pair; else that of a vertex on a face beside. Over an edge or a corner of the surface a vertex lies on
 /// any of the faces there, and another may have been found than the one that bore it. Several may begin with one load:
 /// what is too much they take back.
-const ContactLoad* HeldContacts::load_of(const RepulsionContact& contact, const std::vector<ContactLoad>& loads) const {
-  const auto begin = std::ranges::lower_bound(loads, contact.first, {}, &ContactLoad::vertex);
-  const auto end = std::ranges::upper_bound(loads, contact.first, {}, &ContactLoad::vertex);
-  auto load = std::find_if(begin, end, [&](const ContactLoad& l) { return l.face == contact.second; });
-  if (load == end) load = std::find_if(begin, end, [&](const ContactLoad& l) { return touch(l.face, contact.second); });
-  return load == end ? nullptr : &*load;
+const ContactLoad* HeldContacts::load_of(const RepulsionContact& contact, const ContactLoads& loads) const {
+  const bool is_vf = contact.kind == PairKind::kVf;
+  const auto of_first = std::ranges::equal_range(is_vf ? loads.vf : loads.ee, contact.first, {}, &ContactLoad::first);
+  auto load = std::ranges::find(of_first, contact.second, &ContactLoad::second);
+  const auto is_beside = [&](const ContactLoad& l) { return touch(l.second, contact.second); };
+  if (load == of_first.end() && is_vf) load = std::ranges::find_if(of_first, is_beside);
+  return load == of_first.end() ? nullptr : &*load;
 }
 
 bool HeldContacts::touch(FaceId a, FaceId b) const {
@@ -368,18 +367,19 @@ PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, con
   return x;
 }
 
-double HeldContacts::load_m_s2(std::size_t i) const {
-  const std::size_t place = place_of_[i];
-  return packs_[place / kLanes].load_m_s2[place % kLanes];
+HeldContacts::Load HeldContacts::load(std::size_t i) const {
+  const std::size_t lane = place_of_[i] % kLanes;
+  const ContactPack& pack = packs_[place_of_[i] / kLanes];
+  return {pack.load_m_s2[lane], vector_in(pack.friction_m_s2, lane)};
 }
 
-void HeldContacts::bore(std::size_t i, double load_m_s2, bool rubbed) {
+void HeldContacts::bore(std::size_t i, const Load& load) {
   const std::size_t lane = place_of_[i] % kLanes;
   ContactPack& pack = packs_[place_of_[i] / kLanes];
-  pack.load_m_s2[lane] = load_m_s2;
-  for (auto& column : pack.friction_m_s2) column[lane] = 0;
-  if (load_m_s2 > 0) pack.ever_repelled |= only_lane(lane);
-  if (rubbed) pack.ever_rubbed |= only_lane(lane);
+  pack.load_m_s2[lane] = load.along_m_s2;
+  for (int k = 0; k < 3; ++k) pack.friction_m_s2[static_cast<std::size_t>(k)][lane] = load.friction_m_s2[k];
+  if (load.along_m_s2 > 0) pack.ever_repelled |= only_lane(lane);
+  if (!load.friction_m_s2.isZero(0)) pack.ever_rubbed |= only_lane(lane);
 }
 
 void HeldContacts::measure() {
@@ -415,15 +415,18 @@ RepulsionCount HeldContacts::count() const {
   return result;
 }
 
-std::vector<ContactLoad> HeldContacts::loads() const {
+ContactLoads HeldContacts::loads() const { return {loads_of(vf_), loads_of(ee_)}; }
+
+std::vector<ContactLoad> HeldContacts::loads_of(const Kind& kind) const {
   std::vector<ContactLoad> result;
-  for (std::size_t place = 0; place < ee_.first_pack * kLanes; ++place) {
-    const ContactPack& pack = packs_[place / kLanes];
-    const std::size_t lane = place % kLanes;
-    if (!(pack.load_m_s2[lane] > 0)) continue;
-    const RepulsionContact& contact = contact_at(place);
-    const Vec3 friction = vector_in(pack.friction_m_s2, lane);
-    result.push_back({contact.first, contact.second, pack.load_m_s2[lane], {friction.x(), friction.y(), friction.z()}});
+  const std::size_t first = kind.first_pack * kLanes;
+  for (const std::size_t i : std::span(contact_at_).subspan(first, kind.groups.order().size())) {
+    if (i == ContactGroups::kNobody) continue;
+    const Load borne = load(i);
+    const Vec3& friction = borne.friction_m_s2;
+    if (!(borne.along_m_s2 > 0)) continue;
+    result.push_back(
+        {contacts_[i].first, contacts_[i].second, borne.along_m_s2, {friction[0], friction[1], friction[2]}});
   }
   // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
   std::ranges::stable_sort(result, {}, pair_of);

@@ -42,10 +42,10 @@ struct HeldSurface {
 
 class HeldContacts {
  public:
-  /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted. `loads` are those at V_t0, sorted. The
+  /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted. `loads` are those at V_t0. The
   /// positions must outlive it. REQUIRES contacts of kVf or kEe of which cloth can move, and sweeps >= 1.
-  HeldContacts(std::vector<RepulsionContact> contacts, const std::vector<ContactLoad>& loads,
-               const HeldSurface& surface, const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
+  HeldContacts(std::vector<RepulsionContact> contacts, const ContactLoads& loads, const HeldSurface& surface,
+               const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
   /// The loads with their friction, where the contacts are now: before the limits on strain, which else see cloth fall
   /// that is borne, and have it pull on what bears it (docs/numerics.md).
@@ -70,11 +70,15 @@ class HeldContacts {
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
   /// contacts()), with the loads that they begin with; and what a contact bore in the last step, so that count() and
-  /// loads() know it. They do not learn its friction.
+  /// loads() know it.
   [[nodiscard]] std::size_t size() const { return place_of_.size(); }
   [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[i]; }
-  [[nodiscard]] double load_m_s2(std::size_t i) const;
-  void bore(std::size_t i, double load_m_s2, bool rubbed);
+  struct Load {
+    double along_m_s2 = 0;  ///< as in ContactLoad
+    Vec3 friction_m_s2 = Vec3::Zero();
+  };
+  [[nodiscard]] Load load(std::size_t i) const;
+  void bore(std::size_t i, const Load& load);
   /// Where a vertex that is not cloth is at `share` in [0, 1] of the collision step.
   [[nodiscard]] Vec3 scripted_at(VertexId vertex, double share) const {
     Vec3 at = V_t0_.row(vertex) + share * (V_t1_.row(vertex) - V_t0_.row(vertex));
@@ -92,8 +96,8 @@ class HeldContacts {
   /// Those that repelled, and rubbed, in any step.
   [[nodiscard]] RepulsionCount count() const;
 
-  /// After the last step; sorted by vertex and face.
-  [[nodiscard]] std::vector<ContactLoad> loads() const;
+  /// After the last step.
+  [[nodiscard]] ContactLoads loads() const;
 
  private:
   using Reach = ContactGroups::Reach;
@@ -115,9 +119,9 @@ class HeldContacts {
   [[nodiscard]] const RepulsionContact& contact_at(std::size_t place) const { return contacts_[contact_at_[place]]; }
   void set_lane(std::size_t place);
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
-  void begin_with(const std::vector<ContactLoad>& loads);
-  [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact,
-                                           const std::vector<ContactLoad>& loads) const;
+  void begin_with(const ContactLoads& loads);
+  [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
+  [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact, const ContactLoads& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;

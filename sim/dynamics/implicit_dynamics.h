@@ -28,8 +28,9 @@ struct ImplicitDynamicsOptions {
 /// A step within which drag stops something is one of backward Euler, which no drag turns round; so is one with
 /// contacts, x1 = x + h v1, v1 = v + h a(x1, v1), with the contacts in its potential (stage_contacts.h): of the two
 /// stages the second would throw back at (1 - g) / g = 2.4 times its speed what meets something in between. It is of
-/// first order. What contacts bear is found to a thousandth of the largest of it, or as far as some dozen solutions
-/// find it, more where contacts begin to slide; it begins with their loads of the last step.
+/// first order. What contacts bear is found to a ten-thousandth of the largest of it, or as far as some dozen
+/// solutions find it, more where contacts begin to slide; it begins with what they bore in the last step, friction and
+/// edges as well.
 class ImplicitDynamics : public Dynamics {
  public:
   ImplicitDynamics(const SpringSystem& springs, const ImplicitDynamicsOptions& options);  ///< springs outlive it
@@ -50,6 +51,8 @@ class ImplicitDynamics : public Dynamics {
   void step(Motion& motion, std::span<const double> inverse_mass, double h, DynamicsReport& report);
   void step_in_contact(Motion& motion, std::span<const double> inverse_mass, const StageSpan& span,
                        HeldContacts& contacts, DynamicsReport& report);
+  /// Finds where the cloth goes and what its contacts bear, from the guesses that x and the contacts hold.
+  StageReport solve_in_contact(const StageEquations& equations, Positions& x);
   void limit(const Positions& x_t0, std::span<const double> inverse_mass, double h, Motion& motion);
 
   double step_s_;

@@ -271,6 +271,7 @@ StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, 
   for (;;) {
     find_forces(equations, x, acceleration);
     report.residual_m = residual_m(equations);
+    if (report.newton_rounds == 0) report.first_residual_m = report.residual_m;
     report.converged = report.residual_m <= enough_m;
     if (report.converged) return report;
     assemble(equations, false);

@@ -34,7 +34,7 @@ struct StageEquations {
 struct StageReport {
   std::int32_t newton_rounds = 0, cg_iterations = 0;
   /// The largest |x - origin - h v_t0 - h^2 a| of a vertex, in m: how far it is from where its forces put it.
-  double residual_m = 0;
+  double first_residual_m = 0, residual_m = 0;  ///< of the first guess, and of the solution
   bool converged = false;
 };
 

@@ -22,7 +22,7 @@ StageContacts::StageContacts(HeldContacts& held, const Positions& x, std::span<c
     : held_(held), span_(span) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     add_term(i, x, inverse_mass, resistance_kg);
-    held.bore(i, 0, false);
+    held.bore(i, {});
   }
   index_ends(x.rows());
   response_.resize(terms_.size());
@@ -55,10 +55,12 @@ void StageContacts::add_term(std::size_t held_id, const Positions& x, std::span<
   term.stiffness_kg = kStiffness / yields;
   const double allowed_m = std::min(contact.properties.thickness_m, contact.distance);
   term.mobility_1_kg = effective_mobility(interaction) * interaction.inverse_mass_scale;
-  term.borne[0] = span_.h_s * span_.h_s * held_.load_m_s2(held_id) / term.mobility_1_kg;
+  const HeldContacts::Load load = held_.load(held_id);
+  const double per_m_s2 = span_.h_s * span_.h_s / term.mobility_1_kg;
+  term.borne[0] = per_m_s2 * load.along_m_s2;
   term.friction_static = contact.properties.friction_static;
   term.friction_kinetic = contact.properties.friction_kinetic;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d& axes = term.axes;
   axes.row(0) = contact.normal;
   std::array<Eigen::Matrix3d, 4> slip;
   for (std::size_t i = 0; i < 4; ++i) slip[i] = interaction.weights[i] * Eigen::Matrix3d::Identity();
@@ -67,6 +69,7 @@ void StageContacts::add_term(std::size_t held_id, const Positions& x, std::span<
     axes.row(1) = across;
     axes.row(2) = contact.normal.cross(across);
     slip = slip_matrices(interaction, at_start);
+    term.borne.tail<2>() = per_m_s2 * axes.bottomRows<2>() * load.friction_m_s2;
   }
   for (std::size_t i = 0; i < 4; ++i) {
     term.jacobian[i] = axes * slip[i];
@@ -237,22 +240,34 @@ ForceChange StageContacts::update() {
   return found;
 }
 
-bool StageContacts::let_slide() {
+bool StageContacts::let_slide(double known_m) {
   bool changes = false;
   for (Term& term : terms_) {
     if (term.slides || !term.is_at_border || !(term.borne[0] > 0)) continue;
     if (!(term.friction_kinetic < term.friction_static)) continue;
     term.slides = true;
-    term.borne.tail<2>() *= term.friction_kinetic / term.friction_static;
-    changes = true;
+    const double kept = term.friction_kinetic / term.friction_static;
+    const double change_m = (1 - kept) * term.borne.tail<2>().norm() * term.mobility_1_kg;
+    if (change_m > known_m) changes = true;
+    term.borne.tail<2>() *= kept;
   }
   return changes;
 }
 
+bool StageContacts::forget() {
+  bool bore = false;
+  for (Term& term : terms_) {
+    bore |= !term.borne.isZero(0);
+    term.borne.setZero();
+    term.is_at_border = term.slides = false;
+  }
+  return bore;
+}
+
 void StageContacts::finish() {
   for (const Term& term : terms_) {
-    held_.bore(term.held, term.mobility_1_kg * term.borne[0] / (span_.h_s * span_.h_s),
-               !term.borne.tail<2>().isZero(0));
+    const Vec3 borne_m_s2 = term.mobility_1_kg / (span_.h_s * span_.h_s) * term.borne;
+    held_.bore(term.held, {borne_m_s2[0], term.axes.bottomRows<2>().transpose() * borne_m_s2.tail<2>()});
   }
 }
 

@@ -60,19 +60,21 @@ class StageContacts : public Coupling {
   /// Takes what was found for what the contacts bear.
   ForceChange update();
   /// After the forces were found: contacts at the border of the static cone slide from now on. Whether that changes
-  /// what they bear. Asked before, forces that are not found yet, or cones that open with them, had cloth slide that
-  /// sticks.
-  bool let_slide();
+  /// what one bears by more than known_m, as in ForceChange. Asked before, forces that are not found yet, or cones that
+  /// open with them, had cloth slide that sticks.
+  bool let_slide(double known_m);
+  /// To begin again without what they bore. Whether they bore anything.
+  bool forget();
   /// Tells the contacts what they bore.
   void finish();
 
  private:
   struct Term {
     std::size_t held = 0;
-    std::array<VertexId, 4> vertices{};  ///< -1 where not cloth
-    /// Of gap and slip by the displacements; rows are along the normal and in two directions across it.
-    std::array<Eigen::Matrix3d, 4> jacobian;
-    Vec3 start = Vec3::Zero();  ///< gap and slip where no cloth moves, m
+    std::array<VertexId, 4> vertices{};              ///< -1 where not cloth
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();  ///< rows: the normal, and two across it where there is friction
+    std::array<Eigen::Matrix3d, 4> jacobian;         ///< of gap and slip by the displacements, along the axes
+    Vec3 start = Vec3::Zero();                       ///< gap and slip where no cloth moves, m
     double stiffness_kg = 0, mobility_1_kg = 0;
     double friction_static = 0, friction_kinetic = 0;
     bool is_at_border = false, slides = false;

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 11\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 12\n";
 
 template <class Number>
 void put(std::string& bytes, const Number& number) {
@@ -28,9 +28,11 @@ void put(std::string& bytes, const Positions& x) {
 static_assert(sizeof(ContactLoad) == 2 * sizeof(std::int32_t) + 4 * sizeof(double),
               "padding would be written as it is");
 
-void put(std::string& bytes, const std::vector<ContactLoad>& loads) {
-  put(bytes, static_cast<std::int64_t>(loads.size()));
-  for (const ContactLoad& load : loads) put(bytes, load);
+void put(std::string& bytes, const ContactLoads& loads) {
+  for (const std::vector<ContactLoad>* const of_kind : {&loads.vf, &loads.ee}) {
+    put(bytes, static_cast<std::int64_t>(of_kind->size()));
+    for (const ContactLoad& load : *of_kind) put(bytes, load);
+  }
 }
 
 void put(std::string& bytes, const SceneIdentity& scene) {
@@ -82,9 +84,11 @@ class Source {
     const std::string_view data = take(rows * kRowBytes);
     if (!data.empty()) std::memcpy(x.data(), data.data(), data.size());
   }
-  void get(std::vector<ContactLoad>& loads) {
-    loads.resize(count(sizeof(ContactLoad)));
-    for (ContactLoad& load : loads) get(load);
+  void get(ContactLoads& loads) {
+    for (std::vector<ContactLoad>* const of_kind : {&loads.vf, &loads.ee}) {
+      of_kind->resize(count(sizeof(ContactLoad)));
+      for (ContactLoad& load : *of_kind) get(load);
+    }
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
 

@@ -46,7 +46,7 @@ struct OneContact {
   Positions V_t0, V_t1;
   Eigen::Index cloth_count;
   LaneVectors x, v;
-  std::vector<ContactLoad> loads;
+  ContactLoads loads;
 
   OneContact(const RandomPair& pair, Eigen::Index cloth_vertices) : V_t0(4, 3), cloth_count(cloth_vertices) {
     for (Eigen::Index i = 0; i < 4; ++i) V_t0.row(i) = pair.x_t0[static_cast<std::size_t>(i)];
@@ -64,7 +64,7 @@ struct OneContact {
     const Ground ground = one_face();
     const ContactLoad load{
         contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
-    HeldContacts held(contacts, {load}, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
+    HeldContacts held(contacts, {{load}, {}}, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
     act(held, {kHeldStep, 1, x, v});
     loads = held.loads();
     return held.count();

@@ -23,7 +23,7 @@ TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
     v.set_zero();
     v.row(0) = Eigen::RowVector3d(0, 0, 1);
     x.row(0) += kHeldStep * v.row(0);
-    HeldContacts held({contact}, {{0, 0, load_m_s2}}, ground.surface(3), V, V, kHeldStep, 1);
+    HeldContacts held({contact}, {{{0, 0, load_m_s2}}, {}}, ground.surface(3), V, V, kHeldStep, 1);
     act(held, {kHeldStep, 1, x, v});
     EXPECT_EQ(Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(0, 0, 1));
     EXPECT_EQ(held.count().repulsions, 0);
@@ -82,8 +82,8 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
     EXPECT_EQ(now.second_t0, 0) << "the pair that was met";
     EXPECT_EQ(now.interaction.vertices, (std::array<VertexId, 4>{0, 2, 1, 4}));
     EXPECT_NEAR(now.distance, kHeldThickness, 1e-15);
-    ASSERT_EQ(held.loads().size(), 1U);
-    EXPECT_EQ(held.loads()[0].face, 1);
+    ASSERT_EQ(held.loads().vf.size(), 1U);
+    EXPECT_EQ(held.loads().vf[0].second, 1);
   }
 }
 
@@ -177,8 +177,8 @@ TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
   constexpr double kLoad = 7;
   TwoFaces scene;
   const auto learnt = [&](const std::vector<ContactLoad>& loads) {
-    HeldContacts held({scene.one.contact}, loads, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
-    const std::vector<ContactLoad> begun = held.loads();
+    HeldContacts held({scene.one.contact}, {loads, {}}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
+    const std::vector<ContactLoad> begun = held.loads().vf;
     return begun.empty() ? 0 : begun.front().acceleration_m_s2;
   };
   EXPECT_EQ(learnt({{0, 0, kLoad}}), kLoad);
