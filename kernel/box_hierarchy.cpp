@@ -6,11 +6,11 @@
 #include <optional>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "kernel/assert.h"
 #include "kernel/box.h"
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 #include "kernel/pair_finder.h"
 #include "kernel/spatial_face_tree.h"
 
@@ -29,7 +29,7 @@ constexpr double kGrowthMax = 1.5;
 double surface(const FaceClusters& clusters, const PositionsRef& V_t0, const PositionsRef& V_t1) {
   constexpr std::size_t kGrainClusters = 256;  // some 20 us
   std::vector<double> surfaces(clusters.cluster_count());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surfaces.size(), kGrainClusters), [&](const auto& range) {
+  own_parallel_for(tbb::blocked_range<std::size_t>(0, surfaces.size(), kGrainClusters), [&](const auto& range) {
     const FpEnvGuard guard;
     for (std::size_t c = range.begin(); c != range.end(); ++c) {
       if (clusters.vertices.of(c).empty()) continue;

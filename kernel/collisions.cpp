@@ -6,12 +6,12 @@
 #include <tuple>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include "kernel/assert.h"
 #include "kernel/box.h"
 #include "kernel/ccd_batch.h"
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 
 namespace selvage {
 
@@ -27,7 +27,7 @@ constexpr std::size_t kBatchSize = 4096;
 template <typename Found, typename Body>
 std::vector<Found> for_each_block(std::size_t count, const Body& body) {
   std::vector<Found> blocks((count + kBlockSize - 1) / kBlockSize);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+  own_parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
     const FpEnvGuard guard;
     const std::size_t end = std::min(count, (block + 1) * kBlockSize);
     for (std::size_t item = block * kBlockSize; item < end; ++item) body(item, blocks[block]);
@@ -89,7 +89,7 @@ class CollisionFinder {
   template <typename Pair>
   void ask_all(const CcdBatch& batch, PairKind kind, const std::vector<Pair>& candidates) {
     std::vector<Block> blocks((candidates.size() + kBatchSize - 1) / kBatchSize);
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    own_parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
       const auto pairs = std::span(candidates).subspan(b * kBatchSize);
       ask(batch, kind, pairs.first(std::min(kBatchSize, pairs.size())), blocks[b]);
     });

@@ -1,8 +1,8 @@
 #include "kernel/fitted_boxes.h"
 
-#include <tbb/parallel_for.h>
 
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 
 namespace selvage {
 
@@ -13,7 +13,7 @@ constexpr std::size_t kGrainVertices = 512, kGrainClusters = 64, kGrainNodes = 6
 
 template <typename Body>
 void parallel_range(std::size_t begin, std::size_t end, std::size_t grain, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain), [&](const auto& range) {
+  own_parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain), [&](const auto& range) {
     const FpEnvGuard guard;
     for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
   });

@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 #include "kernel/pair_buffer.h"
 #include "kernel/words.h"
 
@@ -106,7 +107,7 @@ class Listing {
     std::vector<std::size_t> begin(found.size() + 1, 0);
     for (std::size_t i = 0; i < found.size(); ++i) begin[i + 1] = begin[i] + found[i].size();
     out.resize(begin.back());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), 1024), [&](const auto& range) {
+    own_parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), 1024), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         std::ranges::transform(found[i], out.begin() + static_cast<std::ptrdiff_t>(begin[i]), candidate<Candidate>);
       }
@@ -163,7 +164,7 @@ class PairFinder {
 
   /// The sink's pairs are valid as long as the finder.
   void find() {
-    if (!clusters_.nodes.empty()) descend(0, {0});
+    if (!clusters_.nodes.empty()) in_own_task([&] { descend(0, {0}); });
   }
 
  private:

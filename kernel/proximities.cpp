@@ -5,13 +5,13 @@
 #include <initializer_list>
 #include <span>
 
-#include <tbb/parallel_for.h>
 
 #include "kernel/assert.h"
 #include "kernel/ccd_detail.h"
 #include "kernel/collisions.h"
 #include "kernel/fp_env.h"
 #include "kernel/lane_cull.h"
+#include "kernel/own_tasks.h"
 
 namespace selvage {
 
@@ -25,7 +25,7 @@ constexpr std::size_t kTaskSize = 4096;
 template <typename Found, typename Item, typename Body>
 std::vector<std::vector<Found>> for_each_task(const std::vector<Item>& items, const Body& body) {
   std::vector<std::vector<Found>> tasks((items.size() + kTaskSize - 1) / kTaskSize);
-  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t task) {
+  own_parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t task) {
     const FpEnvGuard guard;
     const auto rest = std::span(items).subspan(task * kTaskSize);
     body(rest.first(std::min(kTaskSize, rest.size())), tasks[task]);

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include "kernel/box.h"
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 
 namespace selvage {
 
@@ -39,7 +39,10 @@ class Splitter {
  public:
   explicit Splitter(std::vector<CentredFace> faces) : faces_(std::move(faces)) {
     tree_.children.resize(faces_.size() - 1);
-    split(0, faces_.size(), 0);
+    in_own_task([&] {
+      const FpEnvGuard guard;
+      split(0, faces_.size(), 0);
+    });
   }
   [[nodiscard]] FaceTree take() { return std::move(tree_); }
 
@@ -101,7 +104,7 @@ class Splitter {
 FaceTree make_spatial_face_tree(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1) {
   std::vector<CentredFace> faces(mesh.faces.size());
   if (faces.empty()) return {};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kTaskFaces), [&](const auto& range) {
+  own_parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kTaskFaces), [&](const auto& range) {
     const FpEnvGuard guard;
     for (std::size_t f = range.begin(); f != range.end(); ++f) faces[f] = centred(mesh, V_t0, V_t1, f);
   });

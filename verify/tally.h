@@ -7,11 +7,9 @@
 #include <tuple>
 #include <vector>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "verify/arithmetic/fp_guard.h"
 #include "verify/check.h"
+#include "verify/search/own_tasks.h"
 
 namespace selvage::verify {
 
@@ -93,7 +91,7 @@ void tally_in_parallel(std::size_t count, std::size_t limit, Tally& tally, const
   constexpr std::size_t kLeast = 16, kMostChunks = 1024;
   const std::size_t size = std::max(kLeast, (count + kMostChunks - 1) / kMostChunks);
   std::vector<Tally> chunks((count + size - 1) / size, Tally::part_of(tally, limit));
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+  own_parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
     const FpGuard guard;
     for (std::size_t i = c * size; i < std::min((c + 1) * size, count); ++i) {
       chunks[c].throw_if_stopped();

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 
 namespace selvage::sim {
 
-/// Items are handed out in blocks of this many: a few microseconds of work on vertices or springs, so that small scenes
+/// Items are handed out in blocks of this many: a few microseconds of work on vertices or springs, and small scenes
 /// stay on one thread. A multiple of any block of lanes.
 inline constexpr Eigen::Index kParallelBlock = 1024;
 
@@ -19,7 +19,12 @@ inline constexpr Eigen::Index kParallelBlock = 1024;
 template <class Body>
 void parallel_blocks(Eigen::Index count, Body body) {
   const Eigen::Index blocks = (count + kParallelBlock - 1) / kParallelBlock;
-  tbb::parallel_for(Eigen::Index{0}, blocks, [&](Eigen::Index block) {
+  if (blocks == 1) {
+    const FpEnvGuard guard;
+    body(Eigen::Index{0}, count);
+    return;
+  }
+  own_parallel_for(Eigen::Index{0}, blocks, [&](Eigen::Index block) {
     const FpEnvGuard guard;
     body(block * kParallelBlock, std::min(count, (block + 1) * kParallelBlock));
   });

@@ -5,10 +5,10 @@
 #include <numeric>
 #include <span>
 
-#include <oneapi/tbb/parallel_for.h>
 
 #include "kernel/fp_env.h"
 #include "kernel/lane_motion.h"
+#include "kernel/own_tasks.h"
 #include "sim/base/parallel.h"
 #include "sim/contact/contact_reach.h"
 #include "sim/contact/quick_proximity.h"
@@ -44,7 +44,7 @@ struct Found {
   void copy_to(NearPair* pairs, Candidate* candidates) const {
     std::vector<std::size_t> begin(tasks.size());
     for (std::size_t i = 1; i < tasks.size(); ++i) begin[i] = begin[i - 1] + tasks[i - 1].pairs.size();
-    tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+    own_parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
       std::ranges::copy(tasks[i].pairs, pairs + begin[i]);
       std::ranges::copy(tasks[i].candidates, candidates + begin[i]);
     });
@@ -72,7 +72,7 @@ template <typename Candidate>
 Found<Candidate> find_near(const Mesh& mesh, const ContactTable& contacts, const std::vector<Candidate>& all,
                            const Positions& V) {
   Found<Candidate> found{std::vector<typename Found<Candidate>::Task>((all.size() + kTaskSize - 1) / kTaskSize)};
-  tbb::parallel_for(std::size_t{0}, found.tasks.size(), [&](std::size_t task) {
+  own_parallel_for(std::size_t{0}, found.tasks.size(), [&](std::size_t task) {
     const FpEnvGuard guard;
     QuickProximities quick;
     const std::size_t end = std::min(all.size(), (task + 1) * kTaskSize);

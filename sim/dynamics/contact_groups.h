@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <oneapi/tbb/parallel_for.h>
 
 #include "kernel/fp_env.h"
+#include "kernel/own_tasks.h"
 #include "kernel/types.h"
 #include "sim/base/lane_vectors.h"
 
@@ -96,7 +96,7 @@ class ContactGroups {
 
   template <typename Act>
   void act_round(Round& round, bool backwards, const Act& act) {
-    tbb::parallel_for(std::size_t{0}, round.groups.size(), [&](std::size_t id) {
+    own_parallel_for(std::size_t{0}, round.groups.size(), [&](std::size_t id) {
       const FpEnvGuard guard;
       act_group(round.groups[id], Reach(round.owner, id), backwards, act);
     });

@@ -34,6 +34,19 @@ if(read EQUAL 0)
   list(APPEND faults "${ROOT}: no sources found")
 endif()
 
+# A loop of oneTBB's own ends with its caller's tasks, and a host may call from any: here all are of tasks of their own
+# (kernel/own_tasks.h). What divides itself within such a task is named.
+set(divides_itself kernel/pair_finder.cpp kernel/spatial_face_tree.cpp)
+foreach(room kernel io sim verify)
+  file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${room}/*.h" "${ROOT}/${room}/*.cpp")
+  foreach(source ${sources})
+    file(STRINGS "${ROOT}/${source}" loops REGEX "^[^/]*tbb::parallel_")
+    if(loops AND NOT source MATCHES "/own_tasks.h$" AND NOT source IN_LIST divides_itself)
+      list(APPEND faults "${ROOT}/${source}: ${loops}: loops are own_parallel_for()")
+    endif()
+  endforeach()
+endforeach()
+
 # The rooms within sim and within verify, likewise. What stands in the folder of sim itself is the step, and what makes it: it
 # may use them all but those that are made of steps. In that of verify it is the checks, which ask all of its rooms.
 set(sim_itself step)

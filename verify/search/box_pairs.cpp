@@ -3,10 +3,10 @@
 #include <numeric>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "verify/arithmetic/fp_guard.h"
 #include "verify/search/curve_order.h"
+#include "verify/search/own_tasks.h"
 
 namespace selvage::verify {
 
@@ -26,7 +26,7 @@ BoxTree::BoxTree(std::span<const Box> boxes, const Lattice& lattice)
     for (std::size_t k = 0; k < 3; ++k) middle[k] = std::midpoint(box.min[k], box.max[k]);
     return hilbert_code(middle);
   });
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
+  own_parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
     const FpGuard guard;  // all threads must round alike: boxes are compared on the lattice only
     for (std::size_t b = range.begin(); b < range.end(); ++b) {
       for (std::size_t i = b * kWidth; i < std::min((b + 1) * kWidth, boxes.size()); ++i) {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "verify/arithmetic/fp_guard.h"
+#include "verify/search/own_tasks.h"
 
 namespace selvage::verify {
 namespace {
@@ -105,7 +105,7 @@ std::uint64_t hilbert_code(const std::array<std::int32_t, 3>& point) {
 
 std::vector<std::int32_t> order_by_code(std::size_t count, const std::function<std::uint64_t(std::size_t)>& code) {
   std::vector<std::uint64_t> keys(count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+  own_parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
     const FpGuard guard;
     for (std::size_t i = range.begin(); i < range.end(); ++i) keys[i] = code(i) >> kDroppedBits << kIndexBits | i;
   });

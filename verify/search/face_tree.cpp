@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "verify/arithmetic/fp_guard.h"
 #include "verify/search/curve_order.h"
+#include "verify/search/own_tasks.h"
 
 namespace selvage::verify {
 namespace {
@@ -45,7 +45,7 @@ FaceTree::FaceTree(std::span<const std::int32_t> faces, std::span<const std::arr
   for (std::int32_t& f : order_) f = faces[static_cast<std::size_t>(f)];
   blocks_.resize((faces.size() + kWidth - 1) / kWidth);
   bounds_.resize(blocks_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
+  own_parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
     const FpGuard guard;
     for (std::size_t b = range.begin(); b < range.end(); ++b) {
       FaceBounds bounds;
