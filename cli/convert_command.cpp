@@ -13,7 +13,6 @@
 #include <fmt/ranges.h>
 
 #include "cli/answer/read_back.h"
-#include "cli/answer/shell_word.h"
 #include "cli/answer/verdict.h"
 #include "cli/arguments/frame_range.h"
 #include "cli/arguments/group_names.h"
@@ -107,7 +106,7 @@ void print_bodies(const std::vector<io::Group>& groups) {
     if (cloths.contains(body)) {
       shared += fmt::format("; \"{}\" is the name of cloth too: rename one before", body);
     } else {
-      options += " --body " + shell_word(body);
+      options += " --body " + io::shell_word(body);
     }
   }
   if (options.empty()) options = " --body";

@@ -22,6 +22,7 @@
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
+#include "verify/check.h"
 
 namespace selvage::cli {
 namespace {
@@ -168,7 +169,13 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::Simulation simulation(scene);
   // A run that goes on begins with the state of its checkpoint, which certified steps led to; or that is refused.
   const bool goes_on = arguments.resume && std::filesystem::exists(arguments.output / sim::kCheckpointFile);
-  const sim::StartRepair repair = goes_on ? sim::StartRepair{} : require_clean_start(simulation, arguments.repair);
+  sim::StartRepair repair;
+  try {
+    if (!goes_on) repair = require_clean_start(simulation, arguments.repair);
+  } catch (const verify::Stopped&) {
+    say("selvage: interrupted while the start was checked; nothing was written\n");
+    return ExitCode::kInterrupted;
+  }
   say("{}", sim::describe(simulation.scene(), simulation.world()));
   if (!goes_on) print_notes(notes_on_enclosed(simulation.world(), simulation.x()));
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/fail.h"
 #include "io/sequence_outputs.h"
+#include "io/text.h"
 
 namespace selvage::io {
 namespace fs = std::filesystem;
@@ -83,7 +85,28 @@ const OutputTraits& traits(OutputFormat format) {
   return kFolderTraits;
 }
 
+namespace {
+
+void require_faces(const OutputHeader& header, const fs::path& target) {
+  const auto& [triangles, groups] = std::tie(header.sequence.triangles, header.sequence.groups);
+  const auto is_vertex = [&](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < header.vertex_count; };
+  for (const auto& triangle : triangles) {
+    if (!std::ranges::all_of(triangle, is_vertex)) {
+      bad_input(target.string(), "a face names a vertex that does not exist; write the positions of all vertices");
+    }
+  }
+  for (const Group& group : groups) {
+    if (group.face_begin < 0 || group.face_begin > group.face_end || group.face_end > std::ssize(triangles)) {
+      bad_input(target.string(),
+                "the group \"" + printable(group.name) + "\" names faces that do not exist; correct it");
+    }
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<SequenceOutput> create_output(const fs::path& target, OutputHeader header) {
+  require_faces(header, target);
   switch (output_format(target)) {
     case OutputFormat::kNpz:
       return create_npz_output(target, std::move(header));

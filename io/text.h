@@ -68,4 +68,7 @@ NumberFault parse_number(std::string_view token, float& value);
 /// the character that does not fit into `most_bytes`.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most_bytes = std::string_view::npos);
 
+/// What a shell takes as one word, for commands that people copy.
+[[nodiscard]] std::string shell_word(const std::string& plain);
+
 }  // namespace selvage::io

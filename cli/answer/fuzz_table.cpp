@@ -7,6 +7,7 @@
 
 #include "fuzz/draw/generators.h"
 #include "fuzz/run/worker.h"
+#include "io/text.h"
 
 namespace selvage::cli {
 namespace {
@@ -37,7 +38,9 @@ std::string reproduce(const fuzz::Property& property, const std::string& stream,
   std::ranges::replace(name, ' ', '/');
   std::string text =
       fmt::format("      selvage fuzz {} --seed {} --only {}:{}\n", property.name(), ledger.seed, name, finding.number);
-  if (!finding.file.empty()) text = fmt::format("      selvage replay {}/{}\n", folder, finding.file) + text;
+  if (!finding.file.empty()) {
+    text = fmt::format("      selvage replay {}\n", io::shell_word(fmt::format("{}/{}", folder, finding.file))) + text;
+  }
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -28,14 +29,17 @@ ExitCode exit_code(const verify::SequenceReport& report) {
 
 void print_report(const std::string& text, verify::Verdict verdict, const std::vector<std::filesystem::path>& reports) {
   const bool is_taken = std::ranges::any_of(reports, is_standard_output);
-  std::FILE* to = is_taken ? stderr : stdout;
-  if (!use_colour(is_taken ? STDERR_FILENO : STDOUT_FILENO)) {
-    fmt::print(to, "{}", text);
-    return;
-  }
+  const auto print = [is_taken](const std::string& shown) {
+    if (is_taken) {
+      say_text(shown);
+    } else {
+      fmt::print("{}", shown);
+    }
+  };
+  if (!use_colour(is_taken ? STDERR_FILENO : STDOUT_FILENO)) return print(text);
   const char* colour = verdict == verify::Verdict::kClean ? "\033[32m" : "\033[31m";
   const std::size_t first_line = text.find('\n');
-  fmt::print(to, "{}{}\033[0m{}", colour, text.substr(0, first_line), text.substr(first_line));
+  print(colour + text.substr(0, first_line) + "\033[0m" + text.substr(first_line));
 }
 
 }  // namespace selvage::cli

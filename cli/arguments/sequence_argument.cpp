@@ -1,13 +1,18 @@
 #include "cli/arguments/sequence_argument.h"
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/arguments/frame_numbers.h"
 #include "cli/arguments/output_check.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
+#include "io/atomic_file.h"
 #include "io/point_cache.h"
 #include "sim/record/recorder.h"
 
@@ -35,6 +40,22 @@ std::vector<std::filesystem::path> files_of(const SequenceArgument& argument, co
   return files;
 }
 
+/// What a run of `selvage sim` that did not come to its end has left out.
+std::optional<std::string> early_end(const std::filesystem::path& folder) {
+  const std::filesystem::path run_file = folder / sim::kRunFile;
+  std::error_code status;
+  if (!std::filesystem::exists(folder / sim::kCheckpointFile, status)) return std::nullopt;
+  std::string how = "it was cut off, or goes on";
+  if (std::filesystem::exists(run_file, status)) {
+    const auto run = nlohmann::json::parse(io::read_file(run_file), nullptr, false);
+    const auto end = run.is_object() ? run.find("end") : run.end();
+    if (end == run.end() || !end->is_string() || *end == "complete") return std::nullopt;
+    how = *end;
+  }
+  return folder.string() + ": the run that wrote this did not come to its end (" + how +
+         "); its last frames are not here";
+}
+
 }  // namespace
 
 std::unique_ptr<io::SequenceReader> open_sequence(const SequenceArgument& argument) {
@@ -54,6 +75,7 @@ std::vector<std::string> notes_on(const SequenceArgument& argument, const io::Se
   std::vector<std::string> notes;
   if (const auto jump = jump_in_numbers(files_of(argument, sequence))) notes.push_back(*jump);
   if (std::string remark = sequence.remark(); !remark.empty()) notes.push_back(std::move(remark));
+  if (const auto early = early_end(argument.sources.front())) notes.push_back(*early);
   return notes;
 }
 

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/answer/shell_word.h"
 #include "cli/page/report_words.h"
 #include "fuzz/draw/generators.h"
 #include "fuzz/kept/case_file.h"
 #include "fuzz/shrink/shrink_query.h"
 #include "io/atomic_file.h"
+#include "io/text.h"
 #include "page/page.h"
 
 namespace selvage::cli {
@@ -76,8 +76,8 @@ struct ByGravity {
 std::string again(const Counterexample& one, const fuzz::Ledger& ledger, const ConformanceRun& run) {
   std::string stream = one.stream;
   std::ranges::replace(stream, ' ', '/');
-  return fmt::format("selvage fuzz --plugin {} --seed {} --only {}:{}", shell_word(run.library.string()), ledger.seed,
-                     stream, one.finding.number);
+  return fmt::format("selvage fuzz --plugin {} --seed {} --only {}:{}", io::shell_word(run.library.string()),
+                     ledger.seed, stream, one.finding.number);
 }
 
 Html labelled(const std::string& label, const Html& content) {
@@ -99,8 +99,8 @@ Html shown(const Counterexample& one, const fuzz::Ledger& ledger, const Conforma
     all += element("pre", {}, text(one.case_text));
     all += labelled("Exactly, the features", element("strong", {}, text(exact_words(*one.kept))));
     all += labelled("Smallest:", element("code", {},
-                                         text("selvage replay --plugin " + shell_word(run.library.string()) + " " +
-                                              shell_word(one.file.string()))));
+                                         text("selvage replay --plugin " + io::shell_word(run.library.string()) + " " +
+                                              io::shell_word(one.file.string()))));
   }
   all += labelled("First:", element("code", {}, text(again(one, ledger, run))));
   return all;

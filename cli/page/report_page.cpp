@@ -45,7 +45,7 @@ Html time_of(const verify::Violation& violation) {
 }
 
 std::string command_of(const verify::Violation& violation) {
-  return "selvage replay " + (violation.case_file.empty() ? case_name(violation) : violation.case_file);
+  return verify::replay_command(violation.case_file.empty() ? case_name(violation) : violation.case_file);
 }
 
 Html positions_of(const verify::Violation& violation) {

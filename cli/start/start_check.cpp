@@ -1,11 +1,11 @@
 #include "cli/start/start_check.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
 #include "cli/start/start_remedy.h"
 #include "io/error.h"
@@ -17,12 +17,10 @@
 namespace selvage::cli {
 namespace {
 
-/// Strain of springs that a person is told of: two crossed sheets that were left with it flew apart at 19 m/s
-/// (docs/scenes.md), a sheet that a needle went through, left with 6.2, at 40 m/s.
-constexpr double kTorn = 2.5;
-
-constexpr std::size_t kNamedPairs = 10;         // the rest is counted
-constexpr std::size_t kMostPairs = 10'000'000;  // of one frame; more are all parts of a scene in one place
+constexpr std::size_t kNamedPairs = 10;  // the rest is counted
+/// That are kept of one state, some 90 MB. A mesh whose vertices are in another order has many times as many (6,962
+/// faces at random: 5 million, which took 4.4 GB).
+constexpr std::size_t kMostPairs = 200'000;
 
 std::string part_of_face(const sim::World& world, FaceId face) {
   for (const io::Group& group : world.groups) {
@@ -31,13 +29,14 @@ std::string part_of_face(const sim::World& world, FaceId face) {
   return "?";
 }
 
-/// Exact; pairs of bodies are left out.
+/// Exact; pairs of bodies are left out. The first kMostPairs; ends with verify::Stopped at a signal.
 sim::FindIntersections exact_judge(const sim::World& world) {
   const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
   const auto vertex_count = static_cast<std::size_t>(world.x_t0.rows());
   return [topology = verify::make_topology({world.triangles, is_body}, vertex_count)](const Positions& x) {
     verify::CheckOptions options;
     options.max_violations = kMostPairs;
+    options.stop = interrupted;
     std::vector<sim::FacePair> pairs;
     for (const verify::Violation& found : verify::check_frame(topology, sim::points_of(x), options).violations) {
       pairs.push_back(verify::faces_of(found));
@@ -47,6 +46,8 @@ sim::FindIntersections exact_judge(const sim::World& world) {
     return pairs;
   };
 }
+
+const char* at_least(const std::vector<sim::FacePair>& pairs) { return pairs.size() < kMostPairs ? "" : "at least "; }
 
 void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pairs) {
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i) {
@@ -58,7 +59,7 @@ void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pair
           part_of_face(world, g));
     }
   }
-  if (pairs.size() > kNamedPairs) say("  and {} pairs more\n", pairs.size() - kNamedPairs);
+  if (pairs.size() > kNamedPairs) say("  and {}{} pairs more\n", at_least(pairs), pairs.size() - kNamedPairs);
 }
 
 /// Strain has no meaning there, whatever a repair does to the corners.
@@ -75,13 +76,14 @@ bool has_edge_without_length(const sim::World& world) {
   const auto [f, g] = pairs.front();
   const std::string first = part_of_face(world, f), second = part_of_face(world, g);
   throw io::Error(io::ErrorKind::kBadInput,
-                  fmt::format("{}: the start has {} intersecting pairs, the first of \"{}\"{}; {}",
-                              simulation.scene().file.string(), pairs.size(), first,
+                  fmt::format("{}: the start has {}{} intersecting pairs, the first of \"{}\"{}; {}",
+                              simulation.scene().file.string(), at_least(pairs), pairs.size(), first,
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
 }
 
 sim::StartRepair repair_of(std::int64_t pairs, const Positions& before, const Positions& after) {
-  sim::StartRepair repair{pairs};
+  sim::StartRepair repair;
+  repair.pairs = pairs;
   for (Eigen::Index v = 0; v < before.rows(); ++v) {
     const double moved_m = (after.row(v) - before.row(v)).stableNorm();
     repair.moved_vertices += moved_m > 0 ? 1 : 0;
@@ -118,7 +120,8 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
            fmt::format("--repair found no way out for them, of {} pairs before; {}", pairs.size(),
                        start_remedy(world, simulation.x(), since_start, true)));
   }
-  const sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), repaired.x);
+  sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), repaired.x);
+  done.largest_strain = repaired.largest_strain;
   sim::SimulationState state = simulation.state();
   state.x = std::move(repaired.x);
   simulation.restore(state);
@@ -126,10 +129,8 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
       "{} steps drew together what was stretched, largest strain {:.2g}\n",
       pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
       repaired.relax_steps, repaired.largest_strain);
-  if (repaired.largest_strain > kTorn) {
-    fmt::print(
-        stderr,
-        "note       contact or pins hold cloth at {:.2g} times its length, which will fly apart; move it off what "
+  if (repaired.largest_strain > sim::kTornStrain) {
+    say("note       contact or pins hold cloth at {:.2g} times its length, which will fly apart; move it off what "
         "goes through it in the program that wrote it\n",
         1 + repaired.largest_strain);
   }

@@ -10,6 +10,8 @@
 namespace selvage::fuzz {
 namespace {
 
+using namespace std::string_view_literals;
+
 constexpr std::int64_t kTrials = 5000;
 
 /// Words that parsers trip over: numbers at the edge of their types, separators, names of things.
@@ -18,7 +20,9 @@ constexpr std::array<std::string_view, 24> kWords{"-1",    "0",   "4294967296", 
                                                   "1.",    "",    "\n",         " ",
                                                   "\"",    "/",   "[",          "]",
                                                   "{",     "}",   "=",          "f 1 1 1\n",
-                                                  "#",     ",",   "\0\0",       "\xff\xff\xff\xff"};
+                                                  "#",     ",",   "\0\0"sv,     "\xff\xff\xff\xff"};
+
+static_assert(std::ranges::count(kWords, ""sv) == 1);  // a word that begins with NUL is none
 
 std::size_t choose_place(ChoiceSource& source, const std::string& bytes) {
   return source.n(static_cast<std::uint32_t>(bytes.size()) + 1);

@@ -52,12 +52,17 @@ std::string RunTotals::shortfalls() const {
   const auto add_clause = [&](std::int64_t count, const std::string& what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
   };
+  if (repair.largest_strain > kTornStrain) {
+    text = fmt::format("--repair left cloth at {:.2g} times its length", 1 + repair.largest_strain);
+  }
   add_clause(fail_safe_vertices, "vertices were held back by the fail-safe");
   add_clause(pairs_below_tolerance, "pairs ended a step nearer than the tolerance");
   add_clause(waiting_bodies, "times a body waited");
   add_clause(
       cut_candidates,
-      fmt::format("times a vertex was cut back: it went farther in a step than {} diagonals of the scene", kMaxTravel));
+      fmt::format("times a vertex was cut back: it went farther in a step than {} diagonals of the scene, or the "
+                  "step met too many pairs",
+                  kMaxTravel));
   add_clause(bent_steps, "steps were too long for a body that turns or turns back within them");
   add_clause(unconverged_solves, "implicit solves did not converge");
   return text;

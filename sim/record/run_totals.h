@@ -9,10 +9,15 @@
 
 namespace selvage::sim {
 
+/// Strain of springs after a repair that a person is told of: two crossed sheets that were left with it flew apart at
+/// 19 m/s (docs/scenes.md), a sheet that a needle went through, left with 6.2, at 40 m/s.
+inline constexpr double kTornStrain = 2.5;
+
 /// What `--repair` did to a start that intersected.
 struct StartRepair {
   std::int64_t pairs = 0, moved_vertices = 0;
   double largest_move_m = 0;
+  double largest_strain = 0;  ///< of springs, as it left them
 };
 
 struct RunTotals {
@@ -35,10 +40,10 @@ struct RunTotals {
   [[nodiscard]] PhaseTime all() const;
 
   void add(const StepResult& step);
-  /// One clause for each thing that went less well than the scene asked for, "" where nothing did: the fail-safe was
-  /// needed, pairs ended a step nearer than the tolerance, bodies waited, vertices were cut back (travel_limit.h),
-  /// bodies passed by what lies beside a straight line (StepResult::is_bent), equations were not solved. No
-  /// intersection is among them: these end runs.
+  /// One clause for each thing that went less well than the scene asked for, "" where nothing did: a repair left cloth
+  /// torn, the fail-safe was needed, pairs ended a step nearer than the tolerance, bodies waited, vertices were cut
+  /// back (travel_limit.h), bodies passed by what lies beside a straight line (StepResult::is_bent), equations were not
+  /// solved. No intersection is among them: these end runs.
   [[nodiscard]] std::string shortfalls() const;
 };
 
@@ -48,6 +53,7 @@ void for_each_total(Totals& totals, Visit visit) {
   visit("repaired_pairs", totals.repair.pairs);
   visit("repaired_vertices", totals.repair.moved_vertices);
   visit("largest_repair_m", totals.repair.largest_move_m);
+  visit("largest_repair_strain", totals.repair.largest_strain);
   visit("frames", totals.frames);
   visit("steps", totals.steps);
   visit("halvings", totals.halvings);

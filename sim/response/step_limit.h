@@ -40,7 +40,7 @@ class StepLimiter {
   /// Collisions in which nothing can be held back.
   struct Conflict {
     Collision collision;             ///< the first
-    std::vector<GroupId> groups;     ///< that move in it; sorted, not empty
+    std::vector<GroupId> groups;     ///< that move in it, and in those that have none of these; not empty
     std::vector<VertexId> vertices;  ///< scripted ones that move in any of them, or carry what is in it
   };
 

@@ -150,6 +150,7 @@ PinSpec read_pin(TomlTable table, const Surface& surface, std::span<const std::s
 
 std::string read_name(TomlTable& table, const std::string& fallback, std::set<std::string>& names) {
   std::string name = table.text("name", fallback);
+  if (name.empty()) table.fail("name", "an empty name; give the part one, or leave the line out");
   if (!names.insert(name).second)
     table.fail("name", fmt::format("a second \"{}\"; give every part its own name", name));
   table.rename(fmt::format("\"{}\"", name));

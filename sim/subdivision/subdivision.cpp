@@ -1,6 +1,7 @@
 #include "sim/subdivision/subdivision.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "kernel/fp_env.h"
 #include "sim/response/collision_tracker.h"
@@ -53,6 +54,12 @@ Subdivision::Subdivision(const io::Triangles& triangles, std::int32_t vertex_cou
                          const std::vector<io::Group>& groups, std::int32_t levels)
     : groups_(groups) {
   const FpEnvGuard guard;
+  if (levels < 1) throw std::invalid_argument("Subdivision: levels must be at least 1");
+  for (const io::Group& group : groups) {
+    if (group.face_begin < 0 || group.face_begin > group.face_end || group.face_end > std::ssize(triangles)) {
+      throw std::invalid_argument("Subdivision: a group names faces that do not exist");
+    }
+  }
   Mesh mesh = make_mesh(vertex_count, triangles);
   for (std::int32_t n = 0; n < levels; ++n) {
     const std::vector<std::uint8_t> rigid = io::body_faces(mesh.faces.size(), groups_);

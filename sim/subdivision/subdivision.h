@@ -18,7 +18,8 @@ struct SubdivisionCounts {
 
 class Subdivision {
  public:
-  /// `levels` >= 1. Faces of bodies are split but not smoothed: the cloth was kept off their flat faces.
+  /// Throws std::invalid_argument where `levels` < 1 or a group names faces that do not exist. REQUIRES triangles as
+  /// make_mesh() does. Faces of bodies are split but not smoothed: the cloth was kept off their flat faces.
   Subdivision(const io::Triangles& triangles, std::int32_t vertex_count, const std::vector<io::Group>& groups,
               std::int32_t levels);
   ~Subdivision();

@@ -86,6 +86,9 @@ TEST(Program, NotesThatCannotBeWrittenStopNothing) {
   }
   EXPECT_NE(testing::slurp(folder.path() / "err.txt").find("note"), std::string::npos);
   EXPECT_EQ(verify(">&- 2> err.txt"), 4);
+  // The text goes to stderr where the report takes stdout.
+  EXPECT_EQ(shell(folder, SELVAGE_PROGRAM " verify quad.obj --json /dev/stdout > report.json 2> /dev/full"), 0);
+  EXPECT_TRUE(nlohmann::json::accept(testing::slurp(folder.path() / "report.json")));
 }
 
 TEST(Program, AnEmptyArgumentIsUsage) {

@@ -28,6 +28,21 @@ TEST_F(SimCommand, WhatItSimulatesTheCheckerFindsClean) {
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
 }
 
+TEST_F(SimCommand, ARunThatDidNotComeToItsEndIsNotedByTheChecker) {
+  ASSERT_EQ(sim(scene(2, 0.1, 0.1)).exit_code, 0);
+  const auto verify = [&] { return run_program(folder_, {"verify", path("out")}); };
+  EXPECT_EQ(verify().err.find("did not come to its end"), std::string::npos);
+  const std::string file = path("out") + "/run.json";
+  std::string run = slurp(file);
+  const std::string end = "\"complete\"";
+  spit(file, run.replace(run.find(end), end.size(), "\"interrupted\""));
+  EXPECT_NE(verify().err.find("did not come to its end (interrupted)"), std::string::npos);
+  std::filesystem::remove(file);
+  const auto cut = verify();
+  EXPECT_NE(cut.err.find("did not come to its end (it was cut off, or goes on)"), std::string::npos) << cut.err;
+  EXPECT_EQ(cut.exit_code, 0);
+}
+
 TEST_F(SimCommand, FramesOptionReplacesTheScenes) {
   EXPECT_NE(sim(scene(50, 0.2, 0.2), {"--frames", "2", "--threads", "0"}).out.find("2 frames"), std::string::npos);
 }

@@ -1,5 +1,6 @@
 // States that a run of `selvage sim` cannot start from, and what --repair makes of them.
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -146,6 +147,30 @@ TEST_F(SimCommand, TwoClothsThatTouchAtTheirVerticesAreNoSplitMesh) {
   EXPECT_NE(run.err.find("the first of \"left\" and \"right\"; move them apart, or let --repair do it\n"),
             std::string::npos)
       << run.err;
+}
+
+TEST_F(SimCommand, TheCheckOfAStartCanBeInterrupted) {
+  std::string text;  // all faces meet all others
+  constexpr int kSide = 60;
+  for (int i = 0; i < kSide * kSide; ++i)
+    text += fmt::format("v {} {} {}\n", i * 7919 % 1009, i * 104729 % 1013, i * 31 % 997);
+  for (int j = 0; j + 1 < kSide; ++j) {
+    for (int i = 1; i < kSide; ++i)
+      text += fmt::format("f {} {} {}\n", j * kSide + i, j * kSide + i + 1, (j + 1) * kSide + i);
+  }
+  spit(path("scrambled.obj"), text);
+  spit(path("scene.toml"),
+       "[time]\nframes_per_s = 24\nframes = 1\n[collision]\nthickness_m = 0.001\n[[cloth]]\nname = \"a\"\nmesh = {file "
+       "= "
+       "\"scrambled.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\n");
+  const pid_t child =
+      testing::start_program(folder_.path(), {"sim", path("scene.toml"), "-o", path("out"), "--threads", "1"});
+  testing::wait_until_signal_is_caught(child, SIGTERM);
+  kill(child, SIGTERM);
+  const auto run = testing::wait_for_program(folder_.path(), child);
+  EXPECT_EQ(run.exit_code, 75) << run.err;
+  EXPECT_NE(run.err.find("nothing was written"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
 TEST_F(SimCommand, AnIntersectingStartIsRepairedWhereThatIsAskedFor) {

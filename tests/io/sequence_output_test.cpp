@@ -140,6 +140,24 @@ TEST(SequenceOutput, FilesHaveTheNamesThatAreSaid) {
   }
 }
 
+TEST(SequenceOutput, FacesThatDoNotExistAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.npz", "a.obj", "a.pc2", "a.pvd", "a/"}) {
+    for (const auto& [begin, end] : {std::pair(-1, 1), {0, 5}, {2, 1}}) {
+      OutputHeader header{{}, 3};
+      header.sequence.triangles = kTriangles;
+      header.sequence.groups = {{"sleeve", Group::Role::kBody, begin, end}};
+      expect_error(ErrorKind::kBadInput, "the group \"sleeve\" names faces that do not exist",
+                   [&] { static_cast<void>(create_output(folder.path() / name, header)); });
+    }
+    OutputHeader header{{}, 3};
+    header.sequence.triangles = {{0, 1, 3}};
+    expect_error(ErrorKind::kBadInput, "a vertex that does not exist",
+                 [&] { static_cast<void>(create_output(folder.path() / name, header)); });
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
 TEST(SequenceOutput, NothingIsOverwritten) {
   const struct {
     const char *target, *present;

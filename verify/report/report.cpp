@@ -92,17 +92,7 @@ const char* name_of(EventKind event) {
   return "unknown";
 }
 
-std::string replay_command(const std::string& case_file) {
-  const auto is_plain = [](char c) {
-    return ('0' <= c && c <= '9') || ('a' <= (c | ' ') && (c | ' ') <= 'z') ||
-           std::string_view("/._-+,:@%").find(c) != std::string_view::npos;
-  };
-  std::string text = "selvage replay ";
-  if (std::ranges::all_of(case_file, is_plain)) return text + case_file;
-  text += '\'';
-  for (const char c : case_file) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + '\'';
-}
+std::string replay_command(const std::string& case_file) { return "selvage replay " + io::shell_word(case_file); }
 
 std::optional<std::int64_t> first_surface_change(const SequenceReport& report) {
   std::optional<std::uint32_t> before = report.surface_crc32_before;

@@ -56,6 +56,16 @@ void check_faces(const Surface& surface, std::size_t vertex_count) {
   if (!surface.representatives.empty() && surface.representatives.size() != vertex_count) {
     throw std::invalid_argument("Surface: representatives must be empty or have one entry a vertex");
   }
+  const auto face_count = static_cast<std::int32_t>(surface.triangles.size());
+  for (const Exemption& exemption : surface.exemptions) {
+    for (const FaceSet* const faces : {&exemption.a, &exemption.b}) {
+      for (const auto& [begin, end] : *faces) {
+        if (begin < 0 || begin > end || end > face_count) {
+          throw std::invalid_argument("Surface: an exemption names faces that do not exist");
+        }
+      }
+    }
+  }
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
     const auto& [a, b, c] = surface.triangles[f];
     for (const std::int32_t v : {a, b, c}) {

@@ -95,6 +95,38 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
   }
 }
 
+TEST(FailSafe, BodiesOfAllPlacesWithoutRoomAreNamedAtOnce) {
+  // In three places a body goes through cloth that is pinned: nothing can give way.
+  StepScene scene;
+  constexpr std::int32_t kPlaces = 3;
+  std::vector<StepScene::Part> moving;
+  for (std::int32_t place = 0; place < kPlaces; ++place) {
+    const Vec3 at(10 * place, 0, 0);
+    const StepScene::Part pinned = scene.add(lone_triangle(1), at);
+    for (VertexId v = pinned.begin; v < pinned.end; ++v) scene.inverse_mass[static_cast<std::size_t>(v)] = 0;
+    moving.push_back(scene.add(lone_triangle(0.5), at + Vec3(0.1, 0.1, 0.05), place));
+  }
+  for (const StepScene::Part& part : moving) scene.push(part, Vec3(0, 0, -0.1));
+  const Mesh mesh = scene.mesh();
+  BoxHierarchy hierarchy(mesh);
+  const CollisionBodies bodies = scene.bodies();
+  ScriptedGroups groups(bodies);
+  StepMotion motion;
+  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+  groups.observe(motion);
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(mesh.vertex_count), 1);
+  const ContactTable contacts(mesh, {}, {});
+  CollisionTracker tracker(mesh, hierarchy, contacts, 4096, all);
+  tracker.start(motion);
+  StepLimiter limiter(mesh, hierarchy, groups, 1);
+  const auto conflict = limiter.restrain(tracker, motion);
+  ASSERT_TRUE(conflict);
+  std::vector<std::int32_t> named;
+  for (const GroupId group : conflict->groups) named.push_back(groups.body(group));
+  std::ranges::sort(named);
+  EXPECT_EQ(named, (std::vector<std::int32_t>{0, 1, 2}));
+}
+
 TEST(FailSafe, LimitsOnlyWhatCollides) {
   // One vertex is thrown through the other sheet; without responses only the vertices it meets are held back.
   StepScene scene;

@@ -105,6 +105,7 @@ const BadScene kBadScenes[] = {
     {"too many sweeps", kScene + "[collision]\ncontact_sweeps = 101\n", 10, "contact_sweeps must be an integer"},
     {"two surfaces", kScene + "[[body]]\nsphere = {radius_m = 1}\nbox = {size_m = [1, 1, 1]}\n", 11, "second surface"},
     {"no surface", kScene + "[[body]]\nname = \"air\"\n", 9, "no surface"},
+    {"an empty name", kScene + "[[body]]\nname = \"\"\nsphere = {radius_m = 1}\n", 10, "an empty name"},
     {"a name twice", kScene + "[[body]]\nname = \"cloth\"\nsphere = {radius_m = 1}\n", 10, "a second \"cloth\""},
     {"a copy called like another part",
      kScene + "copies = 2\ncopy_offset_m = [0, 0, 1]\n[[body]]\nname = \"cloth 2\"\nsphere = {radius_m = 1}\n", 12,

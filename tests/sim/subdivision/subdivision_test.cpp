@@ -39,6 +39,16 @@ Shape two_tents(double gap_m) {
 
 }  // namespace
 
+TEST(Subdivision, RefusesNoLevelsAndGroupsOfNoFaces) {
+  const io::Triangles triangle{{0, 1, 2}};
+  for (const std::int32_t levels : {0, -1}) {
+    EXPECT_THROW(Subdivision(triangle, 3, {}, levels), std::invalid_argument) << levels;
+  }
+  for (const auto& [begin, end] : {std::pair(-1, 1), {0, 2}, {1, 0}}) {
+    EXPECT_THROW(Subdivision(triangle, 3, {{"cloth", io::Group::Role::kCloth, begin, end}}, 1), std::invalid_argument);
+  }
+}
+
 TEST(LoopRules, AtValenceSixTheyAreLoops) {
   const RingWeights six = ring_weights(6);
   EXPECT_NEAR(six.alpha, 3.0 / 8, 1e-15);

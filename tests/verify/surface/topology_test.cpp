@@ -38,6 +38,10 @@ TEST(Topology, RefusesWhatIsNoSurface) {
   EXPECT_THROW(static_cast<void>(make_topology({repeated, {}}, 3)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(make_topology({beyond, {}}, 3)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(make_topology({good, two_flags}, 3)), std::invalid_argument);
+  for (const FaceRange range : {FaceRange{-1, 1}, {0, 2}, {1, 0}}) {
+    const std::vector<Exemption> exemptions{{{{0, 1}}, {range}}};
+    EXPECT_THROW(static_cast<void>(make_topology({good, {}, {}, exemptions}, 3)), std::invalid_argument);
+  }
   const std::vector<std::int32_t> foreign = {0, 1, 2, 2}, too_few = {0, 1, 2};
   const std::vector<std::array<std::int32_t, 3>> unnamed = {{0, 1, 3}};
   EXPECT_THROW(static_cast<void>(make_topology({unnamed, {}, {}, {}, foreign}, 4)), std::invalid_argument);
