@@ -172,6 +172,7 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::StartRepair repair;
   try {
     if (!goes_on) repair = require_clean_start(simulation, arguments.repair);
+    if (interrupted()) throw verify::Stopped();  // while springs relaxed
   } catch (const verify::Stopped&) {
     say("selvage: interrupted while the start was checked; nothing was written\n");
     return ExitCode::kInterrupted;
@@ -229,7 +230,7 @@ void add_sim_command(CLI::App& program, Job& job) {
   command.add_flag(
       "--strict", arguments->strict,
       "Exit code 1 also where the fail-safe was needed, the tolerance was missed, a body waited, cloth was cut back or "
-      "an implicit solve did not converge");
+      "left torn by --repair, a body turned too far in a step, or an implicit solve did not converge");
   command.callback([arguments, &job] { job = [arguments] { return simulate(*arguments); }; });
 }
 

@@ -51,7 +51,8 @@ class SequenceOutput {
 
 /// Writes to `target`: the file; for OBJ with several frames cloth_000000.obj, ... in place of cloth.obj; for PC2 also
 /// the base mesh cloth.obj beside cloth.pc2; for PVD also cloth_000000.vtp, ... Throws Error(kFile) if one of these is
-/// there already, or a folder that is not empty.
+/// there already, or a folder that is not empty; kBadInput where faces name vertices, or groups faces, that do not
+/// exist.
 [[nodiscard]] std::unique_ptr<SequenceOutput> create_output(const std::filesystem::path& target, OutputHeader header);
 
 }  // namespace selvage::io

@@ -1,6 +1,5 @@
 #include "kernel/fitted_boxes.h"
 
-
 #include "kernel/fp_env.h"
 #include "kernel/own_tasks.h"
 

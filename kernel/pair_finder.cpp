@@ -131,7 +131,10 @@ class Visiting {
     add(lists_.local(), &Candidates::ee, pairs, found);
   }
   void finish() {
-    for (Candidates& list : lists_) give(list);
+    in_own_task([&] {
+      const FpEnvGuard guard;
+      for (Candidates& list : lists_) give(list);
+    });
   }
 
  private:

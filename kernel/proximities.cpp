@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <span>
 
-
 #include "kernel/assert.h"
 #include "kernel/ccd_detail.h"
 #include "kernel/collisions.h"

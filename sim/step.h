@@ -63,11 +63,11 @@ class Simulation {
   Simulation(const Scene& scene, const FpEnvGuard& during);
 
   struct Try {
-    bool failed = false;             ///< to be tried with half the step
-    Positions candidate;             ///< #V by 3: of the dynamics and the scripts
-    Motion end;                      ///< of the dynamics
-    RepulsionCount held;             ///< in the dynamics
-    ContactLoads loads;  ///< at its end
+    bool failed = false;  ///< to be tried with half the step
+    Positions candidate;  ///< #V by 3: of the dynamics and the scripts
+    Motion end;           ///< of the dynamics
+    RepulsionCount held;  ///< in the dynamics
+    ContactLoads loads;   ///< at its end
     CollisionStepResult safe;
   };
   /// Whether a step is short enough then for bodies that turn.

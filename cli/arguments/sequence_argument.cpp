@@ -13,6 +13,7 @@
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
 #include "io/atomic_file.h"
+#include "io/error.h"
 #include "io/point_cache.h"
 #include "sim/record/recorder.h"
 
@@ -40,20 +41,21 @@ std::vector<std::filesystem::path> files_of(const SequenceArgument& argument, co
   return files;
 }
 
-/// What a run of `selvage sim` that did not come to its end has left out.
-std::optional<std::string> early_end(const std::filesystem::path& folder) {
-  const std::filesystem::path run_file = folder / sim::kRunFile;
+/// How a run of `selvage sim` ended, or nothing where it came to its end, or nothing tells.
+std::optional<std::string> early_end_of(const std::filesystem::path& folder) {
   std::error_code status;
-  if (!std::filesystem::exists(folder / sim::kCheckpointFile, status)) return std::nullopt;
-  std::string how = "it was cut off, or goes on";
-  if (std::filesystem::exists(run_file, status)) {
-    const auto run = nlohmann::json::parse(io::read_file(run_file), nullptr, false);
+  if (!std::filesystem::exists(folder / sim::kRunFile, status)) {
+    if (!std::filesystem::exists(folder / sim::kCheckpointFile, status)) return std::nullopt;
+    return "it was cut off, or goes on";
+  }
+  try {
+    const auto run = nlohmann::json::parse(io::read_file(folder / sim::kRunFile), nullptr, false);
     const auto end = run.is_object() ? run.find("end") : run.end();
     if (end == run.end() || !end->is_string() || *end == "complete") return std::nullopt;
-    how = *end;
+    return end->get<std::string>();
+  } catch (const io::Error&) {  // the sequence is readable all the same
+    return std::nullopt;
   }
-  return folder.string() + ": the run that wrote this did not come to its end (" + how +
-         "); its last frames are not here";
 }
 
 }  // namespace
@@ -75,7 +77,11 @@ std::vector<std::string> notes_on(const SequenceArgument& argument, const io::Se
   std::vector<std::string> notes;
   if (const auto jump = jump_in_numbers(files_of(argument, sequence))) notes.push_back(*jump);
   if (std::string remark = sequence.remark(); !remark.empty()) notes.push_back(std::move(remark));
-  if (const auto early = early_end(argument.sources.front())) notes.push_back(*early);
+  const std::filesystem::path& folder = argument.sources.front();
+  if (const auto how = early_end_of(folder)) {
+    notes.push_back(folder.string() + ": the run that wrote this did not come to its end (" + *how +
+                    "); its last frames are not here");
+  }
   return notes;
 }
 

@@ -111,6 +111,10 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
                            : ""));
   }
   const sim::World& world = simulation.world();
+  if (pairs.size() >= kMostPairs) {
+    refuse(simulation, pairs,
+           "that is more than --repair looks at; " + start_remedy(world, simulation.x(), pairs, false));
+  }
   if (has_edge_without_length(world)) refuse(simulation, pairs, start_remedy(world, simulation.x(), pairs, false));
   sim::RepairedStart repaired = sim::repair_start(simulation, judge);
   if (!repaired.remaining.empty()) {

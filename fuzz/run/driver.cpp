@@ -374,9 +374,11 @@ void Driver::take_broken_channel(Team& team) {
   PropertyLedger& property = ledger_.properties[p];
   Share& share = shares_[p];
   const auto [stream, number] = place_of(job, team.worker->progress(), properties_[p]->streams());
-  if (job.kind == Job::Kind::kKeep) {  // as above: what was written first stays
-    property.findings.at({property.streams[stream], job.failure}).file =
-        kept_name(*properties_[p], properties_[p]->streams()[stream], job.failure);
+  if (job.kind == Job::Kind::kKeep) {  // as above: what was written first, if anything was, stays
+    if (team.worker->progress().has_kept) {
+      property.findings.at({property.streams[stream], job.failure}).file =
+          kept_name(*properties_[p], properties_[p]->streams()[stream], job.failure);
+    }
     share.being_kept.erase({property.streams[stream], job.failure});
   }
   auto [place, is_new] =

@@ -1,6 +1,7 @@
 #include "fuzz/run/range_set.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace selvage::fuzz {
 
@@ -24,8 +25,8 @@ bool RangeSet::insert(std::int64_t begin, std::int64_t end) {
 }
 
 bool RangeSet::contains(std::int64_t number) const {
-  return std::ranges::any_of(ranges_,
-                             [&](const auto& range) { return range.first <= number && number < range.second; });
+  const auto after = std::ranges::upper_bound(ranges_, number, {}, &Ranges::value_type::first);
+  return after != ranges_.begin() && number < std::prev(after)->second;
 }
 
 std::int64_t RangeSet::size() const {

@@ -1,4 +1,4 @@
-// Which work units are done: a set of numbers that are mostly neighbours.
+// Which work units are done: a set of numbers that are mostly neighbours, but in a shard of a campaign, where none are.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@ class RangeSet {
   /// False, and left as it was, where the number is in the set already.
   bool insert(std::int64_t number) { return insert(number, number + 1); }
   bool insert(std::int64_t begin, std::int64_t end);
+  /// O(log of the number of ranges).
   [[nodiscard]] bool contains(std::int64_t number) const;
   [[nodiscard]] std::int64_t size() const;
   [[nodiscard]] const Ranges& ranges() const { return ranges_; }

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <span>
 
-
 #include "kernel/fp_env.h"
 #include "kernel/lane_motion.h"
 #include "kernel/own_tasks.h"

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-
 #include "kernel/fp_env.h"
 #include "kernel/own_tasks.h"
 #include "kernel/types.h"

@@ -12,9 +12,9 @@ namespace {
 constexpr double kAlike = 4;
 
 /// Sweeps over the root of the ratio r. Between a body and a vertex r times as heavy a sweep leaves r / (1 + r) of what
-/// is missing, so r sweeps would leave a third of what nothing else bears. Measured: less is enough, as a vertex lies on
-/// several, and contacts begin with their loads. A square of 0.2 m on a veil of 0.3 m, 100 times as heavy, both of 12 x
-/// 12 vertices, 4 mm thick, was at least 7.2 mm above the ground with one and at least 7.7 with two, of 8
+/// is missing, so r sweeps would leave a third of what nothing else bears. Measured: less is enough, as a vertex lies
+/// on several, and contacts begin with their loads. A square of 0.2 m on a veil of 0.3 m, 100 times as heavy, both of
+/// 12 x 12 vertices, 4 mm thick, was at least 7.2 mm above the ground with one and at least 7.7 with two, of 8
 /// (docs/stability.md).
 constexpr double kSweepsOfRoot = 2;
 

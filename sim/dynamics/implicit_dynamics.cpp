@@ -126,10 +126,14 @@ void ImplicitDynamics::step_in_contact(Motion& motion, std::span<const double> i
   const Positions first_guess = motion.x;
   StageReport all = solve_in_contact(equations, motion.x);
   if (!all.converged && terms.forget()) {
-    motion.x = first_guess;
-    const StageReport again = solve_in_contact(equations, motion.x);
-    all = {all.newton_rounds + again.newton_rounds, all.cg_iterations + again.cg_iterations, again.first_residual_m,
-           again.residual_m, again.converged};
+    Positions x = first_guess;
+    StageReport again = solve_in_contact(equations, x);
+    const bool is_better = again.converged || again.residual_m < all.residual_m;
+    if (is_better) motion.x = x;
+    StageReport& kept = is_better ? again : all;
+    kept.newton_rounds = all.newton_rounds + again.newton_rounds;
+    kept.cg_iterations = all.cg_iterations + again.cg_iterations;
+    all = kept;
   }
   add_stage(all, report);
   if (all.converged) terms.finish();  // else what they bore is worth nothing

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -77,6 +78,7 @@ void StageContacts::add_term(std::size_t held_id, const Positions& x, std::span<
     if (term.vertices[i] < 0) term.start += term.jacobian[i] * scripted[i];
   }
   term.start[0] += relative(interaction, at_start).dot(contact.normal) - allowed_m;
+  remembers_ = remembers_ || !term.borne.isZero(0);
   terms_.push_back(term);
 }
 
@@ -255,13 +257,11 @@ bool StageContacts::let_slide(double known_m) {
 }
 
 bool StageContacts::forget() {
-  bool bore = false;
   for (Term& term : terms_) {
-    bore |= !term.borne.isZero(0);
     term.borne.setZero();
     term.is_at_border = term.slides = false;
   }
-  return bore;
+  return std::exchange(remembers_, false);
 }
 
 void StageContacts::finish() {

@@ -63,7 +63,7 @@ class StageContacts : public Coupling {
   /// what one bears by more than known_m, as in ForceChange. Asked before, forces that are not found yet, or cones that
   /// open with them, had cloth slide that sticks.
   bool let_slide(double known_m);
-  /// To begin again without what they bore. Whether they bore anything.
+  /// To begin again without what they bore before. False where that is what they began with: nothing, or forgotten.
   bool forget();
   /// Tells the contacts what they bore.
   void finish();
@@ -102,6 +102,7 @@ class StageContacts : public Coupling {
   HeldContacts& held_;
   StageSpan span_;
   std::vector<Term> terms_;
+  bool remembers_ = false;          ///< some began with what they bore before
   std::vector<std::size_t> begin_;  ///< the ends at vertex i are ends_[begin_[i] .. begin_[i + 1])
   std::vector<End> ends_;
   enum class Acts : std::uint8_t { kNot, kAlongNormal, kAcross };

@@ -18,7 +18,7 @@ namespace selvage::sim {
 using FacePair = std::array<FaceId, 2>;
 
 /// The faces that intersect at the given positions, exactly, sorted and each pair once; pairs of two faces of bodies,
-/// and faces of bodies without area, are left out.
+/// and faces of bodies without area, are left out. REQUIRES all of them: whether a try has fewer decides what is kept.
 using FindIntersections = std::function<std::vector<FacePair>(const Positions& V)>;
 
 struct UntangleOptions {

@@ -72,6 +72,23 @@ TEST(HostTasks, ThatAreCancelledLoseNoPair) {
   EXPECT_EQ(testing::in_cancelled_task(proximities), proximities());
 }
 
+TEST(HostTasks, ThatAreCancelledCutNoVisitorShort) {
+  const Layers layers(40);
+  BoxHierarchy hierarchy(layers.mesh);
+  hierarchy.refit(layers.V_t0, layers.V_t1, {});
+  std::atomic<int> visits = 0, done = 0;
+  const auto visit = [&](const Candidates&) {
+    ++visits;
+    tbb::parallel_for(0, 64, [&](int) { ++done; });
+  };
+  (void)testing::in_cancelled_task([&] {
+    hierarchy.visit_candidates(visit);
+    return true;
+  });
+  EXPECT_GT(visits, 1);
+  EXPECT_EQ(done, 64 * visits);
+}
+
 /// While a thread waits for the end of a search, oneTBB could give it the host's next task, which may use what that
 /// thread is using: a hierarchy for each thread is the usual way.
 TEST(HostTasks, AreNotBegunWithinACallOfTheSameThread) {
