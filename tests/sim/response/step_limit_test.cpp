@@ -15,6 +15,30 @@ Shape lone_triangle(double size_m) {
   return shape;
 }
 
+/// What the fail-safe begins with: the motion of a scene, and what collides in it.
+struct Tracked {
+  explicit Tracked(const StepScene& scene)
+      : mesh(scene.mesh()),
+        hierarchy(mesh),
+        bodies(scene.bodies()),
+        groups(bodies),
+        all(static_cast<std::size_t>(mesh.vertex_count), 1),
+        contacts(mesh, {}, {}),
+        tracker(mesh, hierarchy, contacts, 4096, all) {
+    motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+    groups.observe(motion);
+    tracker.start(motion);
+  }
+  Mesh mesh;
+  BoxHierarchy hierarchy;
+  CollisionBodies bodies;
+  ScriptedGroups groups;
+  std::vector<std::uint8_t> all;
+  ContactTable contacts;
+  CollisionTracker tracker;
+  StepMotion motion;
+};
+
 }  // namespace
 
 TEST(Clearance, IsTheLeastDistanceToWhatAVertexMustNotMeet) {
@@ -67,31 +91,21 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
   scene.add(lone_triangle(1), Vec3::Zero());
   const StepScene::Part above = scene.add(lone_triangle(0.5), Vec3(0.1, 0.1, 0.05));
   scene.push(above, Vec3(0.01, 0, -1));
-  const Mesh mesh = scene.mesh();
-  BoxHierarchy hierarchy(mesh);
-  const CollisionBodies bodies = scene.bodies();
-  ScriptedGroups groups(bodies);
-  StepMotion motion;
-  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
-  groups.observe(motion);
-  const std::vector<std::uint8_t> all(6, 1);
-  const ContactTable contacts(mesh, {}, {});
-  CollisionTracker tracker(mesh, hierarchy, contacts, 4096, all);
-  tracker.start(motion);
-  ASSERT_TRUE(tracker.has_motion_collision());
+  Tracked step(scene);
+  ASSERT_TRUE(step.tracker.has_motion_collision());
   std::vector<std::uint8_t> collides(6, 0);
-  for (const Collision& collision : tracker.collisions()) {
-    for (const VertexId v : tracker.vertices(collision)) collides[static_cast<std::size_t>(v)] = 1;
+  for (const Collision& collision : step.tracker.collisions()) {
+    for (const VertexId v : step.tracker.vertices(collision)) collides[static_cast<std::size_t>(v)] = 1;
   }
 
-  StepLimiter limiter(mesh, hierarchy, groups, 1);
-  ASSERT_FALSE(limiter.restrain(tracker, motion));
+  StepLimiter limiter(step.mesh, step.hierarchy, step.groups, 1);
+  ASSERT_FALSE(limiter.restrain(step.tracker, step.motion));
   EXPECT_EQ(limiter.restrained_count(), std::ranges::count(collides, 1));
-  const std::vector<double> distance = clearance(mesh, hierarchy, scene.V_t0, 1, all);
+  const std::vector<double> distance = clearance(step.mesh, step.hierarchy, scene.V_t0, 1, step.all);
   for (std::size_t v = 0; v < collides.size(); ++v) {
     if (collides[v] == 0) continue;
     const auto row = static_cast<Eigen::Index>(v);
-    EXPECT_LE((motion.x().row(row) - scene.V_t0.row(row)).norm(), 1.001 * kBallShare * distance[v]) << v;
+    EXPECT_LE((step.motion.x().row(row) - scene.V_t0.row(row)).norm(), 1.001 * kBallShare * distance[v]) << v;
   }
 }
 
@@ -107,22 +121,12 @@ TEST(FailSafe, BodiesOfAllPlacesWithoutRoomAreNamedAtOnce) {
     moving.push_back(scene.add(lone_triangle(0.5), at + Vec3(0.1, 0.1, 0.05), place));
   }
   for (const StepScene::Part& part : moving) scene.push(part, Vec3(0, 0, -0.1));
-  const Mesh mesh = scene.mesh();
-  BoxHierarchy hierarchy(mesh);
-  const CollisionBodies bodies = scene.bodies();
-  ScriptedGroups groups(bodies);
-  StepMotion motion;
-  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
-  groups.observe(motion);
-  const std::vector<std::uint8_t> all(static_cast<std::size_t>(mesh.vertex_count), 1);
-  const ContactTable contacts(mesh, {}, {});
-  CollisionTracker tracker(mesh, hierarchy, contacts, 4096, all);
-  tracker.start(motion);
-  StepLimiter limiter(mesh, hierarchy, groups, 1);
-  const auto conflict = limiter.restrain(tracker, motion);
+  Tracked step(scene);
+  StepLimiter limiter(step.mesh, step.hierarchy, step.groups, 1);
+  const auto conflict = limiter.restrain(step.tracker, step.motion);
   ASSERT_TRUE(conflict);
   std::vector<std::int32_t> named;
-  for (const GroupId group : conflict->groups) named.push_back(groups.body(group));
+  for (const GroupId group : conflict->groups) named.push_back(step.groups.body(group));
   std::ranges::sort(named);
   EXPECT_EQ(named, (std::vector<std::int32_t>{0, 1, 2}));
 }
