@@ -23,6 +23,12 @@ struct Group {
   friend bool operator==(const Group&, const Group&) = default;
 };
 
+/// Whether the group names some of that many faces, or none.
+[[nodiscard]] inline bool is_within(const Group& group, std::size_t face_count) {
+  return 0 <= group.face_begin && group.face_begin <= group.face_end &&
+         static_cast<std::size_t>(group.face_end) <= face_count;
+}
+
 /// Of each of `face_count` faces: 1 where a group with the role of a body has it, else 0. O(faces). REQUIRES groups
 /// within the faces.
 [[nodiscard]] std::vector<std::uint8_t> body_faces(std::size_t face_count, const std::vector<Group>& groups);

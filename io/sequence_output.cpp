@@ -96,7 +96,7 @@ void require_faces(const OutputHeader& header, const fs::path& target) {
     }
   }
   for (const Group& group : groups) {
-    if (group.face_begin < 0 || group.face_begin > group.face_end || group.face_end > std::ssize(triangles)) {
+    if (!is_within(group, triangles.size())) {
       bad_input(target.string(),
                 "the group \"" + printable(group.name) + "\" names faces that do not exist; correct it");
     }

@@ -34,10 +34,8 @@ std::string line(const std::string& name, const std::string& alive, const fuzz::
 
 std::string reproduce(const fuzz::Property& property, const std::string& stream, const fuzz::Finding& finding,
                       const fuzz::Ledger& ledger, const std::string& folder) {
-  std::string name = stream;
-  std::ranges::replace(name, ' ', '/');
-  std::string text =
-      fmt::format("      selvage fuzz {} --seed {} --only {}:{}\n", property.name(), ledger.seed, name, finding.number);
+  std::string text = fmt::format("      selvage fuzz {} --seed {} --only {}:{}\n", property.name(), ledger.seed,
+                                 fuzz::stream_word(stream), finding.number);
   if (!finding.file.empty()) {
     text = fmt::format("      selvage replay {}\n", io::shell_word(fmt::format("{}/{}", folder, finding.file))) + text;
   }

@@ -74,10 +74,8 @@ struct ByGravity {
 };
 
 std::string again(const Counterexample& one, const fuzz::Ledger& ledger, const ConformanceRun& run) {
-  std::string stream = one.stream;
-  std::ranges::replace(stream, ' ', '/');
   return fmt::format("selvage fuzz --plugin {} --seed {} --only {}:{}", io::shell_word(run.library.string()),
-                     ledger.seed, stream, one.finding.number);
+                     ledger.seed, fuzz::stream_word(one.stream), one.finding.number);
 }
 
 Html labelled(const std::string& label, const Html& content) {

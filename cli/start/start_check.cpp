@@ -18,8 +18,8 @@ namespace selvage::cli {
 namespace {
 
 constexpr std::size_t kNamedPairs = 10;  // the rest is counted
-/// That are kept of one state, some 90 MB. A mesh whose vertices are in another order has many times as many (6,962
-/// faces at random: 5 million, which took 4.4 GB).
+/// That are kept of one state. A mesh whose vertices are in another order has many times as many: 6,962 faces at random
+/// take 313 MiB and 8 s of the processor with this, more than 4.4 GB and 71 s with all of their 5 million pairs.
 constexpr std::size_t kMostPairs = 200'000;
 
 std::string part_of_face(const sim::World& world, FaceId face) {

@@ -19,14 +19,13 @@ struct Stream {
   std::string name;
   char group = 0;             ///< of query classes; 0: none
   std::int64_t per_unit = 1;  ///< cases in a work unit
-
-  /// The name without blanks, as --only and the origin of a kept case have it.
-  [[nodiscard]] std::string word() const {
-    std::string word = name;
-    std::ranges::replace(word, ' ', '/');
-    return word;
-  }
 };
+
+/// A stream's name without blanks, as --only and the origin of a kept case have it.
+[[nodiscard]] inline std::string stream_word(std::string name) {
+  std::ranges::replace(name, ' ', '/');
+  return name;
+}
 
 [[nodiscard]] std::uint64_t case_seed(std::uint64_t seed, const Stream& stream, std::int64_t number);
 

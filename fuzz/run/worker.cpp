@@ -106,7 +106,7 @@ std::string kept_name(const Property& property, const Stream& stream, const std:
 }
 
 std::string case_origin(const Property& property, const Stream& stream, std::uint64_t seed, std::int64_t number) {
-  return property.name() + ":" + stream.word() + ":" + std::to_string(seed) + ":" + std::to_string(number);
+  return property.name() + ":" + stream_word(stream.name) + ":" + std::to_string(seed) + ":" + std::to_string(number);
 }
 
 void work(const WorkerSetting& setting, Progress& progress, int jobs, int events) {

@@ -20,8 +20,8 @@ struct ContactLoad {
 /// steps. Without their friction eight sheets walked sideways by 0.6 mm a second, by 0.02 with it
 /// (docs/simulator-speed.md). Edges: dynamics that sweep leave none, as cloth over the edge of a box, where edges
 /// remembered as well, crept by 0.7 mm a second (0.02 without; HeldContacts::hold() says why vertices go first). Those
-/// that solve for what contacts bear begin nearer to the solution with them: cloth at rest on cloth takes a tenth of
-/// the Newton rounds (docs/numerics.md).
+/// that solve for what contacts bear begin nearer to the solution with them: cloth at rest on cloth takes a quarter to
+/// a tenth of the Newton rounds (docs/numerics.md).
 struct ContactLoads {
   std::vector<ContactLoad> vf, ee;
 

@@ -56,7 +56,7 @@ Subdivision::Subdivision(const io::Triangles& triangles, std::int32_t vertex_cou
   const FpEnvGuard guard;
   if (levels < 1) throw std::invalid_argument("Subdivision: levels must be at least 1");
   for (const io::Group& group : groups) {
-    if (group.face_begin < 0 || group.face_begin > group.face_end || group.face_end > std::ssize(triangles)) {
+    if (!io::is_within(group, triangles.size())) {
       throw std::invalid_argument("Subdivision: a group names faces that do not exist");
     }
   }
