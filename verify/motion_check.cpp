@@ -43,17 +43,8 @@ class MotionCheck {
   }
 
   template <std::size_t N>
-  Box swept_box(const Vertices<N>& vertices) const {
-    Box box{V_t0_[at(vertices[0])], V_t0_[at(vertices[0])]};
-    for (const std::int32_t v : vertices) {
-      for (const Point& p : {V_t0_[at(v)], V_t1_[at(v)]}) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          box.min[k] = std::min(box.min[k], p[k]);
-          box.max[k] = std::max(box.max[k], p[k]);
-        }
-      }
-    }
-    return box;
+  Boxes<2> boxes(const Vertices<N>& vertices) const {
+    return {bounding_box(gather(V_t0_, vertices)), bounding_box(gather(V_t1_, vertices))};
   }
 
   Vertices<4> vf_vertices(std::int32_t v, std::int32_t f) const {
@@ -99,11 +90,9 @@ class MotionCheck {
   }
 
   void check_pairs() {
-    const Box bounds_t0 = bulk_box(topology_, V_t0_), bounds_t1 = bulk_box(topology_, V_t1_);
-    const Lattice lattice =
-        Lattice::over(bounding_box(std::array{bounds_t0.min, bounds_t0.max, bounds_t1.min, bounds_t1.max}));
-    const PartTrees<ElementTree> edges(topology_.edge_parts, lattice,
-                                       [&](std::int32_t e) { return swept_box(topology_.edges[at(e)]); });
+    const Lattices<2> lattices{Lattice::over(bulk_box(topology_, V_t0_)), Lattice::over(bulk_box(topology_, V_t1_))};
+    const PartTrees<ElementTree<2>> edges(topology_.edge_parts, lattices,
+                                          [&](std::int32_t e) { return boxes(topology_.edges[at(e)]); });
     edges.tally_within(options_.check_bodies, options_.max_violations, tally_,
                        [&](Tally& tally, std::int32_t e, std::int32_t f) {
                          if (f < e) std::swap(e, f);
@@ -114,10 +103,10 @@ class MotionCheck {
                          ++tally.pairs.ee;
                          decide(EventKind::kEe, e, f, tally);
                        });
-    const PartTrees<ElementTree> vertices(topology_.vertices, lattice,
-                                          [&](std::int32_t v) { return swept_box(Vertices<1>{v}); });
-    const PartTrees<ElementTree> faces(topology_.faces, lattice,
-                                       [&](std::int32_t f) { return swept_box(topology_.triangles[at(f)]); });
+    const PartTrees<ElementTree<2>> vertices(topology_.vertices, lattices,
+                                             [&](std::int32_t v) { return boxes(Vertices<1>{v}); });
+    const PartTrees<ElementTree<2>> faces(topology_.faces, lattices,
+                                          [&](std::int32_t f) { return boxes(topology_.triangles[at(f)]); });
     vertices.tally_between(faces, options_.check_bodies, options_.max_violations, tally_,
                            [&](Tally& tally, std::int32_t v, std::int32_t f) {
                              const auto& [a, b, c] = topology_.triangles[at(f)];

@@ -17,18 +17,18 @@ void visit_near_pairs(const Topology& topology, std::span<const Point> V, double
   const auto at = [V](std::int32_t v) -> const Point& { return V[static_cast<std::size_t>(v)]; };
   const auto face = [&](std::int32_t f) { return topology.triangles[static_cast<std::size_t>(f)]; };
   const auto edge = [&](std::int32_t e) { return topology.edges[static_cast<std::size_t>(e)]; };
-  const Lattice lattice = Lattice::over(bulk_box(topology, V));
+  const Lattices<1> lattice{Lattice::over(bulk_box(topology, V))};
   const double half = 0.5 * distance;  // each of two boxes grows by half
-  const PartTrees<ElementTree> vertices(topology.vertices, lattice, [&](std::int32_t v) {
-    return grown({at(v), at(v)}, half);
+  const PartTrees<ElementTree<1>> vertices(topology.vertices, lattice, [&](std::int32_t v) {
+    return Boxes<1>{grown({at(v), at(v)}, half)};
   });
-  const PartTrees<ElementTree> faces(topology.faces, lattice, [&](std::int32_t f) {
+  const PartTrees<ElementTree<1>> faces(topology.faces, lattice, [&](std::int32_t f) {
     const auto [a, b, c] = face(f);
-    return grown(bounding_box(std::array{at(a), at(b), at(c)}), half);
+    return Boxes<1>{grown(bounding_box(std::array{at(a), at(b), at(c)}), half)};
   });
-  const PartTrees<ElementTree> edges(topology.edge_parts, lattice, [&](std::int32_t e) {
+  const PartTrees<ElementTree<1>> edges(topology.edge_parts, lattice, [&](std::int32_t e) {
     const auto [a, b] = edge(e);
-    return grown(bounding_box(std::array{at(a), at(b)}), half);
+    return Boxes<1>{grown(bounding_box(std::array{at(a), at(b)}), half)};
   });
   vertices.tally_between(faces, check_bodies, limit, tally, [&](Tally& chunk, std::int32_t v, std::int32_t f) {
     const auto [a, b, c] = face(f);

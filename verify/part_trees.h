@@ -10,12 +10,13 @@
 namespace selvage::verify {
 
 /// A box tree over some elements of a mesh, which are named by their own numbers.
+template <std::size_t kInstants>
 class ElementTree {
  public:
-  /// box(element) for every element, all within the lattice's bounds. `elements` must outlive it.
-  template <class BoxOf>
-  ElementTree(const std::vector<std::int32_t>& elements, const Lattice& lattice, const BoxOf& box)
-      : elements_(&elements), tree_(boxes(elements, box), lattice) {}
+  /// boxes_of(element): Boxes. `elements` must outlive it.
+  template <class BoxesOf>
+  ElementTree(const std::vector<std::int32_t>& elements, const Lattices<kInstants>& lattices, const BoxesOf& boxes_of)
+      : elements_(&elements), tree_(boxes(elements, lattices, boxes_of)) {}
 
   [[nodiscard]] std::size_t group_count() const { return tree_.block_count(); }
   template <class Visit>
@@ -29,16 +30,17 @@ class ElementTree {
   }
 
  private:
-  template <class BoxOf>
-  static std::vector<Box> boxes(const std::vector<std::int32_t>& elements, const BoxOf& box) {
-    std::vector<Box> result(elements.size());
-    for (std::size_t i = 0; i < elements.size(); ++i) result[i] = box(elements[i]);
+  template <class BoxesOf>
+  static std::vector<LatticeBoxes<kInstants>> boxes(const std::vector<std::int32_t>& elements,
+                                                    const Lattices<kInstants>& lattices, const BoxesOf& boxes_of) {
+    std::vector<LatticeBoxes<kInstants>> result(elements.size());
+    for (std::size_t i = 0; i < elements.size(); ++i) result[i] = on_lattices(lattices, boxes_of(elements[i]));
     return result;
   }
   [[nodiscard]] std::int32_t element(std::int32_t i) const { return (*elements_)[static_cast<std::size_t>(i)]; }
 
   const std::vector<std::int32_t>* elements_;
-  BoxTree tree_;
+  BoxTree<kInstants> tree_;
 };
 
 /// Tree: ElementTree or FaceTree, whose visits these are: work(tally, what the tree's visit gets).
@@ -50,15 +52,15 @@ class PartTrees {
   explicit PartTrees(const Parts& parts, const Arguments&... arguments)
       : cloth_(parts.cloth, arguments...), body_(parts.body, arguments...) {}
 
-  /// All overlapping pairs of different elements; those of two body elements only if asked. `options`: those of the
-  /// tree's visits.
+  /// All pairs of different elements whose boxes may meet; those of two body elements only if asked. `options`: those
+  /// of the tree's visits.
   template <class Work, class... Options>
   void tally_within(bool bodies, std::size_t limit, Tally& tally, const Work& work, Options... options) const {
     within(cloth_, limit, tally, work, options...);
     between(cloth_, body_, limit, tally, work, options...);
     if (bodies) within(body_, limit, tally, work, options...);
   }
-  /// All overlapping pairs of an element here and one of `other`.
+  /// All such pairs of an element here and one of `other`.
   template <class Work>
   void tally_between(const PartTrees& other, bool bodies, std::size_t limit, Tally& tally, const Work& work) const {
     between(cloth_, other.cloth_, limit, tally, work);

@@ -100,6 +100,31 @@ TEST(MotionCheck, AVertexThatIsThrownFarAwayIsLittleMoreWork) {
   for (const double thrown : {-1e12, -1e30, -1e307}) EXPECT_LE(work(thrown), still + still / 2) << thrown;
 }
 
+// Swept boxes of a sheet that flies farther than it is wide, or shrinks, all overlap.
+TEST(MotionCheck, WhatGoesFarTogetherIsNoMoreWork) {
+  const io::MeshData mesh = sheet(30);
+  const auto pairs = [&](auto move) {
+    std::vector<Point> last = mesh.points;
+    for (Point& p : last) move(p);
+    const CheckResult result = check_motion(surface(mesh), mesh.points, last, {});
+    EXPECT_EQ(result.violations_total.total(), 0);
+    return result.pairs.vf + result.pairs.ee;
+  };
+  const auto fly = [](double way) {
+    return [way](Point& p) {
+      for (double& x : p) x += way;
+    };
+  };
+  const auto grow = [](double factor) {
+    return [factor](Point& p) {
+      for (double& x : p) x *= factor;
+    };
+  };
+  const std::int64_t still = pairs(fly(0));
+  for (const double way : {-0x1p-6, 1.0, 0x1p+12, 0x1p+30}) EXPECT_EQ(pairs(fly(way)), still) << way;
+  for (const double factor : {0.5, 0x1p-20, 0x1p+60}) EXPECT_EQ(pairs(grow(factor)), still) << factor;
+}
+
 TEST(MotionCheck, IsEveryPairOfARandomMotion) {
   std::mt19937 random(31);
   std::uniform_int_distribution<int> lattice(-2, 2);

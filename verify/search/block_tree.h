@@ -14,29 +14,32 @@
 
 namespace selvage::verify {
 
+template <std::size_t kInstants>
 class BlockTree {
  public:
-  static constexpr std::size_t kWidth = BoxBlock::kWidth, kMostVisited = 32;
+  using Block = BoxBlock<kInstants>;
+  static constexpr std::size_t kWidth = Block::kWidth, kMostVisited = 32;
 
   BlockTree() = default;
   /// Over blocks with these bounds.
-  explicit BlockTree(std::span<const LatticeBox> bounds);
+  explicit BlockTree(std::span<const LatticeBoxes<kInstants>> bounds);
 
   /// What holds the blocks 8 i, ..., 8 i + 7.
-  [[nodiscard]] LatticeBox bounds(std::size_t i) const { return levels_.front()[i].bounds(); }
+  [[nodiscard]] LatticeBoxes<kInstants> bounds(std::size_t i) const { return levels_.front()[i].bounds(); }
 
-  /// Calls visit(blocks) with the blocks >= first that overlap `box`, in ascending order, at most kMostVisited at once.
-  /// Returns how many.
+  /// Calls visit(blocks) with the blocks >= first that may meet `boxes`, in ascending order, at most kMostVisited at
+  /// once. Returns how many.
   template <class Visit>
-  std::int64_t visit(const LatticeBox& box, std::size_t first, Visit&& visit) const;
+  std::int64_t visit(const LatticeBoxes<kInstants>& boxes, std::size_t first, Visit&& visit) const;
 
  private:
   // levels_[0] block b place p bounds block 8 b + p; levels_[1] bounds levels_[0]
-  std::vector<std::vector<BoxBlock>> levels_;
+  std::vector<std::vector<Block>> levels_;
 };
 
+template <std::size_t kInstants>
 template <class Visit>
-std::int64_t BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& visit) const {
+std::int64_t BlockTree<kInstants>::visit(const LatticeBoxes<kInstants>& boxes, std::size_t first, Visit&& visit) const {
   if (levels_.empty()) return 0;
   struct Node {
     std::size_t level, block;
@@ -50,7 +53,7 @@ std::int64_t BlockTree::visit(const LatticeBox& box, std::size_t first, Visit&& 
   stack[depth++] = {levels_.size() - 1, 0};
   while (depth > 0) {
     const Node node = stack[--depth];
-    unsigned mask = levels_[node.level][node.block].overlap_mask(box);
+    unsigned mask = levels_[node.level][node.block].meet_mask(boxes);
     // Child c covers blocks up to ((8 block + c + 1) << 3 level) - 1.
     const std::size_t first_child = first >> (3 * node.level);
     if (first_child > kWidth * node.block) mask &= ~0U << std::min(first_child - kWidth * node.block, kWidth);

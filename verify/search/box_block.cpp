@@ -50,31 +50,65 @@ Lattice Lattice::over(const Box& bounds) {
   return lattice;
 }
 
-BoxBlock::BoxBlock() {
-  for (std::size_t k = 0; k < 3; ++k) {
-    min[k].fill(std::numeric_limits<std::int32_t>::max());
-    max[k].fill(std::numeric_limits<std::int32_t>::min());
+template <std::size_t kInstants>
+LatticeBoxes<kInstants> on_lattices(const Lattices<kInstants>& lattices, const Boxes<kInstants>& boxes) {
+  LatticeBoxes<kInstants> result{};
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      result[i].min[k] = lattices[i](k, boxes[i].min[k]);
+      result[i].max[k] = lattices[i](k, boxes[i].max[k]);
+    }
+  }
+  return result;
+}
+
+template <std::size_t kInstants>
+BoxBlock<kInstants>::BoxBlock() {
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      min[i][k].fill(std::numeric_limits<std::int32_t>::max());
+      max[i][k].fill(std::numeric_limits<std::int32_t>::min());
+    }
   }
 }
 
-void BoxBlock::set(std::size_t place, const LatticeBox& box) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    min[k][place] = box.min[k];
-    max[k][place] = box.max[k];
+template <std::size_t kInstants>
+void BoxBlock<kInstants>::set(std::size_t place, const LatticeBoxes<kInstants>& boxes) {
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      min[i][k][place] = boxes[i].min[k];
+      max[i][k][place] = boxes[i].max[k];
+    }
   }
 }
 
-LatticeBox BoxBlock::get(std::size_t place) const {
-  return {{min[0][place], min[1][place], min[2][place]}, {max[0][place], max[1][place], max[2][place]}};
+template <std::size_t kInstants>
+LatticeBoxes<kInstants> BoxBlock<kInstants>::get(std::size_t place) const {
+  LatticeBoxes<kInstants> boxes{};
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      boxes[i].min[k] = min[i][k][place];
+      boxes[i].max[k] = max[i][k][place];
+    }
+  }
+  return boxes;
 }
 
-LatticeBox BoxBlock::bounds() const {
-  LatticeBox box{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.min[k] = *std::min_element(min[k].begin(), min[k].end());
-    box.max[k] = *std::max_element(max[k].begin(), max[k].end());
+template <std::size_t kInstants>
+LatticeBoxes<kInstants> BoxBlock<kInstants>::bounds() const {
+  LatticeBoxes<kInstants> boxes{};
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      boxes[i].min[k] = std::ranges::min(min[i][k]);
+      boxes[i].max[k] = std::ranges::max(max[i][k]);
+    }
   }
-  return box;
+  return boxes;
 }
+
+template LatticeBoxes<1> on_lattices(const Lattices<1>&, const Boxes<1>&);
+template LatticeBoxes<2> on_lattices(const Lattices<2>&, const Boxes<2>&);
+template struct BoxBlock<1>;
+template struct BoxBlock<2>;
 
 }  // namespace selvage::verify

@@ -60,9 +60,9 @@ FaceTree::FaceTree(std::span<const std::int32_t> faces, std::span<const std::arr
       bounds_[b] = bounds;
     }
   });
-  std::vector<LatticeBox> lattice_boxes(blocks_.size());
-  for (std::size_t b = 0; b < blocks_.size(); ++b) lattice_boxes[b] = on_lattice(bounds_[b]);
-  tree_ = BlockTree(lattice_boxes);
+  std::vector<LatticeBoxes<1>> lattice_boxes(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) lattice_boxes[b] = {on_lattice(bounds_[b])};
+  tree_ = BlockTree<1>(lattice_boxes);
 }
 
 bool FaceTree::boxes_overlap(std::int32_t f, std::int32_t g) const {

@@ -37,7 +37,7 @@ class FaceTree {
 
  private:
   static constexpr std::size_t kWidth = FaceBlock::kWidth, kGroup = FaceQuery::kBlocks;
-  static_assert(BlockTree::kMostVisited <= FaceMatches::kMostBlocks);
+  static_assert(BlockTree<1>::kMostVisited <= FaceMatches::kMostBlocks);
   /// `first`: the first block of the group in `other`, kOtherTree if that is another tree.
   template <class Visit>
   std::int64_t visit_pairs(std::size_t group, const FaceTree& other, std::int64_t first, bool each, Visit& visit) const;
@@ -49,7 +49,7 @@ class FaceTree {
   std::vector<std::int32_t> order_;  // tree order -> face
   std::vector<FaceBlock> blocks_;
   std::vector<FaceBounds> bounds_;  // of the blocks
-  BlockTree tree_;
+  BlockTree<1> tree_;
 };
 
 template <class Visit>

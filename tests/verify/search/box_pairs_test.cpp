@@ -14,17 +14,35 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
-Lattice lattice_over(const std::vector<Box>& a, const std::vector<Box>& b) {
-  std::vector<Point> corners;
-  for (const auto* boxes : {&a, &b}) {
-    for (const Box& box : *boxes) corners.insert(corners.end(), {box.min, box.max});
+template <std::size_t kInstants>
+using Set = std::vector<Boxes<kInstants>>;
+
+template <std::size_t kInstants>
+Lattices<kInstants> lattices_over(const Set<kInstants>& a, const Set<kInstants>& b) {
+  Lattices<kInstants> lattices;
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    std::vector<Point> corners;
+    for (const auto* set : {&a, &b}) {
+      for (const Boxes<kInstants>& boxes : *set) corners.insert(corners.end(), {boxes[i].min, boxes[i].max});
+    }
+    lattices[i] = Lattice::over(bounding_box(corners));
   }
-  return Lattice::over(bounding_box(corners));
+  return lattices;
 }
 
-Pairs within(const std::vector<Box>& boxes) {
-  if (boxes.empty()) return {};
-  const BoxTree tree(boxes, lattice_over(boxes, {}));
+template <std::size_t kInstants>
+using LatticeSet = std::vector<LatticeBoxes<kInstants>>;
+
+template <std::size_t kInstants>
+LatticeSet<kInstants> on_lattices_of(const Lattices<kInstants>& lattices, const Set<kInstants>& set) {
+  LatticeSet<kInstants> result;
+  for (const Boxes<kInstants>& each : set) result.push_back(on_lattices(lattices, each));
+  return result;
+}
+
+template <std::size_t kInstants>
+Pairs within(const LatticeSet<kInstants>& boxes) {
+  const BoxTree<kInstants> tree(boxes);
   Pairs pairs;
   for (std::size_t block = 0; block < tree.block_count(); ++block) {
     tree.visit_pairs_within(block, [&](std::int32_t i, std::int32_t j) { pairs.emplace_back(std::minmax(i, j)); });
@@ -33,9 +51,9 @@ Pairs within(const std::vector<Box>& boxes) {
   return pairs;
 }
 
-Pairs between(const std::vector<Box>& a, const std::vector<Box>& b) {
-  const Lattice lattice = lattice_over(a, b);
-  const BoxTree tree_a(a, lattice), tree_b(b, lattice);
+template <std::size_t kInstants>
+Pairs between(const LatticeSet<kInstants>& a, const LatticeSet<kInstants>& b) {
+  const BoxTree<kInstants> tree_a(a), tree_b(b);
   Pairs pairs;
   for (std::size_t block = 0; block < tree_a.block_count(); ++block) {
     tree_a.visit_pairs_between(block, tree_b, [&](std::int32_t i, std::int32_t j) { pairs.emplace_back(i, j); });
@@ -44,18 +62,26 @@ Pairs between(const std::vector<Box>& a, const std::vector<Box>& b) {
   return pairs;
 }
 
-bool overlap(const Box& a, const Box& b) {
+/// No plane across an axis is between the two at every instant.
+template <class Two>
+bool may_meet(const Two& a, const Two& b) {
   for (std::size_t k = 0; k < 3; ++k) {
-    if (a.max[k] < b.min[k] || b.max[k] < a.min[k]) return false;
+    std::size_t below = 0, above = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (a[i].max[k] < b[i].min[k]) ++below;
+      if (b[i].max[k] < a[i].min[k]) ++above;
+    }
+    if (below == a.size() || above == a.size()) return false;
   }
   return true;
 }
 
-Pairs brute_force(const std::vector<Box>& a, const std::vector<Box>& b, bool same) {
+template <class Many>
+Pairs brute_force(const Many& a, const Many& b, bool same) {
   Pairs pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = same ? i + 1 : 0; j < b.size(); ++j) {
-      if (overlap(a[i], b[j])) pairs.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+      if (may_meet(a[i], b[j])) pairs.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
     }
   }
   return pairs;
@@ -87,27 +113,96 @@ std::vector<Box> draw(std::mt19937& random, Scene scene, std::size_t count) {
 constexpr Scene kScenes[] = {Scene::kCloud,      Scene::kTouchingGrid, Scene::kPoints,    Scene::kFlat,
                              Scene::kOneFarAway, Scene::kHuge,         Scene::kSubnormal, Scene::kAllAlike};
 
-}  // namespace
+/// At each instant others of the scene, so that boxes go anywhere.
+template <std::size_t kInstants>
+Set<kInstants> draw_set(std::mt19937& random, Scene scene, std::size_t count) {
+  Set<kInstants> set(count);
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    const std::vector<Box> boxes = draw(random, scene, count);
+    for (std::size_t n = 0; n < count; ++n) set[n][i] = boxes[n];
+  }
+  return set;
+}
 
-TEST(BoxPairs, WithinIsBruteForce) {
+template <std::size_t kInstants>
+void within_is_brute_force() {
+  EXPECT_TRUE(within(LatticeSet<kInstants>()).empty());
   std::mt19937 random(1);
   for (const Scene scene : kScenes) {
-    for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 2, 7, 8, 9, 64, 65, 300, 700}) {
-      const std::vector<Box> boxes = draw(random, scene, count);
-      EXPECT_EQ(within(boxes), brute_force(boxes, boxes, true)) << static_cast<int>(scene) << ", " << count;
+    for (const std::size_t count : std::initializer_list<std::size_t>{1, 2, 7, 8, 9, 64, 65, 300, 700}) {
+      const auto set = draw_set<kInstants>(random, scene, count);
+      const auto boxes = on_lattices_of(lattices_over(set, {}), set);
+      const Pairs found = within(boxes), meeting = brute_force(set, set, true);
+      EXPECT_EQ(found, brute_force(boxes, boxes, true)) << static_cast<int>(scene) << ", " << count;
+      EXPECT_TRUE(std::ranges::includes(found, meeting)) << static_cast<int>(scene) << ", " << count;
     }
   }
 }
 
-TEST(BoxPairs, BetweenIsBruteForce) {
+template <std::size_t kInstants>
+void between_is_brute_force() {
   std::mt19937 random(2);
   for (const Scene scene : kScenes) {
     for (const auto& [count_a, count_b] :
          {std::pair<std::size_t, std::size_t>{1, 0}, {0, 5}, {1, 1}, {3, 700}, {500, 90}}) {
-      const std::vector<Box> a = draw(random, scene, count_a), b = draw(random, scene, count_b);
-      EXPECT_EQ(between(a, b), brute_force(a, b, false)) << static_cast<int>(scene) << ", " << count_a;
+      const auto set_a = draw_set<kInstants>(random, scene, count_a),
+                 set_b = draw_set<kInstants>(random, scene, count_b);
+      const auto lattices = lattices_over(set_a, set_b);
+      const auto a = on_lattices_of(lattices, set_a), b = on_lattices_of(lattices, set_b);
+      const Pairs found = between(a, b), meeting = brute_force(set_a, set_b, false);
+      EXPECT_EQ(found, brute_force(a, b, false)) << static_cast<int>(scene) << ", " << count_a;
+      EXPECT_TRUE(std::ranges::includes(found, meeting)) << static_cast<int>(scene) << ", " << count_a;
     }
   }
+}
+
+}  // namespace
+
+TEST(BoxPairs, WithinIsBruteForce) {
+  within_is_brute_force<1>();
+  within_is_brute_force<2>();
+}
+
+TEST(BoxPairs, BetweenIsBruteForce) {
+  between_is_brute_force<1>();
+  between_is_brute_force<2>();
+}
+
+// Coordinates are multiples of 16, so that those at every sixteenth of the way are exact.
+TEST(BoxPairs, WhatMeetsOnTheWayIsFound) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> coordinate(-20, 20), extent(0, 4);
+  Set<2> boxes(200);
+  for (Boxes<2>& each : boxes) {
+    for (Box& box : each) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.min[k] = 16 * coordinate(random);
+        box.max[k] = box.min[k] + 16 * extent(random);
+      }
+    }
+  }
+  const auto bound_at = [](double t0, double t1, int sixteenth) { return t0 + (t1 - t0) / 16 * sixteenth; };
+  const auto meet_at = [&](const Boxes<2>& a, const Boxes<2>& b, int sixteenth) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto min = [&](const Boxes<2>& of) { return bound_at(of[0].min[k], of[1].min[k], sixteenth); };
+      const auto max = [&](const Boxes<2>& of) { return bound_at(of[0].max[k], of[1].max[k], sixteenth); };
+      if (max(a) < min(b) || max(b) < min(a)) return false;
+    }
+    return true;
+  };
+  const Pairs found = within(on_lattices_of(lattices_over(boxes, {}), boxes));
+  std::size_t only_on_the_way = 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+      bool meets = false;
+      for (int sixteenth = 0; sixteenth <= 16; ++sixteenth) meets |= meet_at(boxes[i], boxes[j], sixteenth);
+      if (!meets) continue;
+      const std::pair pair{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)};
+      EXPECT_TRUE(std::ranges::binary_search(found, pair)) << i << ", " << j;
+      if (!meet_at(boxes[i], boxes[j], 0) && !meet_at(boxes[i], boxes[j], 16)) ++only_on_the_way;
+    }
+  }
+  EXPECT_GT(only_on_the_way, 100U);
 }
 
 TEST(BoxPairs, GrownBoxesReachAtLeastTheDistance) {
