@@ -90,7 +90,8 @@ void add_render_command(CLI::App& program, Job& job) {
   command.add_option("--elevation", arguments->view.elevation_deg, "The camera's height above the horizon, degrees")
       ->check(number_between(-89, 89))
       ->capture_default_str();
-  add_choice(command, "--up", arguments->view.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}}, "The axis that points up");
+  add_choice(command, "--up", arguments->view.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
+             "The axis that points up (default: z)");
   command.callback([arguments, &job] { job = [arguments] { return render_sequence(*arguments); }; });
 }
 

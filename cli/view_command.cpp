@@ -56,7 +56,7 @@ void add_view_command(CLI::App& program, Job& job) {
       ->check(CLI::Range(1, 2000))
       ->capture_default_str();
   add_choice(command, "--up", arguments->up, {{"y", page::UpAxis::kY}, {"z", page::UpAxis::kZ}},
-             "The axis that points up (the page can change it)");
+             "The axis that points up (default: z; the page can change it)");
   command.callback([arguments, &job] { job = [arguments] { return view_sequence(*arguments); }; });
 }
 

@@ -2,7 +2,7 @@
  *
  *     const selvage_plugin* selvage_plugin_entry(void);
  *
- * Plain C; the library needs nothing of Selvage but this file. Worked examples: examples/plugins. */
+ * Plain C; the library needs nothing of Selvage but this file. Smallest example: examples/plugins/boxes.cpp. */
 #ifndef SELVAGE_PLUGIN_H
 #define SELVAGE_PLUGIN_H
 

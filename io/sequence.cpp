@@ -19,7 +19,14 @@ std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem:
   const bool is_cache = !is_folder && is_point_cache(first);
   const bool is_npz = !is_folder && has_extension(first, ".npz");
   if (!base.empty() && !is_cache) bad_input(base.string(), "only a .pc2 or .mdd needs a base mesh; leave it out");
-  if (!is_folder && !is_npz && !is_cache) return open_mesh_files(sources);
+  if (!is_folder && !is_npz && !is_cache) {
+    const bool is_mesh = has_extension(first, ".obj") || has_extension(first, ".ply");
+    if (!is_mesh && std::filesystem::exists(first, status)) {
+      bad_input(first.string(),
+                "the extension is none of .obj, .ply, .npz, .pc2 and .mdd; convert it, or name a folder");
+    }
+    return open_mesh_files(sources);
+  }
   if (sources.size() > 1) {
     const std::string what = is_folder ? "a folder" : is_npz ? "an .npz" : "a point cache";
     bad_input(first.string(),

@@ -83,6 +83,20 @@ SequenceDescription describe(const SequenceHeader& header, std::uint32_t faces_c
   return {header.producer, header.kind, header.precision, header.groups, std::string(kFacesFile), faces_crc32};
 }
 
+/// Why frames of `now` cannot follow those of `before`.
+std::string first_difference(const SequenceDescription& before, const SequenceDescription& now) {
+  if (before.kind != now.kind) {
+    const bool has_steps = before.kind == SequenceKind::kSteps;
+    return has_steps ? "holds every step, and frames alone are to follow" : "holds frames, and every step is to follow";
+  }
+  if (before.precision != now.precision) {
+    const bool is_float32 = before.precision == Precision::kFloat32;
+    return is_float32 ? "holds float32, and float64 is to follow" : "holds float64, and float32 is to follow";
+  }
+  if (before.producer != now.producer) return "was recorded by " + before.producer + ", and this is " + now.producer;
+  return "was recorded with other faces or groups";
+}
+
 }  // namespace
 
 struct SequenceWriter::Impl {
@@ -132,8 +146,11 @@ struct SequenceWriter::Impl {
     const fs::path header_file = folder / kHeaderFile, faces_file = folder / kFacesFile,
                    list_file = folder / kFramesFile;
     const std::string faces = npy_bytes(header.triangles);
-    if (read_file(header_file) != to_json(describe(header, crc32(faces))) || read_file(faces_file) != faces) {
-      bad_input(folder.string(), "was recorded with other faces, groups or settings; resume what was started here");
+    const SequenceDescription now = describe(header, crc32(faces));
+    const std::string text = read_file(header_file);
+    if (text != to_json(now) || read_file(faces_file) != faces) {
+      const SequenceDescription before = parse_sequence_json(text, header_file.string());
+      bad_input(folder.string(), first_difference(before, now) + "; resume what was started here");
     }
     frames = parse_frame_list(read_file(list_file), list_file.string());
     for (const FrameRecord& frame : frames) check_recorded(frame);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "io/error.h"
 #include "io/fail.h"
@@ -12,6 +13,8 @@
 
 namespace selvage::cli {
 namespace {
+
+constexpr const char* kLostOutput = "cannot write the result to standard output";
 
 /// What holds a file's own text, such as the name of a group, neither breaks the line nor commands the terminal.
 ExitCode failed(const Failure& failure) {
@@ -36,6 +39,9 @@ Failure failure_of(const std::exception_ptr& exception) {
     }
   } catch (const FpEnvironmentError& error) {
     return {ExitCode::kFpEnvironment, error.what()};
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return {ExitCode::kFile, kLostOutput};  // thrown where it is printed
+    return {ExitCode::kInternal, error.what()};
   } catch (const std::bad_alloc&) {
     return {ExitCode::kLimit, "out of memory: nothing is known about the rest"};
   } catch (const std::exception& error) {
@@ -48,7 +54,7 @@ ExitCode run_guarded(const Job& job) {
     const ExitCode code = job();
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return failed({ExitCode::kFile, "cannot write the result to standard output"});
+      return failed({ExitCode::kFile, kLostOutput});
     }
     return code;
   } catch (const std::exception&) {

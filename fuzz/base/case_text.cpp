@@ -63,7 +63,7 @@ bool CaseLines::only_blank_left() {
 
 std::string_view CaseLines::word() {
   line_.remove_prefix(word_start(line_));
-  if (line_.empty()) fail("a word is missing");
+  if (line_.empty()) fail("a word is missing; copy the case again");
   const std::size_t length = std::min(line_.find_first_of(kBlank), line_.size());
   const std::string_view found = line_.substr(0, length);
   line_.remove_prefix(length);
@@ -71,13 +71,23 @@ std::string_view CaseLines::word() {
 }
 
 void CaseLines::expect_word(std::string_view wanted) {
-  if (word() != wanted) fail("expected '" + std::string(wanted) + "'");
+  const std::string_view found = word();
+  if (found == wanted) return;
+  fail("expected '" + std::string(wanted) + "', not '" + std::string(found) + "'; copy the case again");
+}
+
+void CaseLines::expect_head() {
+  advance();
+  expect_word("selvage-case");
+  const std::string_view version = word();
+  if (version == "1") return;
+  fail("cases of version '" + std::string(version) + "' are not known here; replay it with the selvage that wrote it");
 }
 
 bool CaseLines::is_at_end_of_line() const { return word_start(line_) == line_.size(); }
 
 void CaseLines::expect_end_of_line() {
-  if (!is_at_end_of_line()) fail("unexpected '" + std::string(word()) + "'");
+  if (!is_at_end_of_line()) fail("unexpected '" + std::string(word()) + "'; remove it");
 }
 
 double CaseLines::number(std::string_view word) const {
@@ -119,7 +129,7 @@ bool CaseLines::last_answer() {
   const std::string_view answer = word();
   if (answer != "touches" && answer != "apart") fail("the answer is 'touches' or 'apart'");
   expect_end_of_line();
-  if (!only_blank_left()) fail("nothing may follow 'expect'");
+  if (!only_blank_left()) fail("nothing may follow 'expect'; remove it");
   return answer == "touches";
 }
 

@@ -26,6 +26,8 @@ class CaseLines {
   [[nodiscard]] bool only_blank_left();
   [[nodiscard]] std::string_view word();
   void expect_word(std::string_view wanted);
+  /// The next line: "selvage-case 1", and what is behind it.
+  void expect_head();
   [[nodiscard]] bool is_at_end_of_line() const;
   void expect_end_of_line();
   /// A finite number, hexadecimal or decimal, from a word.

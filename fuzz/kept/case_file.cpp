@@ -120,9 +120,7 @@ std::string format_case(const Case& kept) {
 Case parse_case(std::string_view text, const std::string& name) {
   CaseLines lines(text, name);
   Case kept;
-  lines.advance();
-  lines.expect_word("selvage-case");
-  lines.expect_word("1");
+  lines.expect_head();
   kept.query.kind = parse_kind(lines, lines.word());
   lines.expect_end_of_line();
   lines.advance();

@@ -62,7 +62,7 @@ Retrial DrawnCase::retry() const {
 
 std::unique_ptr<KeptCase> parse_drawn_case(const std::string& origin, CaseLines& lines) {
   if (!draw_of(origin)) lines.fail("seed: '" + origin + "' is not PROPERTY:STREAM:SEED:NUMBER of a known property");
-  if (!lines.only_blank_left()) lines.fail("nothing may follow 'failure'");
+  if (!lines.only_blank_left()) lines.fail("nothing may follow 'failure'; remove it");
   return std::make_unique<DrawnCase>(origin);
 }
 

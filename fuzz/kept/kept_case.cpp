@@ -22,9 +22,7 @@ std::string word_line(std::string_view key, CaseLines& lines) {
 }
 
 std::string parse_head(CaseLines& lines) {
-  lines.advance();
-  lines.expect_word("selvage-case");
-  lines.expect_word("1");
+  lines.expect_head();
   return std::string(lines.word());
 }
 
@@ -54,7 +52,7 @@ ParsedCase parse_kept_case(std::string_view text, const std::string& name) {
   const MeshKind* mesh = mesh_kind(kind);
   const ByteKind* bytes = byte_kind(kind);
   if (mesh == nullptr && bytes == nullptr && kind != DrawnCase::kKind) {
-    lines.fail("there is no kind of case '" + kind + "'");
+    lines.fail("there is no kind of case '" + kind + "' here; replay it with the selvage that wrote it");
   }
   lines.expect_end_of_line();
   ParsedCase parsed;

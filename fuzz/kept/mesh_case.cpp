@@ -132,7 +132,7 @@ MeshCase parse_mesh_case(const MeshKind& kind, CaseLines& lines) {
   for (std::int64_t left = parse_count("faces", 1, lines); left > 0; --left) {
     kept.faces.push_back(parse_face(kept, lines));
   }
-  if (!lines.only_blank_left()) lines.fail("nothing may follow the faces");
+  if (!lines.only_blank_left()) lines.fail("nothing may follow the faces; remove it");
   return kept;
 }
 

@@ -29,6 +29,7 @@ std::string text_of(const toml::node& node) {
 
 void collect(const toml::node& node, const std::string& path, std::vector<Setting>& settings) {
   if (const toml::table* table = node.as_table()) {
+    if (table->empty()) settings.push_back({path, "{}", node.source().begin.line});
     for (const auto& [key, value] : *table) {
       collect(value, path + (path.empty() ? "" : ".") + std::string(key.str()), settings);
     }
@@ -64,14 +65,9 @@ const Setting* find(const std::vector<Setting>& all, const std::string& path) {
 
 std::string shown(const std::string& value) { return io::printable(value, kShownBytes); }
 
-std::size_t first_line_that_differs(std::string_view a, std::string_view b) {
-  const auto at = std::ranges::mismatch(a, b).in1;
-  return 1 + static_cast<std::size_t>(std::count(a.begin(), at, '\n'));
-}
-
 }  // namespace
 
-std::string changed_setting(std::string_view before, std::string_view now) {
+std::optional<std::string> changed_setting(std::string_view before, std::string_view now) {
   const std::vector<Setting> old_settings = settings_of(before), settings = settings_of(now);
   for (const Setting& setting : settings) {
     const Setting* old = find(old_settings, setting.path);
@@ -88,7 +84,7 @@ std::string changed_setting(std::string_view before, std::string_view now) {
       return fmt::format("{} was {} and is not there any more", old.path, shown(old.value));
     }
   }
-  return fmt::format("no setting differs, but the text does, from line {} on", first_line_that_differs(before, now));
+  return std::nullopt;
 }
 
 }  // namespace selvage::sim

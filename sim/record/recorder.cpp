@@ -95,9 +95,9 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
       producer_(std::move(producer)),
       simulation_(simulation),
       kind_(kind),
-      writer_(folder_, header_of(simulation, kind, producer_), resume),
-      scene_(identify(simulation.scene(), simulation.world())) {
-  const std::optional<Checkpoint> checkpoint = resume ? read_checkpoint(folder_ / kCheckpointFile) : std::nullopt;
+      scene_(identify(simulation.scene(), simulation.world())),
+      writer_(open_writer(resume)) {
+  const std::optional<Checkpoint> checkpoint = resume ? read_own_checkpoint() : std::nullopt;
   if (!checkpoint) {
     if (writer_.frame_count() > 1) {
       throw io::Error(io::ErrorKind::kBadInput, folder_.string() +
@@ -108,18 +108,32 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::Seq
     totals_.repair = repair;
     return;
   }
-  if (checkpoint->scene != scene_) {
-    throw io::Error(
-        io::ErrorKind::kBadInput,
-        fmt::format("{}: the checkpoint belongs to another scene: {}; resume with the scene that wrote it (--frames "
-                    "makes a run longer), or start again in another folder",
-                    (folder_ / kCheckpointFile).string(),
-                    first_difference(checkpoint->scene, scene_, simulation.world())));
-  }
   writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
   simulation_.restore(checkpoint->state);
   totals_ = checkpoint->totals;
   resumed_ = true;
+}
+
+// A scene that has changed may make another mesh: which setting it was says more than that the faces are others.
+io::SequenceWriter Recorder::open_writer(bool resume) const try {
+  return io::SequenceWriter(folder_, header_of(simulation_, kind_, producer_), resume);
+} catch (const io::Error& error) {
+  if (resume && error.kind() == io::ErrorKind::kBadInput) (void)read_own_checkpoint();
+  throw;
+}
+
+std::optional<Checkpoint> Recorder::read_own_checkpoint() const {
+  const std::filesystem::path file = folder_ / kCheckpointFile;
+  std::optional<Checkpoint> checkpoint = read_checkpoint(file);
+  if (!checkpoint) return checkpoint;
+  if (const auto difference = first_difference(checkpoint->scene, scene_, simulation_.world())) {
+    throw io::Error(
+        io::ErrorKind::kBadInput,
+        fmt::format("{}: the checkpoint belongs to another scene: {}; resume with the scene that wrote it (--frames "
+                    "makes a run longer), or start again in another folder",
+                    file.string(), *difference));
+  }
+  return checkpoint;
 }
 
 void Recorder::begin() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -45,6 +46,9 @@ class Recorder {
   [[nodiscard]] bool resumed() const { return resumed_; }
 
  private:
+  [[nodiscard]] io::SequenceWriter open_writer(bool resume) const;
+  /// Nothing where there is none. Throws where it is of another scene.
+  [[nodiscard]] std::optional<Checkpoint> read_own_checkpoint() const;
   void append();
   void save_checkpoint();
 
@@ -52,8 +56,8 @@ class Recorder {
   std::string producer_;
   Simulation& simulation_;
   io::SequenceKind kind_;
-  io::SequenceWriter writer_;
   SceneIdentity scene_;
+  io::SequenceWriter writer_;
   RunTotals totals_;
   bool resumed_ = false;
 };

@@ -55,8 +55,8 @@ std::uint64_t fingerprint_of(const SceneIdentity& identity) {
   return fnv1a({reinterpret_cast<const char*>(&identity.whole), sizeof identity.whole}, hash);
 }
 
-std::string first_difference(const SceneIdentity& before, const SceneIdentity& now, const World& world) {
-  if (before.text != now.text) return changed_setting(before.text, now.text);
+std::optional<std::string> first_difference(const SceneIdentity& before, const SceneIdentity& now, const World& world) {
+  if (auto changed = changed_setting(before.text, now.text)) return changed;
   if (before.quality != now.quality) {
     return fmt::format("--quality was {} and is {}", name_of(before.quality), name_of(now.quality));
   }
@@ -65,6 +65,7 @@ std::string first_difference(const SceneIdentity& before, const SceneIdentity& n
       return fmt::format("the file of \"{}\" is not what it was", world.groups[part].name);
     }
   }
+  if (before.parts == now.parts && before.whole == now.whole) return std::nullopt;
   return "one of the mesh files is not what it was";
 }
 

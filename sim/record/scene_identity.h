@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ struct SceneIdentity {
 [[nodiscard]] std::uint64_t fingerprint_of(const SceneIdentity& identity);
 
 /// What is not what it was: the first setting of the file with both values, --quality, or the part whose mesh or
-/// sequence changed. `world` is the one of `now`. REQUIRES that they differ.
-[[nodiscard]] std::string first_difference(const SceneIdentity& before, const SceneIdentity& now, const World& world);
+/// sequence changed; nothing where they determine the same run, with other comments perhaps. `world` is the one of
+/// `now`.
+[[nodiscard]] std::optional<std::string> first_difference(const SceneIdentity& before, const SceneIdentity& now,
+                                                          const World& world);
 
 }  // namespace selvage::sim

@@ -255,18 +255,21 @@ TimeSpec read_time(TomlTable table) {
     time.frame_count = table.integer("frames", 1, kMaxFrames - 1);
   } else {
     const double frames = table.number("duration_s", kPositive) * time.frames_per_s;
-    if (frames > kMaxFrames - 1) table.fail("duration_s", "more than a million frames; shorten it");
+    if (frames > kMaxFrames - 1) table.fail("duration_s", "duration_s is more than 999,999 frames; shorten it");
     time.frame_count = std::max<std::int64_t>(1, std::llround(frames));
   }
   const double frame_s = 1 / time.frames_per_s;
-  const auto step = [&](std::string_view key, double longest_s) -> std::optional<double> {
+  const auto step = [&](std::string_view key, double longest_s, const char* longest) -> std::optional<double> {
     if (!table.has(key)) return std::nullopt;
-    return table.number(key, {kLeastStepShare * frame_s, longest_s});
+    const double step_s = table.number(key, {kLeastStepShare * frame_s, kPositive.upper});
+    if (step_s > longest_s)
+      table.fail(key, fmt::format("{} = {} is longer than {}, {} s; lower it", key, step_s, longest, longest_s));
+    return step_s;
   };
-  time.dynamics_step_s = step("dynamics_step_s", frame_s);
+  time.dynamics_step_s = step("dynamics_step_s", frame_s, "a frame");
   time.dynamics_step_line = table.line("dynamics_step_s");
-  time.max_step_s = step("max_step_s", frame_s);
-  time.min_step_s = step("min_step_s", time.max_step_s.value_or(frame_s));
+  time.max_step_s = step("max_step_s", frame_s, "a frame");
+  time.min_step_s = step("min_step_s", time.max_step_s.value_or(frame_s), time.max_step_s ? "max_step_s" : "a frame");
   table.finish();
   return time;
 }

@@ -42,6 +42,14 @@ TEST(Program, HelpThatNobodyReceivesIsAFileError) {
   }
 }
 
+// More than stdio holds back, so that printing itself fails.
+TEST(Program, ALongResultThatNobodyReceivesIsAFileError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const TemporaryFolder folder;
+  EXPECT_EQ(shell(folder, SELVAGE_PROGRAM " bench stability --list > /dev/full 2> err.txt"), 4);
+  EXPECT_EQ(testing::slurp(folder.path() / "err.txt"), "selvage: cannot write the result to standard output\n");
+}
+
 TEST(Program, VersionNamesTheExactLibraries) {
   const auto result = run_program({"--version"});
   EXPECT_EQ(result.exit_code, 0);

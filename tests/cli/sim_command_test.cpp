@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/sequence.h"
 #include "tests/cli/sim_runs.h"
 
 namespace selvage {
@@ -145,6 +146,26 @@ TEST_F(SimCommand, ARunThatGoesOnTakesNoFrameAway) {
   EXPECT_EQ(shorter.exit_code, 0) << shorter.err;
   EXPECT_NE(shorter.err.find("simulated to frame 2 already; --frames 1 takes nothing away"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(path("out") + "/frame_000002.npy"));
+}
+
+TEST_F(SimCommand, ARunGoesOnAsItWasStarted) {
+  const std::string text = scene(2, 0.2, 0.2);
+  EXPECT_EQ(sim(text, {"--record", "steps", "--frames", "1"}).exit_code, 0);
+  const auto refused = [&](const std::string& now, std::vector<std::string> options, const std::string& words) {
+    options.emplace_back("--resume");
+    const auto result = sim(now, options);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  refused(text, {"--record", "frames"},
+          "holds every step, and frames alone are to follow; resume what was started here");
+  std::string other = text;
+  refused(other.replace(other.find("nx = 10"), 7, "nx = 11"), {}, "cloth[0].sheet.nx (line 8) was 10 and is 11");
+  other = text;
+  refused(other.replace(other.find("\"lid\""), 5, "\"top\""), {}, "body[1].name (line 23) was 'lid' and is 'top'");
+  const auto result = sim("# with a comment\n" + text, {"--resume"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(io::open_sequence({path("out")})->kind(), io::SequenceKind::kSteps);
 }
 
 TEST_F(SimCommand, ASecondRunDoesNotOverwriteTheFirst) {

@@ -27,6 +27,8 @@ foreach(header IN LISTS headers)
     endif()
   endforeach()
 endforeach()
+run(${COMPILER} -O2 -fPIC -shared -I${WORK}/prefix/include/selvage/fuzz ${SOURCE}/../plugins/boxes.cpp
+  -o ${WORK}/boxes.so)  # as docs/fuzzing.md says
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
   -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)

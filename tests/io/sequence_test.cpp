@@ -112,17 +112,16 @@ TEST(SequenceFolder, ResumeRefusesAnotherRun) {
     writer.append(0, square(0));
   }
   expect_error(ErrorKind::kFile, "holds a sequence already", [&] { SequenceWriter(folder.path(), square_header()); });
-  const auto resume_with = [&](const auto& change) {
+  const auto resume_with = [&](const auto& change, const std::string& words) {
     SequenceHeader header = square_header();
     change(header);
-    expect_error(ErrorKind::kBadInput, "other faces, groups or settings",
-                 [&] { SequenceWriter(folder.path(), header, true); });
+    expect_error(ErrorKind::kBadInput, words, [&] { SequenceWriter(folder.path(), header, true); });
   };
-  resume_with([](SequenceHeader& header) { header.triangles[1] = {0, 3, 2}; });
-  resume_with([](SequenceHeader& header) { header.groups[0].name = "skirt"; });
-  resume_with([](SequenceHeader& header) { header.kind = SequenceKind::kFrames; });
-  resume_with([](SequenceHeader& header) { header.precision = Precision::kFloat32; });
-  resume_with([](SequenceHeader& header) { header.producer = "test 2"; });
+  resume_with([](SequenceHeader& header) { header.triangles[1] = {0, 3, 2}; }, "other faces or groups");
+  resume_with([](SequenceHeader& header) { header.groups[0].name = "skirt"; }, "other faces or groups");
+  resume_with([](SequenceHeader& header) { header.kind = SequenceKind::kFrames; }, "holds every step");
+  resume_with([](SequenceHeader& header) { header.precision = Precision::kFloat32; }, "holds float64, and float32");
+  resume_with([](SequenceHeader& header) { header.producer = "test 2"; }, "and this is test 2");
   SequenceWriter writer(folder.path(), square_header(), true);
   expect_error(ErrorKind::kBadInput, "lists 1 frames, 2 are needed", [&] { writer.truncate(2); });
 }
@@ -258,7 +257,7 @@ TEST(OpenSequence, WrongSourcesAreNamed) {
   expect_error(ErrorKind::kBadInput, "a folder without sequence.json", [&] { (void)open_sequence({folder.path()}); });
   expect_error(ErrorKind::kFile, "missing.obj", [&] { (void)open_sequence({folder / "missing.obj"}); });
   write_plainly(folder / "a.stl", "solid");
-  expect_error(ErrorKind::kBadInput, "neither .obj nor .ply", [&] { (void)open_sequence({folder / "a.stl"}); });
+  expect_error(ErrorKind::kBadInput, "none of .obj, .ply, .npz", [&] { (void)open_sequence({folder / "a.stl"}); });
   expect_error(ErrorKind::kBadInput, "name it alone", [&] { (void)open_sequence({folder.path(), folder / "a.obj"}); });
 }
 

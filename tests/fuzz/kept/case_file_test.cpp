@@ -104,7 +104,8 @@ TEST(CaseFile, NamesTheLineOfWhatIsWrong) {
   expect_bad_case(testing::replaced(kGood, "=64", "=64 property=scale choices=1,-2"),
                   "x.case:4: choices: '-2' is not an integer");
   expect_bad_case("", "x.case:1: the case ends too early");
-  expect_bad_case(testing::replaced(kGood, "selvage-case 1", "selvage-case 2"), "x.case:1: expected '1'");
+  expect_bad_case(testing::replaced(kGood, "selvage-case 1", "selvage-case 2"),
+                  "x.case:1: cases of version '2' are not known here");
   expect_bad_case(testing::replaced(kGood, " vf", " fv"), "x.case:1: the kind of pair");
   expect_bad_case(testing::replaced(kGood, "seed somewhere:7", "seed"), "x.case:3: a word is missing");
   expect_bad_case(testing::replaced(kGood, "tolerance=0x1p-20", "tolerance="), "x.case:4: ");

@@ -66,6 +66,11 @@ TEST(Plugin, MisdeedsAreNamed) {
   }
 }
 
+TEST(Plugin, TheSmallestExampleConforms) {
+  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(failures_of(SELVAGE_BOXES_PLUGIN), std::set<std::string>{});
+}
+
 /// The first text between `begin` and `end`.
 std::string between(const std::string& html, const std::string& begin, const std::string& end) {
   const std::size_t from = html.find(begin);

@@ -84,6 +84,7 @@ TEST_F(RecorderTest, ASceneIsIdentifiedByAllThatDeterminesIt) {
   const World world = build_world(scene_);
   const SceneIdentity same = identify(scene_, world);
   EXPECT_EQ(same, identify(scene_, build_world(scene_)));
+  EXPECT_EQ(first_difference(same, same, world), std::nullopt);
   EXPECT_EQ(same.parts.size(), 3U);
   const auto expect_other = [&](const World& other, const std::string& words) {
     const SceneIdentity now = identify(scene_, other);
