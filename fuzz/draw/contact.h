@@ -1,5 +1,5 @@
 // Contacts by construction: choose the time, the features and integer weights, then back out the ends of the motion.
-// All arithmetic is on integers, so a constructed contact is an exact contact (reference: DESIGN section 6).
+// All arithmetic is on integers, so a constructed contact is an exact contact.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The named classes of collision queries (DESIGN section 6). Each declares which share of its cases must be exact hits,
+// The named classes of collision queries (docs/fuzzing.md). Each declares which share of its cases must be exact hits,
 // so a class that has gone dead fails the campaign (F1).
 #pragma once
 
