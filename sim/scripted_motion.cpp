@@ -1,30 +1,55 @@
 #include "sim/scripted_motion.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "sim/bodies/catch_up.h"
 
 namespace selvage::sim {
 
+ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world) : scene_(scene), world_(world) {
+  for (const Collider& collider : world.colliders) thickness_.push_back(thickness_with_cloth(collider));
+}
+
+ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& collider) const {
+  const auto& [properties, surface_of_vertex, rest_pairs] = world_.contacts;
+  Thickness result{scene_.collision.thickness_m, scene_.collision.thickness_m};
+  if (properties.empty() || collider.vertices().empty()) return result;
+  const auto properties_of = [&](VertexId vertex) -> const ContactProperties& {
+    const std::int32_t surface = surface_of_vertex[static_cast<std::size_t>(vertex)];
+    return properties[static_cast<std::size_t>(surface)];
+  };
+  result = {std::numeric_limits<double>::infinity(), 0};
+  for (VertexId vertex = 0; vertex < world_.cloth_vertex_count; ++vertex) {
+    const double thickness_m = combine(properties_of(vertex), properties_of(collider.vertices().front())).thickness_m;
+    result.least_m = std::min(result.least_m, thickness_m);
+    result.most_m = std::max(result.most_m, thickness_m);
+  }
+  return result;
+}
+
 void ScriptedMotion::start_step() { waits_.assign(static_cast<std::size_t>(world_.x_t0.rows()), 0); }
 
 bool ScriptedMotion::goes_straight(const Positions& x, const Positions& v, const StepClock& clock) const {
   const double t0_s = clock.time_s(), t1_s = clock.end_s();
-  const auto may_meet_cloth = [&](const Eigen::AlignedBox3d& within) {
+  const auto may_meet_cloth = [&](const Eigen::AlignedBox3d& within, double thickness_m) {
     const Vec3 fall = clock.dt_s() * clock.dt_s() / 2 * scene_.gravity_m_s2;
     Eigen::AlignedBox3d cloth;
     for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
       const Vec3 at = x.row(i), way = clock.dt_s() * v.row(i);
       cloth.extend(at).extend(at + way).extend(at + way + fall);
     }
-    return cloth.squaredExteriorDistance(within) <= scene_.collision.thickness_m * scene_.collision.thickness_m;
+    return cloth.squaredExteriorDistance(within) <= thickness_m * thickness_m;
   };
-  return std::ranges::all_of(world_.colliders, [&](const Collider& collider) {
-    if (!collider.holds(t0_s)) return true;
+  for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
+    const Collider& collider = world_.colliders[i];
+    if (!collider.holds(t0_s)) continue;
     const Collider::Bend bend = collider.bend(t0_s, t1_s);
-    return bend.leaves_line_by_m <= scene_.collision.thickness_m || !may_meet_cloth(bend.within);
-  });
+    const auto& [least_m, most_m] = thickness_[i];
+    if (bend.leaves_line_by_m > least_m && may_meet_cloth(bend.within, most_m)) return false;
+  }
+  return true;
 }
 
 // First the bodies, then the pins, which may hang on them.

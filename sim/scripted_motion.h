@@ -15,13 +15,13 @@ namespace selvage::sim {
 class ScriptedMotion {
  public:
   /// Both must outlive this.
-  ScriptedMotion(const Scene& scene, const World& world) : scene_(scene), world_(world) {}
+  ScriptedMotion(const Scene& scene, const World& world);
 
   /// A step begins, in which nothing had to wait yet.
   void start_step();
-  /// Whether every body that may come near cloth stays within the thickness of the straight lines on which a step takes
-  /// its vertices: what they would pass on their way is met, and none turns so far that it comes back to where it was.
-  /// x, v: of cloth, at least.
+  /// Whether every body that may come near cloth stays within the thickness of their contacts, the least of them, of
+  /// the straight lines on which a step takes its vertices: what they would pass on their way is met, and none turns so
+  /// far that it comes back to where it was. x, v: of cloth, at least.
   [[nodiscard]] bool goes_straight(const Positions& x, const Positions& v, const StepClock& clock) const;
   /// x, with the vertices that are scripted now where their scripts are at the end of the step, or on their way there.
   [[nodiscard]] Positions follow(const Positions& x, const StepClock& clock);
@@ -44,11 +44,17 @@ class ScriptedMotion {
   [[nodiscard]] CollisionBodies bodies() const { return bodies_of(world_, scripted_, scene_.squeeze); }
 
  private:
+  /// Of the contacts of a body with all cloth.
+  struct Thickness {
+    double least_m, most_m;
+  };
+  [[nodiscard]] Thickness thickness_with_cloth(const Collider& collider) const;
   void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x);
   void set_bow(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1);
 
   const Scene& scene_;
   const World& world_;
+  std::vector<Thickness> thickness_;  ///< by collider
   ScriptedVertices scripted_;
   std::vector<std::uint8_t> waits_;  ///< #V
   Positions bow_m_;

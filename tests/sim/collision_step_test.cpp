@@ -326,6 +326,35 @@ TEST(CollisionStep, NamesPairsBelowToleranceAndPushesThemApart) {
   EXPECT_LT(lowest(pushed.x, lower), 0);
 }
 
+// A corner that comes near the opposite edge of its own face.
+TEST(CollisionStep, AZoneRestoresTheToleranceWithinAFace) {
+  StepScene scene;
+  scene.options.tolerance_m = 1e-4;
+  const auto face = scene.add(triangle(0.1), Vec3::Zero());
+  const Vec3 a = scene.V_t0.row(face.begin), b = scene.V_t0.row(face.begin + 1);
+  const Vec3 across = Vec3::UnitZ().cross(b - a).normalized();
+  scene.V_t0.row(face.begin + 2) = (a + b) / 2 + 2e-4 * across;
+  scene.V_candidate.row(face.begin + 2) = (a + b) / 2 + 5e-5 * across;
+  scene.options.impulse_iterations = 0;
+  scene.options.zone_iterations = 0;
+  EXPECT_EQ(scene.step().report.below_tolerance.size(), 1U);
+  scene.options.zone_iterations = 10;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_TRUE(result.report.below_tolerance.empty());
+}
+
+TEST(CollisionStep, VelocitiesAreFiniteHoweverShortTheStepIs) {
+  StepScene scene;
+  const auto cloth = scene.add(sheet(3), Vec3::Zero());
+  scene.push(cloth, Vec3(1e6, -1e6, 0));
+  scene.dt_s = 1e-307;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(result.report.status, StepStatus::kSafe);
+  EXPECT_TRUE(result.velocity.allFinite());
+  EXPECT_EQ(result.velocity(0, 0), std::numeric_limits<double>::max());
+}
+
 TEST(CollisionStep, SameBitsForAnyThreadCount) {
   const auto bits = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

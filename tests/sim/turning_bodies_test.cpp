@@ -42,6 +42,41 @@ TEST(TurningBodies, ABladeThatTurnsOnceAFrameMeetsTheCloth) {
   }
 }
 
+// Where the cloth is when the step begins the blade does not come.
+TEST(TurningBodies, ABladeMeetsTheClothThatFliesIntoItsWay) {
+  const auto first_step_s = [](const std::string& velocity_m_s) {
+    return make("explicit", "frames = 1",
+                "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.1, height_m = "
+                "0.1}\nposition_m = [5, 0, 0]\nvelocity_m_s = " +
+                    velocity_m_s + "\n" + kMaterial +
+                    "[[body]]\nbox = {size_m = [2, 0.05, 0.3]}\n"
+                    "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 10800]}]\n")
+        .step()
+        .dt_s;
+  };
+  EXPECT_LT(first_step_s("[-60, 0, 0]"), 0.02)
+      << "in a frame it comes to 3 m, and the blade's box for a turn reaches to 3.8";
+  EXPECT_GT(first_step_s("[60, 0, 0]"), 0.03);
+}
+
+// The thickness of their contacts counts, whatever that of the scene is.
+TEST(TurningBodies, KeepToTheirWayWithinTheThicknessOfTheirOwnContacts) {
+  const auto first_step_s = [](const std::string& scene_m, const std::string& own) {
+    return make("explicit", "frames = 1",
+                "[collision]\nthickness_m = " + scene_m +
+                    "\n[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.1, height_m = 0.1}\n"
+                    "position_m = [0.5, 0, 0.1508]\n" +
+                    own + kMaterial + "[[body]]\nbox = {size_m = [2, 0.05, 0.3]}\n" + own +
+                    "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 900]}]\n")
+        .step()
+        .dt_s;
+  };
+  const double thin_s = first_step_s("0.001", ""), thick_s = first_step_s("0.016", "");
+  EXPECT_LT(3 * thin_s, thick_s);
+  EXPECT_EQ(first_step_s("0.016", "thickness_m = 0.001\n"), thin_s);
+  EXPECT_EQ(first_step_s("0.001", "thickness_m = 0.016\n"), thick_s);
+}
+
 TEST(TurningBodies, ABoxThatComesAndGoesWithinAStepThrowsTheCloth) {
   Simulation simulation =
       make("explicit", "duration_s = 0.2",

@@ -2,10 +2,12 @@
 #include "sim/bodies/attachment.h"
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "kernel/proximity.h"
 #include "sim/scene/rigid_path.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/shapes.h"
@@ -72,6 +74,38 @@ TEST(Attachment, IsToTheNearestFace) {
   Positions moved = x;
   moved.bottomRows(3).col(0).array() += 1;
   EXPECT_EQ(Attachment(point, io::Triangles{{0, 1, 2}, {3, 4, 5}}, x).placed_on(moved)(0, 0), 1.9);
+}
+
+// Faces of all sizes, so that the balls about them overlap: the one that is looked at first is seldom the nearest.
+TEST(Attachment, IsToTheNearestOfManyFaces) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1, 1), size(0.01, 1);
+  io::Triangles faces;
+  Positions x(3 * 40, 3), points(500, 3);
+  for (std::int32_t f = 0; f < 40; ++f) {
+    const Eigen::RowVector3d middle(place(random), place(random), place(random));
+    const double extent = size(random);
+    for (std::int32_t k = 0; k < 3; ++k) {
+      x.row(3 * f + k) = middle + extent * Eigen::RowVector3d(place(random), place(random), place(random));
+    }
+    faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+  }
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) << place(random), place(random), place(random);
+  const Attachment attachment(points, faces, x);
+  for (std::int32_t f = 0; f < 40; ++f) {
+    Positions moved = x;
+    moved.middleRows(3 * f, 3).rowwise() += Eigen::RowVector3d(10, 0, 0);
+    const Positions placed = attachment.placed_on(moved);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const auto distance = [&](std::int32_t face) {
+        return vf_proximity(
+                   {Vec3(points.row(i)), Vec3(x.row(3 * face)), Vec3(x.row(3 * face + 1)), Vec3(x.row(3 * face + 2))})
+            .distance;
+      };
+      if (placed(i, 0) < points(i, 0) + 5) continue;
+      for (std::int32_t other = 0; other < 40; ++other) EXPECT_LE(distance(f), distance(other)) << i;
+    }
+  }
 }
 
 namespace {

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "io/sequence.h"
+#include "sim/base/points.h"
 #include "sim/record/scene_identity.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/shapes.h"
@@ -193,6 +195,25 @@ TEST_F(BodySequenceTest, ThatChangesIsAnotherScene) {
   EXPECT_NE(identify(same, build_world(same)), before) << "one frame, long after the start";
 }
 
+// The same frames at other times.
+TEST_F(BodySequenceTest, ThatTakesOtherTimesIsAnotherScene) {
+  const auto record = [&](double last_s) {
+    std::filesystem::remove_all(folder_.path() / "ball");
+    io::SequenceHeader header;
+    header.triangles = make_sphere(0.1, 2).triangles;
+    io::SequenceWriter writer(folder_.path() / "ball", header);
+    for (const double time_s : {0.0, 0.25, last_s}) writer.append(time_s, points_of(ball(time_s == 0 ? 0 : 0.25)));
+  };
+  record(0.5);
+  SequenceSpec timed = spec();
+  timed.file = "ball";
+  timed.frames_per_s.reset();
+  const std::uint32_t before = BodySequence(timed, scene_file()).checksum();
+  EXPECT_EQ(BodySequence(timed, scene_file()).checksum(), before);
+  record(0.75);
+  EXPECT_NE(BodySequence(timed, scene_file()).checksum(), before);
+}
+
 TEST_F(BodySequenceTest, HangsOnAParentAndFollowsKeys) {
   write_frames();
   const Scene moved = scene("name = \"ball\"\nposition_m = [1, 0, 0]\nrotation_deg = [0, 0, 90]\n");
@@ -222,6 +243,10 @@ TEST_F(BodySequenceTest, WhatIsWrongNamesTheLineAndTheRemedy) {
   spit("ball_5.obj", turned);
   EXPECT_NE(error_of(spec()).find("ball_5.obj has other faces or vertices than the first frame"), std::string::npos)
       << "as many of both";
+  const std::string whole = obj(ball(5 * kFrame_s));
+  spit("ball_5.obj", whole + "v 0 0 0\n");
+  EXPECT_NE(error_of(spec()).find("ball_5.obj has other faces or vertices than the first frame"), std::string::npos)
+      << "a vertex of no face";
   spit("ball_5.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_NE(error_of(spec()).find("ball_5.obj has other faces or vertices than the first frame"), std::string::npos)
       << error_of(spec());

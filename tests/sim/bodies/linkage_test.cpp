@@ -83,4 +83,13 @@ TEST(Linkage, AnArmOfTwoQuarterTurnsPointsBackwards) {
   EXPECT_LT((apply(lower.at(0), {1, 0, 0}) - Vec3(-1, 2, 5)).norm(), 1e-15) << "the hand";
 }
 
+TEST(Linkage, TurnsByWhatAllItHangsOnTurns) {
+  const std::vector<PoseKey> turns = {{0, {}}, {1, {Vec3::Zero(), {0, 0, 720}}}};
+  const RigidPath turning(turns, Interpolation::kLinear), rest({{0, {}}}, Interpolation::kLinear);
+  const Linkage at_rest({}, rest), spinning({}, turning);
+  EXPECT_EQ(Linkage({}, turning, at_rest).turn_deg(0, 1), 720);
+  EXPECT_EQ(Linkage({}, rest, spinning).turn_deg(0, 1), 720);
+  EXPECT_EQ(Linkage({}, turning, spinning).turn_deg(0.25, 0.5), 360);
+}
+
 }  // namespace selvage

@@ -166,4 +166,23 @@ TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
   EXPECT_TRUE(near.find(lifted + (scene.V_candidate - scene.V_t0)).empty());
 }
 
+TEST(StartProximities, AreOfTheSurfaceThatIsFlagged) {
+  StepScene scene;
+  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
+  const auto upper = scene.add(make_sheet(4, 4, 0.08, 0.08), Vec3(0.01, 0.01, 0.012));
+  scene.push(upper, Vec3(0, 0, -0.01));
+  scene.options.thickness_m = 0.01;
+  const Mesh mesh = scene.mesh();
+  const ContactTable contacts(mesh, scene.options, {});
+  const std::vector<std::uint8_t> all(scene.inverse_mass.size(), 1), none(scene.inverse_mass.size(), 0);
+  BoxHierarchy hierarchy(mesh);
+  StartProximities near(mesh, contacts);
+  for (int time = 0; time < 2; ++time) {
+    near.start(hierarchy, scene.V_t0, all);
+    EXPECT_GT(near.find(scene.V_candidate).size(), 10U);
+    near.start(hierarchy, scene.V_t0, none);
+    EXPECT_TRUE(near.find(scene.V_candidate).empty());
+  }
+}
+
 }  // namespace selvage::sim::testbed

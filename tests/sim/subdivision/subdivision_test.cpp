@@ -178,18 +178,23 @@ TEST(Subdivision, BodiesKeepTheirFaces) {
   const auto all = static_cast<std::int32_t>(tents.triangles.size());
   const std::vector<io::Group> groups = {{"stone", io::Group::Role::kBody, 0, lower},
                                          {"cloth", io::Group::Role::kCloth, lower, all}};
-  const Subdivision subdivision(tents.triangles, static_cast<std::int32_t>(tents.x.rows()), groups, 1);
-  EXPECT_EQ(subdivision.groups().at(1).face_begin, 4 * lower);
-  EXPECT_EQ(subdivision.groups().at(1).face_end, 4 * all);
-  SubdivisionCounts counts;
-  const Positions fine = subdivision(tents.x, counts);
-  const Positions split = LoopRules(mesh_of(tents), {}).midpoints(tents.x);
-  for (std::int32_t f = 0; f < 4 * lower; ++f) {
-    for (const VertexId v : subdivision.triangles()[static_cast<std::size_t>(f)]) {
-      EXPECT_EQ(Vec3(fine.row(v)), Vec3(split.row(v))) << v;
+  Shape split = tents;
+  std::int32_t faces_of_each = 1;
+  for (const int levels : {1, 2}) {
+    const Subdivision subdivision(tents.triangles, static_cast<std::int32_t>(tents.x.rows()), groups, levels);
+    faces_of_each *= 4;
+    EXPECT_EQ(subdivision.groups().at(1).face_begin, faces_of_each * lower);
+    EXPECT_EQ(subdivision.groups().at(1).face_end, faces_of_each * all);
+    SubdivisionCounts counts;
+    const Positions fine = subdivision(tents.x, counts);
+    split = {LoopRules(mesh_of(split), {}).midpoints(split.x), subdivision.triangles()};
+    for (std::int32_t f = 0; f < faces_of_each * lower; ++f) {
+      for (const VertexId v : subdivision.triangles()[static_cast<std::size_t>(f)]) {
+        EXPECT_EQ(Vec3(fine.row(v)), Vec3(split.x.row(v))) << v << " after " << levels;
+      }
     }
+    EXPECT_NE(fine, split.x);
   }
-  EXPECT_NE(fine, split);
 }
 
 }  // namespace selvage
