@@ -35,7 +35,7 @@ std::size_t lane_of(const Lanes& lanes, double value) {
 /// 8 roundings. Below 2^-900 the square of |n| may have lost bits.
 bool exceeds_tolerance(double support, double error, const Double3& n, double tolerance) {
   const double squared = dot(n, n);
-  return squared > 0x1p-900 && (support - error) * (1 - 8 * kUnitRoundoff) > tolerance * std::sqrt(squared);
+  return squared > 0x1p-900 && (support - error) * (1 - kQuotientError) > tolerance * std::sqrt(squared);
 }
 
 Double3 lane_sum(const SweptCorners& c, std::size_t i) {

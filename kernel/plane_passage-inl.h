@@ -112,7 +112,7 @@ class PlanePassages {
       highest = hn::Max(highest, support);
     }
     const Value margin = hn::Sub(hn::Max(lowest, hn::Neg(highest)), SupportError(n));
-    return hn::Gt(hn::Mul(margin, Set(1 - 8 * kUnitRoundoff)), hn::Mul(tolerance, SumOf(Absolute(n))));
+    return hn::Gt(hn::Mul(margin, Set(1 - kQuotientError)), hn::Mul(tolerance, SumOf(Absolute(n))));
   }
 
  private:
@@ -343,7 +343,7 @@ class PlanePassages {
     const Vector worst =
         Plus(Plus(Absolute(sum), Times<D>(Set(kWitnessError), total)), Times<D>(Set(kBlendError), motion_.extent));
     const Value length = hn::Sqrt(Dot(worst, worst));
-    return hn::Add(hn::Mul(hn::Div(length, weight_total), Set(1 + 32 * kUnitRoundoff)), Set(kUnderflowError));
+    return hn::Add(hn::Mul(hn::Div(length, weight_total), Set(1 + kWitnessQuotientError)), Set(kUnderflowError));
   }
 
   /// Steps on a bracketed simple root: from within 2^-4 of it three reach the precision of doubles.

@@ -34,8 +34,8 @@ Proximity proximity(PairKind kind, const std::array<Vec3, 4>& x) {
   const auto closest = closest_point(kind, motion.t0);
   const double upper = distance_upper(motion, motion.t0, false, closest.weights);
   const auto [lower, direction] = supported_distance(motion, motion.t0, closest);
-  // Two roots, because the product under one could underflow; under 8 roundings.
-  const double error = std::sqrt(upper - lower) * std::sqrt(upper + lower) * (1 + 8 * kUnitRoundoff);
+  // Two roots, because the product under one could underflow.
+  const double error = std::sqrt(upper - lower) * std::sqrt(upper + lower) * (1 + kQuotientError);
 
   Proximity result;
   result.distance_lower = times_power_lower(lower, motion.exponent);

@@ -63,6 +63,11 @@ inline constexpr double kBlendError = error_of<double>(1, 1, 1);
 /// root: 1.5; the root 1.
 inline constexpr double kNormError = 2.75 * kUnitRoundoff;
 
+/// The last factors of distances, relative: of a margin over a norm, with the factor itself, under 8 roundings; of the
+/// witness's norm over the sum of its weights, which is good to 5 u, and a few more.
+inline constexpr double kQuotientError = 8 * kUnitRoundoff;
+inline constexpr double kWitnessQuotientError = 32 * kUnitRoundoff;
+
 /// A Bernstein coefficient of 3 det[u(t), v(t), r(t)], relative to three permanents of the extents (terms a_i b_j c_k):
 ///   the three subtractions 3; the two products 2; the difference inside a cross product 1; the sum of the two cross
 ///   products in the doubled middle coefficient 1; the sums of the dot product 2; the sum of the two determinants 1.

@@ -242,6 +242,32 @@ double share_of_norm(const BoundCase& c) {
   return ratio(norm_squared - 1, 2 * detail::kNormError);
 }
 
+/// |computed^2 / real^2 - 1| / 2, the relative error to first order, over the bound.
+double relative_share(double computed, const Rational& real_squared, double bound) {
+  return ratio(squared(exact(computed)) / real_squared - 1, 2 * bound);
+}
+
+/// Of a margin over a norm.
+double share_of_quotient(const BoundCase& c) {
+  const Double3& n = c.x_t0[0];
+  const double support = c.weights[0], error = c.weights[1] * 0x1p-8;
+  if (!(support > error)) return 0;
+  const Rational real_squared = squared(exact(support) - exact(error)) / dot(exact(n), exact(n));
+  return relative_share((support - error) / detail::norm(n), real_squared, detail::kQuotientError);
+}
+
+/// Of a norm over the sum of weights.
+double share_of_witness_quotient(const BoundCase& c) {
+  const Double3& v = c.x_t0[0];
+  const auto w = detail::corner_weights(PairKind::kEe, c.weights);
+  double weight_total = 0;
+  for (const double weight : w) weight_total += weight;
+  const Rational real_total = (exact(c.weights[0]) + exact(c.weights[1])) * (exact(c.weights[2]) + exact(c.weights[3]));
+  if (real_total == 0) return 0;
+  const double computed = detail::norm(v) / weight_total;
+  return relative_share(computed, dot(exact(v), exact(v)) / squared(real_total), detail::kWitnessQuotientError);
+}
+
 constexpr Bound kBounds[] = {{"point", share_of_point},
                              {"support", share_of_support<double>},
                              {"support, underflow", share_of_tiny_support, 0},  // 2^-1000 is far beyond 2^-1074
@@ -252,6 +278,8 @@ constexpr Bound kBounds[] = {{"point", share_of_point},
                              {"gap", share_of_gap<false>},
                              {"gap, blended", share_of_gap<true>},
                              {"norm", share_of_norm},
+                             {"quotient", share_of_quotient},
+                             {"witness quotient", share_of_witness_quotient},
                              {"lane", share_of_lane},
                              {"support, double-double", share_of_support<DoubleDouble>},
                              {"winding, double-double", share_of_winding<DoubleDouble>},

@@ -210,6 +210,7 @@ static_assert(18 * detail::kDeterminantError<double> == 369 * 0x1p-54);
 static_assert(detail::kBlossomError<double> == 25 * 0x1p-55);
 static_assert(4 * detail::kWitnessError == 100 * 0x1p-55);
 static_assert(detail::kNormError == 11 * 0x1p-55);
+static_assert(detail::kQuotientError == 8 * 0x1p-53 && detail::kWitnessQuotientError == 32 * 0x1p-53);
 static_assert(3 * detail::kNearError > 30 * 0x1p-24F);
 static_assert(detail::RoundingOf<DoubleDouble>::kProduct == 7 * 0x1p-106);
 static_assert(detail::kUnderflowError > 0x1p-1058 && detail::kNearSlack > 0x1p-147F);
