@@ -21,24 +21,20 @@ fs::path absent_or_empty(fs::path folder) {
 
 class FolderOutput final : public SequenceOutput {
  public:
-  FolderOutput(fs::path target, OutputHeader header)
-      : folder_(absent_or_empty(std::move(target))), header_(std::move(header)), writer_(folder_, header_.sequence) {}
-  FolderOutput(const FolderOutput&) = delete;
-  FolderOutput& operator=(const FolderOutput&) = delete;
+  FolderOutput(fs::path folder, OutputHeader all)
+      : SequenceOutput(absent_or_empty(std::move(folder)), std::move(all)), writer_(target(), header().sequence) {}
   ~FolderOutput() override {
     if (!is_finished_) writer_.discard();
   }
-
-  void append(double time_s, const MeshData& mesh) override {
-    require_same_mesh(header_, mesh, OutputFormat::kFolder, folder_);
-    writer_.append(time_s, mesh.points);
-  }
-  void finish() override { is_finished_ = true; }
-  std::vector<fs::path> sources() const override { return {folder_}; }
+  std::vector<fs::path> sources() const override { return {target()}; }
 
  private:
-  fs::path folder_;
-  OutputHeader header_;
+  void write_frame(double time_s, const MeshData& mesh) override {
+    require_same_mesh(header(), mesh, OutputFormat::kFolder, target());
+    writer_.append(time_s, mesh.points);
+  }
+  void commit() override { is_finished_ = true; }
+
   SequenceWriter writer_;
   bool is_finished_ = false;
 };

@@ -143,35 +143,36 @@ class ZipWriter {
 
 class NpzOutput final : public SequenceOutput {
  public:
-  NpzOutput(fs::path target, OutputHeader header) : header_(std::move(header)), zip_(std::move(target)) {
-    written_.claim(zip_.target());
+  NpzOutput(fs::path file, OutputHeader all) : SequenceOutput(std::move(file), std::move(all)), zip_(target()) {
+    const auto& [sequence, vertex_count, frame_count] = header();
+    written_.claim(target());
     zip_.begin("F.npy");
-    zip_.write(npy_bytes(header_.sequence.triangles));
+    zip_.write(npy_bytes(sequence.triangles));
     zip_.end();
-    if (!header_.sequence.groups.empty()) {
+    if (!sequence.groups.empty()) {
       zip_.begin("group.npy");
-      zip_.write(npy_start("|u1", {header_.sequence.triangles.size()}));
-      zip_.write(role_bytes(header_.sequence.triangles.size(), header_.sequence.groups));
+      zip_.write(npy_start("|u1", {sequence.triangles.size()}));
+      zip_.write(role_bytes(sequence.triangles.size(), sequence.groups));
       zip_.end();
     }
     zip_.begin("V.npy");
-    zip_.write(npy_start(npy_type(header_.sequence.precision), {header_.frame_count, header_.vertex_count, 3}));
+    zip_.write(npy_start(npy_type(sequence.precision), {frame_count, vertex_count, 3}));
   }
-  void append(double, const MeshData& mesh) override {
-    require_same_mesh(header_, mesh, OutputFormat::kNpz, zip_.target());
+  std::vector<fs::path> sources() const override { return {target()}; }
+
+ private:
+  void write_frame(double, const MeshData& mesh) override {
+    require_same_mesh(header(), mesh, OutputFormat::kNpz, target());
     std::string bytes;
-    append_points(bytes, mesh.points, header_.sequence.precision, zip_.target().string());
+    append_points(bytes, mesh.points, header().sequence.precision, target().string());
     zip_.write(bytes);
   }
-  void finish() override {
+  void commit() override {
     zip_.end();
     zip_.commit();
     written_.keep();
   }
-  std::vector<fs::path> sources() const override { return {zip_.target()}; }
 
- private:
-  OutputHeader header_;
   ZipWriter zip_;
   WrittenFiles written_;
 };

@@ -62,24 +62,22 @@ std::vector<Group> cover(std::vector<Group> groups, std::size_t face_count, cons
 
 class ObjOutput final : public SequenceOutput {
  public:
-  ObjOutput(fs::path target, OutputHeader header) : target_(std::move(target)), header_(std::move(header)) {
-    for (std::size_t i = 0; i < header_.frame_count; ++i) require_absent(path_of(i));
+  ObjOutput(fs::path file, OutputHeader all) : SequenceOutput(std::move(file), std::move(all)) {
+    for (std::size_t i = 0; i < header().frame_count; ++i) require_absent(path_of(i));
   }
-  void append(double, const MeshData& mesh) override {
-    const fs::path file = path_of(sources_.size());
-    written_.write(file, obj_bytes(mesh, file.string()));
-    sources_.push_back(file);
-  }
-  void finish() override { written_.keep(); }
   std::vector<fs::path> sources() const override { return sources_; }
 
  private:
+  void write_frame(double, const MeshData& mesh) override {
+    const fs::path file = path_of(frame_count());
+    written_.write(file, obj_bytes(mesh, file.string()));
+    sources_.push_back(file);
+  }
+  void commit() override { written_.keep(); }
   fs::path path_of(std::size_t frame) const {
-    return header_.frame_count == 1 ? target_ : frame_path(target_, frame, ".obj");
+    return header().frame_count == 1 ? target() : frame_path(target(), frame, ".obj");
   }
 
-  fs::path target_;
-  OutputHeader header_;
   std::vector<fs::path> sources_;
   WrittenFiles written_;
 };

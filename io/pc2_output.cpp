@@ -14,38 +14,37 @@ namespace {
 
 class Pc2Output final : public SequenceOutput {
  public:
-  Pc2Output(fs::path target, OutputHeader header)
-      : base_(fs::path(target).replace_extension(".obj")), header_(std::move(header)), cache_(std::move(target)) {
+  Pc2Output(fs::path file, OutputHeader all)
+      : SequenceOutput(std::move(file), std::move(all)),
+        base_(fs::path(target()).replace_extension(".obj")),
+        cache_(target()) {
     constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-    const std::string name = cache_.target().string();
-    if (header_.frame_count > kMost || header_.vertex_count > kMost) {
-      bad_input(name, "more than 2^31 frames or vertices; split the sequence");
+    const auto& [sequence, vertex_count, frame_count] = header();
+    if (frame_count > kMost || vertex_count > kMost) {
+      bad_input(target().string(), "more than 2^31 frames or vertices; split the sequence");
     }
-    written_.claim(cache_.target());
+    written_.claim(target());
     require_absent(base_);
-    cache_.write(
-        pc2_header(static_cast<std::uint32_t>(header_.vertex_count), static_cast<std::uint32_t>(header_.frame_count)));
+    cache_.write(pc2_header(static_cast<std::uint32_t>(vertex_count), static_cast<std::uint32_t>(frame_count)));
   }
-  void append(double, const MeshData& mesh) override {
-    require_same_mesh(header_, mesh, OutputFormat::kPc2, cache_.target());
-    if (is_first_) written_.write(base_, obj_bytes(mesh, base_.string()));
-    is_first_ = false;
+  std::vector<fs::path> sources() const override { return {target()}; }
+
+ private:
+  void write_frame(double, const MeshData& mesh) override {
+    require_same_mesh(header(), mesh, OutputFormat::kPc2, target());
+    if (frame_count() == 0) written_.write(base_, obj_bytes(mesh, base_.string()));
     std::string bytes;
-    append_points(bytes, mesh.points, Precision::kFloat32, cache_.target().string());
+    append_points(bytes, mesh.points, Precision::kFloat32, target().string());
     cache_.write(bytes);
   }
-  void finish() override {
+  void commit() override {
     cache_.commit();
     written_.keep();
   }
-  std::vector<fs::path> sources() const override { return {cache_.target()}; }
 
- private:
   fs::path base_;
-  OutputHeader header_;
   AtomicFile cache_;
   WrittenFiles written_;
-  bool is_first_ = true;
 };
 
 }  // namespace

@@ -56,33 +56,31 @@ const char* const kXml = "<?xml version=\"1.0\"?>\n";
 
 class PvdOutput final : public SequenceOutput {
  public:
-  PvdOutput(fs::path target, OutputHeader header) : target_(std::move(target)), header_(std::move(header)) {
-    (void)escaped(target_.stem().string(), target_.string());
-    require_absent(target_);
-    for (std::size_t i = 0; i < header_.frame_count; ++i) require_absent(frame_path(target_, i, ".vtp"));
+  PvdOutput(fs::path file, OutputHeader all) : SequenceOutput(std::move(file), std::move(all)) {
+    (void)escaped(target().stem().string(), target().string());
+    require_absent(target());
+    for (std::size_t i = 0; i < header().frame_count; ++i) require_absent(frame_path(target(), i, ".vtp"));
   }
-  void append(double time_s, const MeshData& mesh) override {
+  std::vector<fs::path> sources() const override { return {target()}; }
+
+ private:
+  void write_frame(double time_s, const MeshData& mesh) override {
     const FpGuard guard;
-    const fs::path file = frame_path(target_, frames_++, ".vtp");
+    const fs::path file = frame_path(target(), frame_count(), ".vtp");
     written_.write(file, vtp_bytes(mesh));
     char digits[32];
     const std::string time(digits, std::to_chars(digits, digits + sizeof digits, time_s).ptr);
     list_ += "<DataSet timestep=\"" + time + "\" part=\"0\" file=\"" +
-             escaped(file.filename().string(), target_.string()) + "\"/>\n";
+             escaped(file.filename().string(), target().string()) + "\"/>\n";
   }
-  void finish() override {
-    written_.write(target_, std::string(kXml) +
-                                "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-                                "<Collection>\n" +
-                                list_ + "</Collection>\n</VTKFile>\n");
+  void commit() override {
+    written_.write(target(), std::string(kXml) +
+                                 "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+                                 "<Collection>\n" +
+                                 list_ + "</Collection>\n</VTKFile>\n");
     written_.keep();
   }
-  std::vector<fs::path> sources() const override { return {target_}; }
 
- private:
-  fs::path target_;
-  OutputHeader header_;
-  std::size_t frames_ = 0;
   std::string list_;
   WrittenFiles written_;
 };

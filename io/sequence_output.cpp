@@ -1,8 +1,9 @@
 #include "io/sequence_output.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include "io/atomic_file.h"
@@ -87,9 +88,9 @@ const OutputTraits& traits(OutputFormat format) {
 
 namespace {
 
-void require_faces(const OutputHeader& header, const fs::path& target) {
-  const auto& [triangles, groups] = std::tie(header.sequence.triangles, header.sequence.groups);
-  const auto is_vertex = [&](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < header.vertex_count; };
+void require_faces(const Triangles& triangles, const std::vector<Group>& groups, std::size_t vertex_count,
+                   const fs::path& target) {
+  const auto is_vertex = [&](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < vertex_count; };
   for (const auto& triangle : triangles) {
     if (!std::ranges::all_of(triangle, is_vertex)) {
       bad_input(target.string(), "a face names a vertex that does not exist; write the positions of all vertices");
@@ -105,8 +106,39 @@ void require_faces(const OutputHeader& header, const fs::path& target) {
 
 }  // namespace
 
+void SequenceOutput::append(double time_s, const MeshData& mesh) {
+  if (frame_count_ == header_.frame_count) {
+    bad_input(target_.string(),
+              "frame " + std::to_string(frame_count_) + " is one more than were announced; announce all");
+  }
+  if (!std::isfinite(time_s) || !(time_s > last_time_s_)) {
+    bad_input(target_.string(),
+              "frame " + std::to_string(frame_count_) + " is no later than the one before; append frames in order");
+  }
+  const auto is_finite = [](const auto& point) {
+    return std::ranges::all_of(point, [](double x) { return std::isfinite(x); });
+  };
+  const auto bad = std::ranges::find_if_not(mesh.points, is_finite);
+  if (bad != mesh.points.end()) {
+    bad_input(target_.string(), "vertex " + std::to_string(bad - mesh.points.begin()) + " of frame " +
+                                    std::to_string(frame_count_) + " is not finite; correct it");
+  }
+  require_faces(mesh.triangles, mesh.groups, mesh.points.size(), target_);
+  write_frame(time_s, mesh);
+  ++frame_count_;
+  last_time_s_ = time_s;
+}
+
+void SequenceOutput::finish() {
+  if (frame_count_ != header_.frame_count) {
+    bad_input(target_.string(), std::to_string(frame_count_) + " frames were written, and " +
+                                    std::to_string(header_.frame_count) + " announced; write all");
+  }
+  commit();
+}
+
 std::unique_ptr<SequenceOutput> create_output(const fs::path& target, OutputHeader header) {
-  require_faces(header, target);
+  require_faces(header.sequence.triangles, header.sequence.groups, header.vertex_count, target);
   switch (output_format(target)) {
     case OutputFormat::kNpz:
       return create_npz_output(target, std::move(header));

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "io/error.h"
@@ -39,14 +41,35 @@ struct OutputHeader {
 class SequenceOutput {
  public:
   virtual ~SequenceOutput() = default;
-  /// Frames come in order, as many as the header announces. Throws Error: another mesh or other groups than those of
-  /// the first where the format has one, a value that is no float32 where it stores these (they are never rounded
-  /// here), times that do not increase, any failure of the file system.
-  virtual void append(double time_s, const MeshData& mesh) = 0;
-  /// REQUIRES all frames. On disk, under its own name, when it returns.
-  virtual void finish() = 0;
+  SequenceOutput(const SequenceOutput&) = delete;
+  SequenceOutput& operator=(const SequenceOutput&) = delete;
+
+  /// Frames come in order, as many as the header announces. Throws Error: one too many, a time that does not increase,
+  /// a value that is not finite, or no float32 where the format stores these (they are never rounded here), faces or
+  /// groups of what does not exist, another mesh or other groups than those of the first where the format has one, any
+  /// failure of the file system.
+  void append(double time_s, const MeshData& mesh);
+  /// On disk, under its own name, when it returns. Throws Error where frames are missing.
+  void finish();
   /// What to give to open_sequence(), after finish().
   [[nodiscard]] virtual std::vector<std::filesystem::path> sources() const = 0;
+
+ protected:
+  SequenceOutput(std::filesystem::path target, OutputHeader header)
+      : target_(std::move(target)), header_(std::move(header)) {}
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+  [[nodiscard]] const OutputHeader& header() const { return header_; }
+  /// Those that were written.
+  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+
+ private:
+  virtual void write_frame(double time_s, const MeshData& mesh) = 0;
+  virtual void commit() = 0;
+
+  std::filesystem::path target_;
+  OutputHeader header_;
+  std::size_t frame_count_ = 0;
+  double last_time_s_ = -std::numeric_limits<double>::infinity();
 };
 
 /// Writes to `target`: the file; for OBJ with several frames cloth_000000.obj, ... in place of cloth.obj; for PC2 also

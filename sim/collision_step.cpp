@@ -290,6 +290,7 @@ CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, 
     : impl_(std::make_unique<Impl>(mesh, options, std::move(surfaces))) {}
 CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
+CollisionStep& CollisionStep::operator=(CollisionStep&&) noexcept = default;
 
 const ContactTable& CollisionStep::contact_table() const { return impl_->contacts; }
 

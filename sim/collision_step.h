@@ -30,7 +30,8 @@ enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kAbandoned,    ///< the caller's Patience ended; the returned positions are V_t0
-  kInvalidInput  ///< NaN, sizes, domain (input_error says which): nothing was done; the returned positions are V_t0
+  kInvalidInput  ///< NaN, sizes, domain (input_error says which; first_bad_option() which option): nothing was done;
+                 ///< the returned positions are V_t0
 };
 [[nodiscard]] std::string_view name_of(StepStatus status);
 
@@ -80,7 +81,9 @@ class CollisionStep {
   CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces = {});
   CollisionStep(const Mesh&&, const CollisionOptions&, ContactSurfaces = {}) = delete;
   ~CollisionStep();
+  /// What was moved from may be assigned to or destroyed, and nothing else.
   CollisionStep(CollisionStep&&) noexcept;
+  CollisionStep& operator=(CollisionStep&&) noexcept;
 
   /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
   /// looked at (a part of the mesh in which every vertex has a body that is no pin is one). V_candidate: any finite

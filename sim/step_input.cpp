@@ -50,17 +50,19 @@ InputError validate_candidate(const PositionsRef& V_candidate, std::span<const d
 
 }  // namespace
 
-InputError validate_options(const CollisionOptions& o) {
-  const bool contact = is_valid(contact_of(o));
-  const bool spring = is_finite_nonnegative(o.repulsion_stiffness_n_m) && o.overlap_fraction >= 0 &&
-                      o.overlap_fraction <= 1 && o.relaxation > 0 && o.relaxation <= 1;
-  const bool limits = o.impulse_iterations >= 0 && o.zone_iterations >= 0 && o.max_intervals >= 1;
-  return contact && spring && limits ? InputError::kNone : InputError::kBadOption;
+std::string_view first_bad_option(const CollisionOptions& o) {
+  if (const std::string_view name = first_bad_value(contact_of(o)); !name.empty()) return name;
+  if (!is_finite_nonnegative(o.repulsion_stiffness_n_m)) return "repulsion_stiffness_n_m";
+  if (!(o.overlap_fraction >= 0 && o.overlap_fraction <= 1)) return "overlap_fraction";
+  if (!(o.relaxation > 0 && o.relaxation <= 1)) return "relaxation";
+  if (o.impulse_iterations < 0) return "impulse_iterations";
+  if (o.zone_iterations < 0) return "zone_iterations";
+  return o.max_intervals < 1 ? "max_intervals" : "";
 }
 
 InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options, const PositionsRef& V_t0,
                                const PositionsRef& V_candidate, const CollisionBodies& bodies, double dt_s) {
-  if (const InputError error = validate_options(options); error != InputError::kNone) return error;
+  if (!first_bad_option(options).empty()) return InputError::kBadOption;
   if (!(dt_s > 0) || !std::isfinite(dt_s)) return InputError::kBadTimeStep;
   if (const InputError error = validate(mesh, V_t0, V_t0); error != InputError::kNone) return error;
   if (V_candidate.rows() != V_t0.rows()) return InputError::kSizeMismatch;

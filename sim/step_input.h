@@ -1,14 +1,17 @@
 // Whether a collision step can be done at all: options, sizes, domain, masses, lattice.
 #pragma once
 
+#include <string_view>
+
 #include "kernel/mesh.h"
 #include "sim/contact/collision_options.h"
 #include "sim/contact/repulsion_contact.h"
 
 namespace selvage::sim {
 
-/// Whether every option lies in the range that CollisionOptions states.
-[[nodiscard]] InputError validate_options(const CollisionOptions& options);
+/// The name of the first option that does not lie in the range that CollisionOptions states, as of which a step says
+/// kBadOption; empty where all do.
+[[nodiscard]] std::string_view first_bad_option(const CollisionOptions& options);
 
 /// The first thing wrong with the input of a step, or kNone. O(#V).
 [[nodiscard]] InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options,

@@ -21,9 +21,12 @@ ContactProperties combine(const ContactProperties& a, const ContactProperties& b
           .friction_kinetic = std::sqrt(a.friction_kinetic * b.friction_kinetic)};
 }
 
-bool is_valid(const ContactProperties& p) {
-  return is_length(p.thickness_m) && is_length(p.tolerance_m) && is_coefficient(p.friction_static) &&
-         is_coefficient(p.friction_kinetic) && p.friction_kinetic <= p.friction_static;
+std::string_view first_bad_value(const ContactProperties& p) {
+  if (!is_length(p.thickness_m)) return "thickness_m";
+  if (!is_length(p.tolerance_m)) return "tolerance_m";
+  if (!is_coefficient(p.friction_static)) return "friction_static";
+  if (!is_coefficient(p.friction_kinetic) || p.friction_kinetic > p.friction_static) return "friction_kinetic";
+  return {};
 }
 
 }  // namespace selvage::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "sim/contact/rest_pairs.h"
@@ -24,8 +25,9 @@ struct ContactProperties {
 ///   friction   the geometric mean, as in Box2D: between the two, and nothing grips what is frictionless.
 [[nodiscard]] ContactProperties combine(const ContactProperties& a, const ContactProperties& b);
 
-/// Whether every value lies in the range stated above.
-[[nodiscard]] bool is_valid(const ContactProperties& properties);
+/// The name of the first value that does not lie in the range stated above; empty where all do.
+[[nodiscard]] std::string_view first_bad_value(const ContactProperties& properties);
+[[nodiscard]] inline bool is_valid(const ContactProperties& properties) { return first_bad_value(properties).empty(); }
 
 /// Which surface each vertex is of. Without any, all of the mesh has the properties in its CollisionOptions. Without
 /// those and without rest pairs no pair costs a look.

@@ -158,6 +158,31 @@ TEST(SequenceOutput, FacesThatDoNotExistAreRefused) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
+TEST(SequenceOutput, FramesThatCannotBeAreRefused) {
+  const Points points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const char* name : {"a.npz", "a.obj", "a.pc2", "a.pvd", "a/"}) {
+    const TemporaryFolder folder;
+    const auto output = create(folder.path() / name, {points, points});
+    const auto refuse = [&](double time_s, const MeshData& mesh, const std::string& words) {
+      expect_error(ErrorKind::kBadInput, words, [&] { output->append(time_s, mesh); });
+    };
+    MeshData bad = mesh_of(points);
+    bad.points[1][2] = std::numeric_limits<double>::quiet_NaN();
+    refuse(0, bad, "vertex 1 of frame 0 is not finite");
+    bad = mesh_of(points);
+    bad.triangles[0][0] = 3;
+    refuse(0, bad, "a vertex that does not exist");
+    refuse(std::numeric_limits<double>::infinity(), mesh_of(points), "frame 0 is no later");
+    output->append(0.5, mesh_of(points));
+    refuse(0.5, mesh_of(points), "frame 1 is no later than the one before");
+    expect_error(ErrorKind::kBadInput, "1 frames were written, and 2 announced", [&] { output->finish(); });
+    output->append(0.75, mesh_of(points));
+    refuse(1, mesh_of(points), "frame 2 is one more than were announced");
+    output->finish();
+    EXPECT_FALSE(fs::is_empty(folder.path())) << name;
+  }
+}
+
 TEST(SequenceOutput, NothingIsOverwritten) {
   const struct {
     const char *target, *present;

@@ -1,6 +1,7 @@
 #include "sim/step_input.h"
 
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -68,31 +69,35 @@ TEST(StepInput, NamesTheDefect) {
             InputError::kOffLattice);
 }
 
-TEST(StepInput, OptionsOutsideTheirRangesAreRefused) {
-  const auto error_after = [](auto spoil) {
+TEST(StepInput, OptionsOutsideTheirRangesAreRefusedByName) {
+  const auto bad_after = [](auto spoil) {
     CollisionOptions options;
     spoil(options);
-    return validate_options(options);
+    return std::string(first_bad_option(options));
   };
-  EXPECT_EQ(error_after([](CollisionOptions&) {}), InputError::kNone);
+  using Options = CollisionOptions;
+  EXPECT_EQ(bad_after([](Options&) {}), "");
   for (const double bad : {-1.0, kNan, kInfinity}) {
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.thickness_m = bad; }), InputError::kBadOption);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.tolerance_m = bad; }), InputError::kBadOption);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.repulsion_stiffness_n_m = bad; }), InputError::kBadOption);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.overlap_fraction = bad; }), InputError::kBadOption);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.relaxation = bad; }), InputError::kBadOption);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.friction_static = bad; }), InputError::kBadOption);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.friction_kinetic = bad; }), InputError::kBadOption);
+    EXPECT_EQ(bad_after([=](Options& o) { o.thickness_m = bad; }), "thickness_m");
+    EXPECT_EQ(bad_after([=](Options& o) { o.tolerance_m = bad; }), "tolerance_m");
+    EXPECT_EQ(bad_after([=](Options& o) { o.repulsion_stiffness_n_m = bad; }), "repulsion_stiffness_n_m");
+    EXPECT_EQ(bad_after([=](Options& o) { o.overlap_fraction = bad; }), "overlap_fraction");
+    EXPECT_EQ(bad_after([=](Options& o) { o.relaxation = bad; }), "relaxation");
+    EXPECT_EQ(bad_after([=](Options& o) { o.friction_static = bad; }), "friction_static");
+    EXPECT_EQ(bad_after([=](Options& o) { o.friction_kinetic = bad; }), "friction_kinetic");
   }
-  for (double CollisionOptions::*length : {&CollisionOptions::thickness_m, &CollisionOptions::tolerance_m}) {
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.*length = kMaxCoordinate; }), InputError::kNone);
-    EXPECT_EQ(error_after([=](CollisionOptions& o) { o.*length = 1.5 * kMaxCoordinate; }), InputError::kBadOption);
+  for (double Options::*length : {&Options::thickness_m, &Options::tolerance_m}) {
+    EXPECT_EQ(bad_after([=](Options& o) { o.*length = kMaxCoordinate; }), "");
+    EXPECT_NE(bad_after([=](Options& o) { o.*length = 1.5 * kMaxCoordinate; }), "");
   }
-  EXPECT_EQ(error_after([](CollisionOptions& o) { o.relaxation = 0; }), InputError::kBadOption);
-  EXPECT_EQ(error_after([](CollisionOptions& o) { o.friction_kinetic = 0.1; }), InputError::kBadOption);  // > static
-  EXPECT_EQ(error_after([](CollisionOptions& o) { o.impulse_iterations = -1; }), InputError::kBadOption);
-  EXPECT_EQ(error_after([](CollisionOptions& o) { o.zone_iterations = -1; }), InputError::kBadOption);
-  EXPECT_EQ(error_after([](CollisionOptions& o) { o.max_intervals = 0; }), InputError::kBadOption);
+  EXPECT_EQ(bad_after([](Options& o) { o.relaxation = 0; }), "relaxation");
+  EXPECT_EQ(bad_after([](Options& o) { o.friction_kinetic = 0.1; }), "friction_kinetic") << "above the static one";
+  EXPECT_EQ(bad_after([](Options& o) { o.impulse_iterations = -1; }), "impulse_iterations");
+  EXPECT_EQ(bad_after([](Options& o) { o.zone_iterations = -1; }), "zone_iterations");
+  EXPECT_EQ(bad_after([](Options& o) { o.max_intervals = 0; }), "max_intervals");
+  Input input;
+  input.options.relaxation = 2;
+  EXPECT_EQ(input.error(), InputError::kBadOption);
 }
 
 }  // namespace selvage::sim::testbed
