@@ -53,6 +53,18 @@ Keys documented(const std::string& heading) {
 
 }  // namespace
 
+TEST(ReportKeys, OfSimAreDocumented) {
+  const TemporaryFolder folder;
+  const auto scene = folder.path() / "scene.toml", out = folder.path() / "out";
+  spit(scene,
+       "[time]\nframes = 1\n[[cloth]]\nsheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}\n"
+       "density_kg_m2 = 0.2\nstretch_n_m = 50\n");
+  ASSERT_EQ(run_program(folder, {"sim", scene, "-o", out}).exit_code, 0);
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(out / "run.json")), "", keys);
+  EXPECT_EQ(keys, documented("The report of `selvage sim`"));
+}
+
 TEST(ReportKeys, OfVerifyAreDocumented) {
   const TemporaryFolder folder;
   const auto before = folder.path() / "a.obj", after = folder.path() / "b.obj", json = folder.path() / "report.json";

@@ -51,6 +51,7 @@ TEST(SubdivideCommand, WritesFinerFramesThatVerifyFindsClean) {
       folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "one", "--frame", "1", "--threads", "1"});
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(io::open_sequence({folder.path() / "one"})->frame_count(), 1U);
+  EXPECT_EQ(io::open_sequence({folder.path() / "one"})->time(0), 0.5);
   EXPECT_EQ(
       run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "two", "--frame", "2"}).exit_code,
       2);

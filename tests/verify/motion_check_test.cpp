@@ -208,6 +208,17 @@ TEST(MotionCheck, BodyPairsOnRequestOnly) {
   EXPECT_EQ(total({1, 1}, true), 3);
 }
 
+TEST(MotionCheck, CornersOfBodiesOnRequestOnly) {
+  const io::MeshData mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}, {}};
+  const io::Points V_t1 = {{0, 0, 0}, {1, 0, 0}, {0.25, -1, 0}};
+  const std::vector<std::uint8_t> is_body = {1};
+  for (const bool bodies : {false, true}) {
+    const CheckResult result = check_motion({mesh.triangles, is_body}, mesh.points, V_t1,
+                                            {.max_violations = 100, .min_distance = {}, .check_bodies = bodies});
+    EXPECT_EQ(result.violations_total.self, bodies ? 1 : 0);
+  }
+}
+
 TEST(MotionCheck, IsTheSameForAnyNumberOfThreads) {
   std::mt19937 random(37);
   std::uniform_int_distribution<int> lattice(-3, 3);

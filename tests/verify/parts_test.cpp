@@ -172,6 +172,17 @@ TEST(Parts, NoFrameThatAReportSpeaksOfMayChange) {
   }
 }
 
+TEST(Parts, WhatIsIgnoredIsOfTheSurface) {
+  std::vector<io::MeshData> all = frames();
+  SequenceOptions wanted;
+  wanted.rules.ignore = {"b"};
+  const SequenceReport finished = check_sequence(Frames(all), wanted);
+  wanted.resume_from = &finished;
+  EXPECT_NO_THROW((void)check_sequence(Frames(all), wanted));
+  for (io::MeshData& mesh : all) mesh.groups[1].face_begin += 1;
+  EXPECT_THROW((void)check_sequence(Frames(all), wanted), io::Error);
+}
+
 TEST(Parts, AStopWhileFramesAreComparedKeepsWhatWasDone) {
   const std::vector<io::MeshData> all = frames();
   const SequenceReport finished = check_sequence(Frames(all), options());
@@ -241,6 +252,9 @@ TEST(Parts, NothingMissingDoubleOrForeignIsJoined) {
   other = all;
   other[2].points[0][2] += 1;  // neither the first nor the last frame: only the neighbour knows
   EXPECT_NE(merge_error({a, part(other, 3, 5), c}).find("frame 2 changed"), std::string::npos);
+  other = all;
+  other[2].groups[1].face_end -= 1;
+  EXPECT_NE(merge_error({a, part(other, 3, 5), c}).find("frame 2 changed"), std::string::npos) << "its groups";
 }
 
 TEST(Parts, APartThatWasStoppedLeavesTheWholeUnknown) {
