@@ -21,7 +21,7 @@ std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem:
   if (!base.empty() && !is_cache) bad_input(base.string(), "only a .pc2 or .mdd needs a base mesh; leave it out");
   if (!is_folder && !is_npz && !is_cache) {
     const bool is_mesh = has_extension(first, ".obj") || has_extension(first, ".ply");
-    if (!is_mesh && std::filesystem::exists(first, status)) {
+    if (!is_mesh && std::filesystem::is_regular_file(first, status)) {
       bad_input(first.string(),
                 "the extension is none of .obj, .ply, .npz, .pc2 and .mdd; convert it, or name a folder");
     }
