@@ -208,9 +208,9 @@ TEST(MotionCheck, BodyPairsOnRequestOnly) {
   EXPECT_EQ(total({1, 1}, true), 3);
 }
 
-TEST(MotionCheck, CornersOfBodiesOnRequestOnly) {
+TEST(MotionCheck, ABodysCornerThroughItsOwnFaceOnRequestOnly) {
   const io::MeshData mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}, {}};
-  const io::Points V_t1 = {{0, 0, 0}, {1, 0, 0}, {0.25, -1, 0}};
+  const io::Points V_t1 = {{0, 0, 0}, {1, 0, 0}, {0.3, -1, 0}};
   const std::vector<std::uint8_t> is_body = {1};
   for (const bool bodies : {false, true}) {
     const CheckResult result = check_motion({mesh.triangles, is_body}, mesh.points, V_t1,

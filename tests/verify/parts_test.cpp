@@ -43,11 +43,25 @@ std::string json(SequenceReport report) {
   return json_report(report, kContext);
 }
 
-Part part(const std::vector<io::MeshData>& frames, std::size_t first, std::size_t end) {
-  SequenceOptions wanted = options();
+Part part(const std::vector<io::MeshData>& frames, std::size_t first, std::size_t end,
+          SequenceOptions wanted = options()) {
   wanted.range = {first, end};
   const SequenceReport report = check_sequence(Frames(frames), wanted);
   return {std::to_string(first) + ".json", {report, kContext}};
+}
+
+SequenceOptions options(const GroupRules& rules) {
+  SequenceOptions options;
+  options.rules = rules;
+  return options;
+}
+const GroupRules kIgnoring{{}, {}, {"b"}}, kExempting{{}, {{"a", "b"}}, {}};
+
+/// Every frame with one face less in a group.
+std::vector<io::MeshData> frames_of_a_smaller(std::size_t group) {
+  std::vector<io::MeshData> result = frames();
+  for (io::MeshData& mesh : result) mesh.groups[group].face_end -= 1;
+  return result;
 }
 
 std::string merge_error(std::vector<Part> parts) {
@@ -172,15 +186,22 @@ TEST(Parts, NoFrameThatAReportSpeaksOfMayChange) {
   }
 }
 
-TEST(Parts, WhatIsIgnoredIsOfTheSurface) {
-  std::vector<io::MeshData> all = frames();
-  SequenceOptions wanted;
-  wanted.rules.ignore = {"b"};
-  const SequenceReport finished = check_sequence(Frames(all), wanted);
-  wanted.resume_from = &finished;
-  EXPECT_NO_THROW((void)check_sequence(Frames(all), wanted));
-  for (io::MeshData& mesh : all) mesh.groups[1].face_begin += 1;
-  EXPECT_THROW((void)check_sequence(Frames(all), wanted), io::Error);
+// Welding alone: WeldingThatALaterFrameChangesIsAnotherSurface.
+TEST(Parts, NoRuleMayComeToMeanOtherFaces) {
+  const struct {
+    const GroupRules& rules;
+    std::size_t group;
+    const char* what;
+  } cases[] = {{kIgnoring, 1, "what is ignored"},
+               {kExempting, 0, "one side of an exemption"},
+               {kExempting, 1, "the other side of an exemption"}};
+  for (const auto& c : cases) {
+    const SequenceReport finished = check_sequence(Frames(frames()), options(c.rules));
+    SequenceOptions resuming = options(c.rules);
+    resuming.resume_from = &finished;
+    EXPECT_NO_THROW((void)check_sequence(Frames(frames()), resuming)) << c.what;
+    EXPECT_THROW((void)check_sequence(Frames(frames_of_a_smaller(c.group)), resuming), io::Error) << c.what;
+  }
 }
 
 TEST(Parts, AStopWhileFramesAreComparedKeepsWhatWasDone) {
@@ -255,6 +276,27 @@ TEST(Parts, NothingMissingDoubleOrForeignIsJoined) {
   other = all;
   other[2].groups[1].face_end -= 1;
   EXPECT_NE(merge_error({a, part(other, 3, 5), c}).find("frame 2 changed"), std::string::npos) << "its groups";
+}
+
+TEST(Parts, PartsThatIgnoreOtherFacesAreNotJoined) {
+  const SequenceOptions ignoring = options(kIgnoring);
+  const Part first = part(frames(), 0, 3, ignoring);
+  EXPECT_EQ(merge_error({first, part(frames(), 3, 7, ignoring)}), "");
+  EXPECT_NE(merge_error({first, part(frames_of_a_smaller(1), 3, 7, ignoring)}).find("frame 2 changed"),
+            std::string::npos);
+}
+
+// Both gaps are written as at most 1: the later one is smaller all the same.
+TEST(Parts, TheSmallestGapOfThePartsIsThatOfTheWhole) {
+  std::vector<io::MeshData> all(2);
+  all[0].points = testing::two_faces_apart(1, 0, 0);
+  all[1].points = testing::two_faces_apart(1 - 0x1p-53, 0x1p-27, 0);
+  for (io::MeshData& mesh : all) mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  SequenceOptions searching;
+  searching.gap = true;
+  const Part first = part(all, 0, 1, searching), second = part(all, 1, 2, searching);
+  EXPECT_EQ(first.parsed.report.gap->upper, second.parsed.report.gap->upper);
+  EXPECT_EQ(json(merge({first, second}).report), json(check_sequence(Frames(all), searching)));
 }
 
 TEST(Parts, APartThatWasStoppedLeavesTheWholeUnknown) {

@@ -45,6 +45,12 @@ inline std::int32_t add_vertex(io::MeshData& mesh, const verify::Point& p) {
   return static_cast<std::int32_t>(mesh.points.size()) - 1;
 }
 
+/// The corners of two faces whose nearest are {0, height, 0} and {x, height, y}.
+inline std::vector<verify::Point> two_faces_apart(double x, double y, double height) {
+  return {{0, height, 0}, {-1, height + 1, 0},    {-1, height - 1, 0},
+          {x, height, y}, {x + 1, height + 1, y}, {x + 1, height - 1, y}};
+}
+
 inline verify::Surface surface(const io::MeshData& mesh) { return {mesh.triangles, {}}; }
 
 }  // namespace selvage::testing

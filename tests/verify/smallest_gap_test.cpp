@@ -93,11 +93,8 @@ TEST(SmallestGap, OfWhatIsFarApartOrTouches) {
 // Ties of the rounded distances were broken by name: 1 was reported, as an exact distance, where another pair is
 // nearer.
 TEST(SmallestGap, IsOfANearestPairWhateverTheOrder) {
-  const auto two_faces_apart = [](double x, double y, double height) {
-    return std::vector<Point>{{0, height, 0}, {-1, height + 1, 0},    {-1, height - 1, 0},
-                              {x, height, y}, {x + 1, height + 1, y}, {x + 1, height - 1, y}};
-  };
-  const std::vector<Point> one = two_faces_apart(1, 0, 0), less = two_faces_apart(1 - 0x1p-53, 0x1p-27, 100);
+  const std::vector<Point> one = testing::two_faces_apart(1, 0, 0),
+                           less = testing::two_faces_apart(1 - 0x1p-53, 0x1p-27, 100);
   for (const bool less_first : {false, true}) {
     io::MeshData mesh;
     mesh.points = less_first ? less : one;

@@ -44,6 +44,13 @@ TEST(Topology, RefusesWhatIsNoSurface) {
     EXPECT_THROW(static_cast<void>(make_topology({good, {}, {}, exemptions}, 3)), std::invalid_argument);
   }
   const std::vector<std::int32_t> foreign = {0, 1, 2, 2}, too_few = {0, 1, 2};
+  const std::vector<std::array<std::int32_t, 3>> pair = {{0, 1, 2}, {2, 1, 3}};
+  const std::vector<std::uint8_t> one_flag = {0};
+  EXPECT_THROW(static_cast<void>(make_topology({pair, one_flag}, 4)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(make_topology({pair, {}, one_flag}, 4)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(make_topology({good, {}, two_flags}, 3)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(make_topology({pair, {}, {}, {}, too_few}, 4)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(make_topology({good, {}, {}, {}, foreign}, 3)), std::invalid_argument);
   const std::vector<std::array<std::int32_t, 3>> unnamed = {{0, 1, 3}};
   EXPECT_THROW(static_cast<void>(make_topology({unnamed, {}, {}, {}, foreign}, 4)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(make_topology({good, {}, {}, {}, too_few}, 4)), std::invalid_argument);
