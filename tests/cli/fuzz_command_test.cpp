@@ -94,6 +94,32 @@ TEST(FuzzCommand, WhatHadNoCaseIsNotCleared) {
   EXPECT_EQ(merged.exit_code, 0) << merged.out << merged.err;
 }
 
+TEST(FuzzCommand, AFindingOfSeveralShardsIsKeptFromItsLowestCase) {
+  const TemporaryFolder folder;
+  const auto shard = [&](const std::string& part, std::int64_t number) {
+    const auto artifacts = folder.path() / ("part" + part.substr(0, 1)), ledger = artifacts / "campaign.json";
+    testing::run_program(folder,
+                         {"fuzz", "scale", "--cases", "1", "--jobs", "1", "--shard", part, "--artifacts", artifacts});
+    auto json = nlohmann::json::parse(slurp(ledger));
+    auto& property = json["properties"][0];
+    property["streams"][0]["failures"] = 1;
+    property["findings"] = {{{"stream", property["streams"][0]["name"]},
+                             {"failure", "missed"},
+                             {"count", 1},
+                             {"case", number},
+                             {"file", "scale.case"}}};
+    testing::spit(ledger, json.dump());
+    testing::spit(artifacts / "scale.case", "case " + std::to_string(number));
+    return artifacts;
+  };
+  const auto lower = shard("1/2", 3), higher = shard("2/2", 8), whole = folder.path() / "whole";
+  for (const auto& sources : {std::pair(lower, higher), std::pair(higher, lower)}) {
+    const auto merged = testing::run_program(folder, {"merge", sources.first, sources.second, "-o", whole});
+    EXPECT_EQ(merged.exit_code, 1) << merged.out << merged.err;
+    EXPECT_EQ(slurp(whole / "scale.case"), "case 3");
+  }
+}
+
 TEST(FuzzCommand, OurOwnKernelsAccuracyIsReported) {
   const TemporaryFolder folder;
   const auto artifacts = folder.path() / "artifacts";

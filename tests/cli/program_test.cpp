@@ -207,6 +207,21 @@ TEST(Program, AFileBeyondTheSizeLimitIsAFileErrorAndLeavesNothing) {
   }
 }
 
+TEST(Program, WhatNeedsMoreMemoryThanThereIsEndsAtALimit) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes terabytes of addresses";
+#endif
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  const auto verify = [&] {
+    return shell(folder, "ulimit -v 1000000 && exec " SELVAGE_PROGRAM " verify a.obj --threads 1 > out.txt 2> err.txt");
+  };
+  EXPECT_EQ(verify(), 0) << testing::slurp(folder.path() / "err.txt");
+  fs::resize_file(folder.path() / "a.obj", std::uintmax_t{1} << 31);
+  EXPECT_EQ(verify(), 5);
+  EXPECT_EQ(testing::slurp(folder.path() / "err.txt"), "selvage: out of memory: nothing is known about the rest\n");
+}
+
 TEST(Program, CommandsThatCannotStopInBetweenDieOfTheSignal) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj", pipe = folder.path() / "pipe";

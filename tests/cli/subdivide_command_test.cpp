@@ -50,8 +50,9 @@ TEST(SubdivideCommand, WritesFinerFramesThatVerifyFindsClean) {
   const auto one = run_program(
       folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "one", "--frame", "1", "--threads", "1"});
   EXPECT_EQ(one.exit_code, 0) << one.err;
-  EXPECT_EQ(io::open_sequence({folder.path() / "one"})->frame_count(), 1U);
-  EXPECT_EQ(io::open_sequence({folder.path() / "one"})->time(0), 0.5);
+  const auto alone = io::open_sequence({folder.path() / "one"});
+  EXPECT_EQ(alone->frame_count(), 1U);
+  EXPECT_EQ(alone->time(0), 0.5) << "that of the frame it was made of";
   EXPECT_EQ(
       run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "two", "--frame", "2"}).exit_code,
       2);
