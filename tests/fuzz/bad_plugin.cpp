@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include <fenv.h>
@@ -12,6 +13,9 @@
 #include <xmmintrin.h>
 
 #include "fuzz/selvage-plugin.h"
+#if defined(INVENTS_FAILURES)
+#include "fuzz/run/worker.h"
+#endif
 
 namespace {
 
@@ -94,6 +98,12 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   _mm_setcsr(_mm_getcsr() | kFlushToZero);
 #elif defined(WRITES_TO_FILES)
   for (int file = 3; file < 64; ++file) [[maybe_unused]] const auto ignored = write(file, "{}\n", 3);
+#elif defined(INVENTS_FAILURES)
+  selvage::fuzz::Event event;
+  event.kind = selvage::fuzz::Event::Kind::kFailure;
+  event.number = std::int64_t{1} << 40;  // of a unit that its worker does not have
+  std::strcpy(event.failure, "invented");
+  for (int file = 3; file < 64; ++file) [[maybe_unused]] const auto ignored = write(file, &event, sizeof event);
 #elif defined(FORBIDS_FILES)
   const rlimit none = {3, 3};
   setrlimit(RLIMIT_NOFILE, &none);

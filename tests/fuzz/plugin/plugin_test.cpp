@@ -52,6 +52,7 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"forgets_the_last", "batch-differs"},
                                                       {"repeats_a_vector", "batch-differs"},
                                                       {"writes_to_files", "broke-the-channel"},
+                                                      {"invents_failures", "broke-the-channel"},
                                                       {"closes_files", "exited"},
                                                       {"forbids_files", "missed"},
                                                       {"forks", "forked"},

@@ -121,6 +121,25 @@ TEST(Driver, AnyNumberOfWorkersAndShardsGivesTheSameBits) {
   EXPECT_THROW((void)merge(parts), io::Error);  // another campaign
 }
 
+TEST(Driver, RunsNoFewerCasesThanWereAskedFor) {
+  const TemporaryFolder folder;
+  Properties properties = one_property();
+  const std::int64_t asked = unit_size(*properties[0]) + 1;
+  run_all(properties, options_for(folder.path(), asked));
+  EXPECT_GE(parse_ledger(slurp(folder.path() / kLedgerFile), "ledger").properties[0].total().cases, asked);
+}
+
+TEST(Driver, UnitsThatAreOpenInAnyShardAreOpenInTheWhole) {
+  Ledger first = make_ledger(one_property());
+  first.shards = 2;
+  Ledger second = first;
+  second.shard = 2;
+  first.properties[0].open = {{0, {1, 3}}, {2, {0, 5}}};
+  second.properties[0].open = {{1, {0, 7}}};
+  const std::map<std::int64_t, UnitPlace> all = {{0, {1, 3}}, {1, {0, 7}}, {2, {0, 5}}};
+  EXPECT_EQ(merge({first, second}).properties[0].open, all);
+}
+
 TEST(Driver, EveryKindOfFailureIsKeptOnce) {
   const TemporaryFolder folder;
   Properties properties = one_property();
