@@ -103,18 +103,6 @@ TEST(ReportKeys, OfReplayAreDocumented) {
   EXPECT_EQ(keys, documented("The report of `selvage replay --json`"));
 }
 
-TEST(ReportKeys, OfSimAreDocumented) {
-  const TemporaryFolder folder;
-  const auto scene = folder.path() / "scene.toml", run = folder.path() / "run";
-  spit(scene,
-       "[time]\nframes = 1\n[[cloth]]\nsheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}\ndensity_kg_m2 = 0.2\n"
-       "stretch_n_m = 50\n");
-  ASSERT_EQ(run_program(folder, {"sim", scene, "-o", run}).exit_code, 0);
-  Keys keys;
-  collect(nlohmann::json::parse(slurp(run / "run.json")), "", keys);
-  EXPECT_EQ(keys, documented("The report of `selvage sim`"));
-}
-
 TEST(ReportKeys, OfDoctorAreDocumented) {
   const TemporaryFolder folder;
   const auto json = folder.path() / "report.json";

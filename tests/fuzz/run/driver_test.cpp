@@ -76,14 +76,6 @@ void run_all(Properties& properties, const DriverOptions& options) {
   EXPECT_TRUE(driver.run([] { return false; }, [](const DriverStatus&) {}));
 }
 
-TEST(Driver, RunsNoFewerCasesThanAreAskedFor) {
-  const Properties properties = one_property();
-  const std::int64_t size = unit_size(*properties.front());
-  EXPECT_EQ(unit_count(*properties.front(), size), 1);
-  EXPECT_EQ(unit_count(*properties.front(), size + 1), 2);
-  EXPECT_EQ(unit_count(*properties.front(), 1), 1);
-}
-
 TEST(Driver, AnyNumberOfWorkersAndShardsGivesTheSameBits) {
   const TemporaryFolder folder;
   Properties properties = one_property();
