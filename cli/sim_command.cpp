@@ -19,8 +19,6 @@
 #include "cli/process/terminal.h"
 #include "cli/start/enclosed_cloth.h"
 #include "cli/start/start_check.h"
-#include "io/atomic_file.h"
-#include "io/sequence_json.h"
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
@@ -162,14 +160,6 @@ void note_failure(sim::Recorder& recorder, const std::exception_ptr& exception) 
   }
 }
 
-/// As asked for, or as the run that goes on was started.
-io::SequenceKind kind_to_record(const SimArguments& arguments) {
-  if (arguments.record) return *arguments.record;
-  const std::filesystem::path header = arguments.output / io::kHeaderFile;
-  if (!arguments.resume || !std::filesystem::exists(header)) return io::SequenceKind::kFrames;
-  return io::parse_sequence_json(io::read_file(header), header.string()).kind;
-}
-
 ExitCode simulate(const SimArguments& arguments) {
   catch_interrupts();
   const auto limit = arguments.threads.hold();
@@ -189,8 +179,8 @@ ExitCode simulate(const SimArguments& arguments) {
   }
   say("{}", sim::describe(simulation.scene(), simulation.world()));
   if (!goes_on) print_notes(notes_on_enclosed(simulation.world(), simulation.x()));
-  sim::Recorder recorder(arguments.output, simulation, kind_to_record(arguments), arguments.resume,
-                         "selvage " SELVAGE_VERSION, repair);
+  sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
+                         repair);
   if (recorder.resumed()) say("resumed    at {:.6f} s\n", simulation.clock().time_s());
   if (const std::int64_t there = simulation.clock().state().frame; there > scene.time.frame_count) {
     say("note       it was simulated to frame {} already; --frames {} takes nothing away\n", there,
@@ -228,10 +218,9 @@ void add_sim_command(CLI::App& program, Job& job) {
   command.add_option("--frames", arguments->frames, "Frames to simulate, instead of what the scene says")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{999'999}));
   add_threads(command, arguments->threads);
-  add_optional_choice(
-      command, "--record", arguments->record,
-      {{"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}},
-      "frames (default; of a run that is resumed, as it was started), or steps: all that was certified");
+  add_choice(command, "--record", arguments->record,
+             {{"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}},
+             "frames (default; of a run that is resumed, as it was started), or steps: all that was certified");
   add_choice(command, "--quality", arguments->quality, {{"draft", sim::Quality::kDraft}, {"full", sim::Quality::kFull}},
              "draft (default) or full, where the scene distinguishes");
   command.add_flag("--resume", arguments->resume, "Go on from the checkpoint in the folder, with the same bits");

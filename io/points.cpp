@@ -28,6 +28,15 @@ void append_as(std::string& bytes, const Points& points) {
 
 }  // namespace
 
+std::optional<std::size_t> first_not_finite(const Points& points) {
+  const auto is_finite = [](const auto& point) {
+    return std::ranges::all_of(point, [](double x) { return std::isfinite(x); });
+  };
+  const auto found = std::ranges::find_if_not(points, is_finite);
+  if (found == points.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - points.begin());
+}
+
 void append_points(std::string& bytes, const Points& points, Precision precision, const std::string& name) {
   const FpGuard guard;
   if (precision == Precision::kFloat64) return append_as<double>(bytes, points);

@@ -1,7 +1,9 @@
 // Positions as the numbers of a binary file, float64 or float32, never rounded by the way.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "io/error.h"
@@ -12,6 +14,9 @@ namespace selvage::io {
 /// Appends x, y, z of every point, little endian. Throws Error(kBadInput) naming `name` and the vertex where
 /// `precision` is float32 and a value is not exactly one.
 void append_points(std::string& bytes, const Points& points, Precision precision, const std::string& name);
+
+/// The first vertex of which a coordinate is not finite.
+[[nodiscard]] std::optional<std::size_t> first_not_finite(const Points& points);
 
 /// What rounding to float32 did.
 struct Rounding {

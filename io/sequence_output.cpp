@@ -9,6 +9,7 @@
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/fail.h"
+#include "io/points.h"
 #include "io/sequence_outputs.h"
 #include "io/text.h"
 
@@ -115,13 +116,9 @@ void SequenceOutput::append(double time_s, const MeshData& mesh) {
     bad_input(target_.string(),
               "frame " + std::to_string(frame_count_) + " is no later than the one before; append frames in order");
   }
-  const auto is_finite = [](const auto& point) {
-    return std::ranges::all_of(point, [](double x) { return std::isfinite(x); });
-  };
-  const auto bad = std::ranges::find_if_not(mesh.points, is_finite);
-  if (bad != mesh.points.end()) {
-    bad_input(target_.string(), "vertex " + std::to_string(bad - mesh.points.begin()) + " of frame " +
-                                    std::to_string(frame_count_) + " is not finite; correct it");
+  if (const auto vertex = first_not_finite(mesh.points)) {
+    bad_input(target_.string(), "vertex " + std::to_string(*vertex) + " of frame " + std::to_string(frame_count_) +
+                                    " is not finite; correct it");
   }
   require_faces(mesh.triangles, mesh.groups, mesh.points.size(), target_);
   write_frame(time_s, mesh);

@@ -14,6 +14,7 @@
 #include "io/checksum.h"
 #include "io/fail.h"
 #include "io/npy.h"
+#include "io/points.h"
 #include "io/posix_file.h"
 #include "io/sequence.h"
 #include "io/sequence_json.h"
@@ -207,10 +208,8 @@ struct SequenceWriter::Impl {
       bad_input(name, std::to_string(points.size()) +
                           " vertices do not match the faces or the frames before; append one mesh");
     }
-    for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
-      const auto is_finite = [](double x) { return std::isfinite(x); };
-      if (std::all_of(points[vertex].begin(), points[vertex].end(), is_finite)) continue;
-      bad_input(name, "vertex " + std::to_string(vertex) + " is not finite; the run has failed");
+    if (const auto vertex = first_not_finite(points)) {
+      bad_input(name, "vertex " + std::to_string(*vertex) + " is not finite; the run has failed");
     }
   }
 

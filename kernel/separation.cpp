@@ -160,7 +160,6 @@ SupportedDistance supported_distance(const PairMotion<double>& motion, const Dif
   const auto consider = [&](const Double3& n) {
     const Support<double> least = support(motion, polygon, polygon, n);
     const double margin = least.least - support_error(n, motion.extent);
-    // The difference, the norm, the quotient and this product.
     const double lower = margin > 0 ? margin / norm(n) * (1 - kQuotientError) : 0;
     if (lower > best.lower) best = {lower, n};
     return least.corner;
@@ -195,8 +194,7 @@ double distance_upper(const PairMotion<double>& motion, const DifferencePolygon<
   if (zero) return 0;
   const Double3 blend_extent = blended ? motion.extent : Double3{};
   const Double3 worst = (abs(sum) + scaled(kWitnessError, total)) + scaled(kBlendError, blend_extent);
-  // The exact weights are divided by their exact sum, so that they make a convex combination; its computed value is
-  // good to 5 u. Quotient, norm, `worst` and this product round a few times more.
+  // The exact weights are divided by their exact sum, so that they make a convex combination.
   return norm(worst) / weight_total * (1 + kWitnessQuotientError) + kUnderflowError;
 }
 

@@ -13,31 +13,29 @@
 
 namespace selvage::cli {
 
-/// Help lists the words as "draft|full"; what `set` refers to must outlive the parsing.
-template <typename Value, typename Set>
-void add_choice_of(CLI::App& command, const std::string& name, std::vector<std::pair<std::string, Value>> choices,
-                   const std::string& help, const Set& set) {
+template <typename Chosen>
+struct ChoiceOf {
+  using Value = Chosen;
+};
+template <typename Chosen>
+struct ChoiceOf<std::optional<Chosen>> {
+  using Value = Chosen;
+};
+
+/// Help lists the words as "draft|full"; `value` must outlive the parsing. It may be optional, and stays as it is where
+/// nothing is chosen.
+template <typename Chosen>
+void add_choice(CLI::App& command, const std::string& name, Chosen& value,
+                std::vector<std::pair<std::string, typename ChoiceOf<Chosen>::Value>> choices,
+                const std::string& help) {
   std::string words;
   for (const auto& choice : choices) words += (words.empty() ? "" : "|") + choice.first;
-  const auto choose = [name, words, choices = std::move(choices), set](const std::string& word) {
-    const auto chosen = std::ranges::find(choices, word, &std::pair<std::string, Value>::first);
+  const auto choose = [name, words, choices = std::move(choices), &value](const std::string& word) {
+    const auto chosen = std::ranges::find_if(choices, [&](const auto& choice) { return choice.first == word; });
     if (chosen == choices.end()) throw CLI::ValidationError(name, fmt::format("'{}' is not {}", word, words));
-    set(chosen->second);
+    value = chosen->second;
   };
   command.add_option_function<std::string>(name, choose, help)->type_name(words);
-}
-
-template <typename Value>
-void add_choice(CLI::App& command, const std::string& name, Value& value,
-                std::vector<std::pair<std::string, Value>> choices, const std::string& help) {
-  add_choice_of(command, name, std::move(choices), help, [&value](const Value& chosen) { value = chosen; });
-}
-
-/// Where nothing is chosen there is none.
-template <typename Value>
-void add_optional_choice(CLI::App& command, const std::string& name, std::optional<Value>& value,
-                         std::vector<std::pair<std::string, Value>> choices, const std::string& help) {
-  add_choice_of(command, name, std::move(choices), help, [&value](const Value& chosen) { value = chosen; });
 }
 
 }  // namespace selvage::cli

@@ -56,6 +56,13 @@ std::filesystem::path require_own(std::filesystem::path folder) {
   return folder;
 }
 
+/// kFrames where there is no sequence.
+io::SequenceKind recorded_kind(const std::filesystem::path& folder) {
+  const std::filesystem::path header = folder / io::kHeaderFile;
+  if (!std::filesystem::exists(header)) return io::SequenceKind::kFrames;
+  return io::parse_sequence_json(io::read_file(header), header.string()).kind;
+}
+
 // What a killed run left of the two files that are written here; the sequence's writer, which holds the lock, removes
 // its own. And what an earlier run said of its end, which this one would make untrue.
 void remove_leftovers(const std::filesystem::path& folder) {
@@ -89,12 +96,12 @@ std::string json_text(const std::string& words) {
 
 }  // namespace
 
-Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
-                   std::string producer, const StartRepair& repair)
+Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, std::optional<io::SequenceKind> kind,
+                   bool resume, std::string producer, const StartRepair& repair)
     : folder_(require_own(std::move(folder))),
       producer_(std::move(producer)),
       simulation_(simulation),
-      kind_(kind),
+      kind_(kind.value_or(resume ? recorded_kind(folder_) : io::SequenceKind::kFrames)),
       scene_(identify(simulation.scene(), simulation.world())),
       writer_(open_writer(resume)) {
   const std::optional<Checkpoint> checkpoint = resume ? read_own_checkpoint() : std::nullopt;

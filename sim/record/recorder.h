@@ -25,13 +25,14 @@ struct RunOutcome {
 
 class Recorder {
  public:
-  /// kSteps records the end of every collision step, kFrames the frames alone; both begin with the initial state.
+  /// kSteps records the end of every collision step, kFrames the frames alone; both begin with the initial state. None:
+  /// as the folder's run was started where that goes on, else kFrames.
   /// Throws io::Error if the folder holds a sequence already and `resume` is not set. With `resume` the simulation is
   /// put back to the folder's checkpoint and the sequence is cut to it; a folder without one starts from the beginning.
   /// What is refused leaves the folder as it was.
   /// `producer` is the program and its version, for the files. `repair` is what was done to the start, for run.json; a
   /// run that is resumed knows what was done to its own.
-  Recorder(std::filesystem::path folder, Simulation& simulation, io::SequenceKind kind, bool resume,
+  Recorder(std::filesystem::path folder, Simulation& simulation, std::optional<io::SequenceKind> kind, bool resume,
            std::string producer, const StartRepair& repair = {});
 
   /// Once, before the first step: from here on run.json is gone until finish() writes it. Writes the initial state,

@@ -34,6 +34,17 @@ StepScene random_layers() {
   return scene;
 }
 
+/// A sheet that comes down on another.
+struct TwoSheets : StepScene {
+  Part upper;
+  TwoSheets() {
+    add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
+    upper = add(make_sheet(4, 4, 0.08, 0.08), Vec3(0.01, 0.01, 0.012));
+    push(upper, Vec3(0, 0, -0.01));
+    options.thickness_m = 0.01;
+  }
+};
+
 /// How much nearer than its thickness the pair comes, by the kernel's answer.
 double approach(const PairProximity& pair, const StepScene& scene, const Positions& V_t1) {
   double moved = 0;
@@ -143,11 +154,7 @@ TEST(StartProximities, OfClothThatRestsOnClothFindWhatAFallOfOneWouldPress) {
 }
 
 TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
-  StepScene scene;
-  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
-  const auto upper = scene.add(make_sheet(4, 4, 0.08, 0.08), Vec3(0.01, 0.01, 0.012));
-  scene.push(upper, Vec3(0, 0, -0.01));
-  scene.options.thickness_m = 0.01;
+  const TwoSheets scene;
   const Mesh mesh = scene.mesh();
   const ContactTable contacts(mesh, scene.options, {});
   const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
@@ -161,17 +168,13 @@ TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
   EXPECT_EQ(near.find(scene.V_candidate).size(), count);
   EXPECT_TRUE(near.find(scene.V_t0).empty());
   Positions lifted = scene.V_t0;
-  for (VertexId v = upper.begin; v < upper.end; ++v) lifted(v, 2) += 0.1;
+  for (VertexId v = scene.upper.begin; v < scene.upper.end; ++v) lifted(v, 2) += 0.1;
   near.start(hierarchy, lifted, surface);
   EXPECT_TRUE(near.find(lifted + (scene.V_candidate - scene.V_t0)).empty());
 }
 
 TEST(StartProximities, AreOfTheSurfaceThatIsFlagged) {
-  StepScene scene;
-  scene.add(make_sheet(5, 5, 0.1, 0.1), Vec3::Zero());
-  const auto upper = scene.add(make_sheet(4, 4, 0.08, 0.08), Vec3(0.01, 0.01, 0.012));
-  scene.push(upper, Vec3(0, 0, -0.01));
-  scene.options.thickness_m = 0.01;
+  const TwoSheets scene;
   const Mesh mesh = scene.mesh();
   const ContactTable contacts(mesh, scene.options, {});
   const std::vector<std::uint8_t> all(scene.inverse_mass.size(), 1), none(scene.inverse_mass.size(), 0);
