@@ -429,6 +429,17 @@ TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 0; }), InputError::kNotFinite);
 }
 
+TEST(CollisionStep, IsMovedWithItsMesh) {
+  StepScene one, other;
+  one.add(sheet(3), Vec3::Zero());
+  other.add(sheet(5), Vec3::Zero());
+  const Mesh of_one = one.mesh(), of_other = other.mesh();
+  CollisionStep step(of_one, one.options);
+  EXPECT_EQ(step(other.V_t0, other.V_t0, other.bodies(), other.dt_s).report.status, StepStatus::kInvalidInput);
+  step = CollisionStep(of_other, other.options);
+  EXPECT_EQ(step(other.V_t0, other.V_t0, other.bodies(), other.dt_s).report.status, StepStatus::kSafe);
+}
+
 TEST(CollisionStep, KeepsNoReferenceToATemporaryMesh) {
   static_assert(!std::is_constructible_v<CollisionStep, Mesh, CollisionOptions>);
   static_assert(std::is_constructible_v<CollisionStep, const Mesh&, CollisionOptions>);
