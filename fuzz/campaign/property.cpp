@@ -3,7 +3,7 @@
 #include "fuzz/campaign/broad_campaign.h"
 #include "fuzz/campaign/collisions_campaign.h"
 #include "fuzz/campaign/file_campaign.h"
-#include "fuzz/campaign/query_streams.h"
+#include "fuzz/campaign/query_campaign.h"
 #include "fuzz/campaign/simulation_campaign.h"
 #include "fuzz/campaign/step_campaign.h"
 #include "fuzz/campaign/subdivision_campaign.h"

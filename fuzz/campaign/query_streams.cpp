@@ -2,82 +2,9 @@
 
 #include <algorithm>
 
-#include "fuzz/campaign/query_campaign.h"
-#include "fuzz/kept/case_file.h"
-#include "fuzz/shrink/shrink_choices.h"
-#include "fuzz/shrink/shrink_query.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
-namespace {
-
-constexpr std::int64_t kExponentTrials = 100;  // of the only choice
-
-Tally tally_of(const Counts& counts) {
-  return {counts.cases, counts.of[0], counts.of[1], counts.of[2], counts.of[3], counts.of[4], counts.failures};
-}
-
-class QueryCampaign final : public Property {
- public:
-  explicit QueryCampaign(const QueryProperty& property)
-      : Property(std::string(property.name), std::string(property.promise)),
-        property_(property),
-        is_judged_exactly_(property.name == "ccd") {
-    // The oracle is where the findings are; the others are cheap.
-    weight_ = is_judged_exactly_ ? 32 : 1;
-    streams_ = query_streams(kPairKinds, is_judged_exactly_ ? 1 : 8);
-    counters_ = {"touches", "hits", "alarms", "unresolved", "undecided", "exact"};
-  }
-
-  void prepare() override { prepare_queries(); }
-
-  Outcome run(const Stream& stream, ChoiceSource source) override {
-    const auto [query_class, kind] = query_stream(stream);
-    const MotionQuery query = make_query(*query_class, kind, source);
-    const Observation seen = property_.check(query, selvage_kernel, source);
-    Outcome outcome{{1, !seen.failure.empty(), {}, seen.near_miss_bits}, std::string(seen.failure)};
-    outcome.counts.of = {seen.touches, seen.hit, seen.alarm, seen.unresolved, seen.undecided, seen.exact_used};
-    // With a tolerance, what ends within it is rightly called a collision.
-    const bool is_measured = is_judged_exactly_ && seen.failure.empty() && query.options.tolerance == 0;
-    if (is_measured && source.one_in(kMeasuredOneIn)) {
-      outcome.accuracy = measure_accuracy(query, seen.touches, seen.alarm, seen.toi);
-    }
-    return outcome;
-  }
-
-  [[nodiscard]] std::string complaint(const Stream& stream, const Counts& counts) const override {
-    const auto [query_class, kind] = query_stream(stream);
-    const Tally tally = tally_of(counts);
-    if (is_judged_exactly_ && is_out_of_band(*query_class, kind, tally)) return "hits outside the declared band";
-    return is_unresolved_too_often(kind, tally) ? "unresolved too often" : "";
-  }
-
-  std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
-                   bool shrunk) override {
-    const auto [query_class, kind] = query_stream(stream);
-    MotionQuery query = make_query(*query_class, kind, source);
-    const auto still_fails = [&](const MotionQuery& simpler) {
-      ChoiceSource again = source;  // the property's own choices stay the same
-      return property_.check(simpler, selvage_kernel, again).failure == failure;
-    };
-    Choices choices;
-    if (shrunk) {
-      query = shrink(query, still_fails).query;
-      const auto failure_of = [&](ChoiceSource simpler) {
-        return std::string(property_.check(query, selvage_kernel, simpler).failure);
-      };
-      choices = shrink_choices(source, failure, failure_of, kExponentTrials);
-    }
-    const bool touches = exact_motion(query, verify::Detail::kDecision).touches;
-    return format_case({query, origin, touches, name(), choices});
-  }
-
- private:
-  const QueryProperty& property_;
-  bool is_judged_exactly_;
-};
-
-}  // namespace
 
 std::vector<Stream> query_streams(std::span<const PairKind> kinds, std::int64_t divisor) {
   std::vector<Stream> streams;
@@ -91,14 +18,6 @@ std::vector<Stream> query_streams(std::span<const PairKind> kinds, std::int64_t 
   return streams;
 }
 
-void prepare_queries() {
-  for (const Stream& stream : query_streams(kPairKinds, 1)) {
-    const auto [query_class, kind] = query_stream(stream);
-    ChoiceSource simplest = ChoiceSource::from_words({});
-    static_cast<void>(make_query(*query_class, kind, simplest));
-  }
-}
-
 QueryStream query_stream(const Stream& stream) {
   const std::size_t space = stream.name.find(' ');
   const auto is_named = [&](const QueryClass& one) { return stream.name.compare(0, space, one.name) == 0; };
@@ -109,8 +28,16 @@ QueryStream query_stream(const Stream& stream) {
   return {&*query_class, *kind};
 }
 
-std::unique_ptr<Property> make_query_campaign(const QueryProperty& property) {
-  return std::make_unique<QueryCampaign>(property);
+MotionQuery draw_query(const Stream& stream, ChoiceSource& source) {
+  const auto [query_class, kind] = query_stream(stream);
+  return make_query(*query_class, kind, source);
+}
+
+void prepare_queries() {
+  for (const Stream& stream : query_streams(kPairKinds, 1)) {
+    ChoiceSource simplest = ChoiceSource::from_words({});
+    static_cast<void>(draw_query(stream, simplest));
+  }
 }
 
 }  // namespace selvage::fuzz

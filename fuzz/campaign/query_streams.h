@@ -1,9 +1,10 @@
-// The query properties as parts of a campaign: a stream for every class and kind.
+// Queries as streams of a campaign: one for every class and kind.
 #pragma once
+
+#include <span>
 
 #include "fuzz/campaign/property.h"
 #include "fuzz/draw/generators.h"
-#include "fuzz/oracle/query_property.h"
 
 namespace selvage::fuzz {
 
@@ -15,10 +16,9 @@ struct QueryStream {
 
 /// Streams for the kinds `kinds`, and what each stands for; per_unit is the class's, divided by `divisor`.
 [[nodiscard]] std::vector<Stream> query_streams(std::span<const PairKind> kinds, std::int64_t divisor);
+[[nodiscard]] QueryStream query_stream(const Stream& stream);
+[[nodiscard]] MotionQuery draw_query(const Stream& stream, ChoiceSource& source);
 /// Makes one query of each class, so that what is made once (a recording) is not charged to a case.
 void prepare_queries();
-[[nodiscard]] QueryStream query_stream(const Stream& stream);
-
-[[nodiscard]] std::unique_ptr<Property> make_query_campaign(const QueryProperty& property);
 
 }  // namespace selvage::fuzz

@@ -34,8 +34,7 @@ class Conformance final : public Property {
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
     if (!has_loaded_cleanly_) return load_failure();
-    const auto [query_class, kind] = query_stream(stream);
-    const MotionQuery query = make_query(*query_class, kind, source);
+    const MotionQuery query = draw_query(stream, source);
     const PluginJudgement verdict = judge_steadily(*plugin_, query, source.one_in(16));
     Outcome outcome{{1, verdict.failure.empty() ? 0 : 1, {}, 0}, verdict.failure};
     outcome.counts.of = {verdict.touches,
@@ -54,8 +53,7 @@ class Conformance final : public Property {
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
                    bool shrunk) override {
-    const auto [query_class, kind] = query_stream(stream);
-    MotionQuery query = make_query(*query_class, kind, source);
+    MotionQuery query = draw_query(stream, source);
     query.options = CcdOptions{.tolerance = 0};  // the plugin has its own
     const bool in_batch = source.one_in(16);
     if (shrunk && failure != kUnsteady) {

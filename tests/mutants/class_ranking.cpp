@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "fuzz/campaign/query_campaign.h"
-#include "fuzz/campaign/query_streams.h"
 #include "fuzz/run/records.h"
+#include "tests/fuzz/query_cases.h"
 #include "tests/mutants/child_processes.h"
 #include "tests/mutants/planted.h"
 
@@ -24,13 +24,23 @@ const fuzz::QueryProperty* query_property(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// In a process of its own: cases and failures of each chunk, in order.
+/// What `count` cases of a stream come to, fewer of a class that is diluted.
+fuzz::Counts counts_of(fuzz::Property& campaign, const fuzz::Stream& stream, long count) {
+  fuzz::Counts counts;
+  for (std::int64_t number = 0; number < fuzz::diluted(stream, count); ++number) {
+    counts += campaign.run(stream, fuzz::source_of_case(kSeed, stream, number)).counts;
+  }
+  return counts;
+}
+
+/// In a process of its own: cases and failures of each stream, in order.
 std::string count_failures(const Mutant& mutant, const fuzz::QueryProperty& property, long cases) {
   planted = mutant.number;
+  const auto campaign = fuzz::make_query_campaign(property);
   std::string text;
-  for (const fuzz::Chunk& chunk : fuzz::make_chunks(0, cases)) {
-    const auto tally = fuzz::run_chunk(property, fuzz::selvage_kernel, kSeed, chunk, [](const fuzz::Failure&) {});
-    text += std::to_string(tally.cases) + " " + std::to_string(tally.failures) + " ";
+  for (const fuzz::Stream& stream : campaign->streams()) {
+    const fuzz::Counts counts = counts_of(*campaign, stream, cases);
+    text += std::to_string(counts.cases) + " " + std::to_string(counts.failures) + " ";
   }
   return text;
 }
@@ -41,12 +51,7 @@ std::string find_records(long cases) {
   fuzz::PropertyLedger ledger{campaign->name(), {}, {}, campaign->counters(), {}, {}};
   for (const fuzz::Stream& stream : campaign->streams()) {
     ledger.streams.push_back(stream.name);
-    fuzz::Counts& counts = ledger.rows.emplace_back();
-    const long count = cases / fuzz::query_stream(stream).query_class->dilution;
-    for (long number = 0; number < count; ++number) {
-      const std::uint64_t seed = fuzz::case_seed(kSeed, stream, number);
-      counts += campaign->run(stream, fuzz::ChoiceSource::from_seed(seed)).counts;
-    }
+    ledger.rows.push_back(counts_of(*campaign, stream, cases));
   }
   std::string text;
   for (const fuzz::SharpnessRecord& record : fuzz::sharpness_records(ledger)) {
@@ -64,19 +69,20 @@ struct Shares {
   std::vector<bool> kills;
 };
 
-Shares shares_of(const std::string& text, long cases) {
+Shares shares_of(const std::string& text) {
   const auto& classes = fuzz::query_classes();
   Shares shares;
   for (auto& of_kind : shares.of_kind) of_kind.resize(classes.size());
   shares.of_unit.resize(classes.size());
   shares.kills.resize(classes.size());
   std::istringstream in(text);
-  for (const fuzz::Chunk& chunk : fuzz::make_chunks(0, cases)) {
+  for (const fuzz::Stream& stream : fuzz::query_streams(fuzz::kPairKinds, 1)) {
     double asked = 0, failures = 0;
     in >> asked >> failures;
-    const auto i = static_cast<std::size_t>(chunk.query_class - classes.data());
-    shares.of_kind[static_cast<std::size_t>(chunk.kind)][i] = failures / asked;
-    shares.of_unit[i] += failures / asked * static_cast<double>(chunk.query_class->per_unit);
+    const auto [query_class, kind] = fuzz::query_stream(stream);
+    const auto i = static_cast<std::size_t>(query_class - classes.data());
+    shares.of_kind[static_cast<std::size_t>(kind)][i] = failures / asked;
+    shares.of_unit[i] += failures / asked * static_cast<double>(query_class->per_unit);
     if (failures > 0) shares.kills[i] = true;
   }
   return shares;
@@ -132,7 +138,7 @@ std::vector<ClassWorth> rank_classes(const std::vector<Mutant>& mutants, long ca
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const ChildResult& result = results[i + 1];
     if (result.end == ChildEnd::kDone) {
-      add(*asked[i], shares_of(result.text, cases), classes);
+      add(*asked[i], shares_of(result.text), classes);
     } else {
       std::fprintf(stderr, "%s crashes or hangs: no class is ranked by it\n", asked[i]->name.c_str());
     }

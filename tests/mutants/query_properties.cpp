@@ -1,5 +1,7 @@
 // Queries against exact arithmetic (K1 to K5), class after class; kept failures.
 #include "fuzz/campaign/query_campaign.h"
+#include "fuzz/kept/case_file.h"
+#include "tests/fuzz/query_cases.h"
 #include "tests/mutants/properties.h"
 
 namespace selvage::mutants {
@@ -8,17 +10,16 @@ namespace {
 /// One case of every class and kind, then the next one of each.
 template <std::size_t property>
 std::optional<Kill> falsify_query(std::uint64_t seed, long limit) {
-  long cases = 0;
-  for (std::int64_t round = 0;; ++round) {
-    for (const fuzz::Chunk& chunk : fuzz::make_chunks(round, 1)) {
-      if (cases == limit) return std::nullopt;
-      ++cases;
-      std::string what;
-      (void)fuzz::run_chunk(fuzz::query_properties()[property], fuzz::selvage_kernel, seed, chunk,
-                            [&](const fuzz::Failure& failure) { what = failure.what + ", " + failure.query_class; });
-      if (!what.empty()) return Kill{cases, what};
-    }
-  }
+  const auto campaign = fuzz::make_query_campaign(fuzz::query_properties()[property]);
+  Kill kill;
+  fuzz::for_cases_in_turn(campaign->streams(), [&](const fuzz::Stream& stream, std::int64_t number) {
+    if (kill.cases == limit) return false;
+    ++kill.cases;
+    kill.what = campaign->run(stream, fuzz::source_of_case(seed, stream, number)).failure;
+    if (!kill.what.empty()) kill.what += ", " + fuzz::query_stream(stream).query_class->name;
+    return kill.what.empty();
+  });
+  return kill.what.empty() ? std::nullopt : std::optional(kill);
 }
 
 /// A case is a kept case; only what a property chooses besides it depends on the seed.

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/campaign/query_campaign.h"
+#include "fuzz/kept/case_file.h"
+#include "tests/fuzz/query_cases.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -19,27 +21,27 @@ TEST(Generators, NamesAreUnique) {
 }
 
 /// Exact touches and ends within the tolerance, without asking any kernel.
-Tally tally_of(const Chunk& chunk) {
-  Tally tally;
-  for (std::int64_t number = chunk.first; number < chunk.first + chunk.count; ++number) {
-    ChoiceSource source = ChoiceSource::from_seed(case_seed(1, chunk, number));
-    const MotionQuery query = make_query(*chunk.query_class, chunk.kind, source);
+Counts counts_of(const Stream& stream) {
+  Counts counts;
+  for (; counts.cases < diluted(stream, kDraws); ++counts.cases) {
+    ChoiceSource source = source_of_case(1, stream, counts.cases);
+    const MotionQuery query = draw_query(stream, source);
     const bool touches = exact_motion(query, verify::Detail::kDecision).touches;
-    ++tally.cases;
-    tally.touches += touches;
-    tally.hits += touches || within_at(query, 1, query.options.tolerance);
+    counts.of[kTouches] += touches;
+    counts.of[kHits] += touches || within_at(query, 1, query.options.tolerance);
   }
-  return tally;
+  return counts;
 }
 
 TEST(Generators, ShareOfExactHitsIsInItsBand) {
   std::int64_t hits = 0;
-  for (const Chunk& chunk : make_chunks(0, kDraws)) {
-    const Tally tally = tally_of(chunk);
-    hits += tally.hits;
-    EXPECT_FALSE(is_out_of_band(*chunk.query_class, chunk.kind, tally))
-        << chunk.query_class->name << " " << name_of(chunk.kind) << ": " << tally.touches << " touches, " << tally.hits
-        << " hits in " << tally.cases << " cases";
+  for (const Stream& stream : query_streams(kPairKinds, 1)) {
+    const Counts counts = counts_of(stream);
+    hits += counts.of[kHits];
+    const auto [query_class, kind] = query_stream(stream);
+    EXPECT_FALSE(is_out_of_band(*query_class, kind, counts))
+        << stream.name << ": " << counts.of[kTouches] << " touches, " << counts.of[kHits] << " hits in " << counts.cases
+        << " cases";
   }
   EXPECT_GT(hits, 10000);
 }
@@ -49,24 +51,26 @@ TEST(Generators, ADeadClassIsOutOfBand) {
   for (const QueryClass& query_class : query_classes()) {
     for (const PairKind kind : kPairKinds) {
       if (!query_class.band(kind)) continue;
-      Tally dead;
+      Counts dead;
       dead.cases = 20000;
       EXPECT_TRUE(is_out_of_band(query_class, kind, dead)) << query_class.name << " " << name_of(kind);
       if (query_class.band(kind)->high == 1) continue;
-      Tally saturated{20000, 20000, 20000, 0, 0, 0, 0};
+      Counts saturated = dead;
+      saturated.of[kTouches] = saturated.of[kHits] = saturated.cases;
       EXPECT_TRUE(is_out_of_band(query_class, kind, saturated)) << query_class.name << " " << name_of(kind);
     }
   }
 }
 
 TEST(Generators, CasesDiffer) {
-  for (const Chunk& chunk : make_chunks(0, 64)) {
+  for (const Stream& stream : query_streams(kPairKinds, 1)) {
     std::set<std::string> seen;
-    for (std::int64_t number = 0; number < chunk.count; ++number) {
-      ChoiceSource source = ChoiceSource::from_seed(case_seed(1, chunk, number));
-      seen.insert(format_case({make_query(*chunk.query_class, chunk.kind, source), "x", false}));
+    const std::int64_t count = diluted(stream, 64);
+    for (std::int64_t number = 0; number < count; ++number) {
+      ChoiceSource source = source_of_case(1, stream, number);
+      seen.insert(format_case({draw_query(stream, source), "x", false}));
     }
-    EXPECT_GT(seen.size(), static_cast<std::size_t>(chunk.count * 9 / 10)) << chunk.query_class->name;
+    EXPECT_GT(seen.size(), static_cast<std::size_t>(count * 9 / 10)) << stream.name;
   }
 }
 
@@ -83,11 +87,11 @@ TEST(Generators, TheSimplestQueryOfEveryClassIsInTheDomain) {
 }
 
 TEST(Generators, EveryQueryIsInTheDomain) {
-  for (const Chunk& chunk : make_chunks(0, 1000)) {
-    for (std::int64_t number = 0; number < chunk.count; ++number) {
-      ChoiceSource source = ChoiceSource::from_seed(case_seed(2, chunk, number));
-      const MotionQuery query = make_query(*chunk.query_class, chunk.kind, source);
-      ASSERT_LE(max_coordinate(query), kMaxCoordinate) << chunk.query_class->name << " " << number;
+  for (const Stream& stream : query_streams(kPairKinds, 1)) {
+    for (std::int64_t number = 0; number < diluted(stream, 1000); ++number) {
+      ChoiceSource source = source_of_case(2, stream, number);
+      const MotionQuery query = draw_query(stream, source);
+      ASSERT_LE(max_coordinate(query), kMaxCoordinate) << stream.name << " " << number;
       ASSERT_TRUE(std::isfinite(query.options.tolerance) && query.options.tolerance >= 0);
     }
   }

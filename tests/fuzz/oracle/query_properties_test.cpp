@@ -1,5 +1,7 @@
 // The kernel's promises K1 to K5 against exact arithmetic, on every class of queries; and the proof that each property
 // can fail, by kernels that are known to be bad. RC_PARAMS="seed=S max_success=N" makes longer runs.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "fuzz/campaign/query_campaign.h"
@@ -8,6 +10,7 @@
 #include "fuzz/oracle/query_property.h"
 #include "tests/fuzz/bad_kernels.h"
 #include "tests/fuzz/drawn_query.h"
+#include "tests/fuzz/query_cases.h"
 #include "tests/property.h"
 
 namespace selvage::fuzz {
@@ -128,35 +131,35 @@ TEST(KernelPromises, ANearMissIsMeasuredWhereTheQueryHasASize) {
   EXPECT_EQ(judge(query, alarm).near_miss_bits, 50);
 }
 
-/// Cases of the property until the kernel fails, one round over all classes and kinds after another; -1 if it never
-/// does.
+const QueryProperty& property_named(std::string_view name) {
+  return *std::ranges::find(query_properties(), name, &QueryProperty::name);
+}
+
+/// Cases of the property until the kernel fails, one of each class and kind after another; -1 if that takes more than
+/// `limit`.
 std::int64_t cases_until_failure(std::string_view name, CcdKernel kernel, std::int64_t limit, std::string& what) {
-  for (const QueryProperty& property : query_properties()) {
-    if (property.name != name) continue;
-    std::int64_t cases = 0;
-    for (std::int64_t round = 0; cases < limit; ++round) {
-      for (const Chunk& chunk : make_chunks(round, 1)) {
-        ++cases;
-        bool failed = false;
-        (void)run_chunk(property, kernel, kQuerySeed, chunk, [&](const Failure& failure) {
-          failed = true;
-          what = failure.what;
-        });
-        if (failed) return cases;
-      }
-    }
-  }
-  return -1;
+  const auto campaign = make_query_campaign(property_named(name), kernel);
+  std::int64_t cases = 0;
+  for_cases_in_turn(campaign->streams(), [&](const Stream& stream, std::int64_t number) {
+    if (cases == limit) return false;
+    ++cases;
+    what = campaign->run(stream, source_of_case(kQuerySeed, stream, number)).failure;
+    return what.empty();
+  });
+  return what.empty() ? -1 : cases;
 }
 
 /// Whether some class is left unresolved too often.
 bool leaves_too_much_open(CcdKernel kernel) {
-  bool too_often = false;
-  for (const Chunk& chunk : make_chunks(0, 100)) {
-    const Tally tally = run_chunk(query_properties()[0], kernel, kQuerySeed, chunk, [](const Failure&) {});
-    too_often = too_often || is_unresolved_too_often(chunk.kind, tally);
+  const auto campaign = make_query_campaign(property_named("ccd"), kernel);
+  for (const Stream& stream : campaign->streams()) {
+    Counts counts;
+    for (std::int64_t number = 0; number < diluted(stream, 100); ++number) {
+      counts += campaign->run(stream, source_of_case(kQuerySeed, stream, number)).counts;
+    }
+    if (is_unresolved_too_often(query_stream(stream).kind, counts)) return true;
   }
-  return too_often;
+  return false;
 }
 
 TEST(KernelPromises, FewAnswersAreUnresolved) {

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "fuzz/campaign/query_campaign.h"
+#include "fuzz/oracle/query_property.h"
 #include "tests/fuzz/bad_kernels.h"
+#include "tests/fuzz/query_cases.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -22,19 +23,23 @@ TEST(ShrinkQuery, PlantedDefectsComeDownToAFewShortNumbers) {
   const QueryProperty& ccd = query_properties()[0];
   for (const CcdKernel kernel : {CcdKernel{open_at_end}, CcdKernel{late}, CcdKernel{always_separated}}) {
     int shrunk_failures = 0, few = 0;
-    for (const Chunk& chunk : make_chunks(0, 2)) {
-      (void)run_chunk(ccd, kernel, 3, chunk, [&](const Failure& failure) {
-        const auto still_fails = [&](const MotionQuery& query) {
-          ChoiceSource unused = ChoiceSource::from_words({});
-          return ccd.check(query, kernel, unused).failure == failure.what;
-        };
-        const Shrunk shrunk = shrink(failure.kept.query, still_fails);
-        EXPECT_TRUE(still_fails(shrunk.query));
-        EXPECT_LE(cost_of(shrunk.query), cost_of(failure.kept.query));
+    const auto failure_of = [&](const MotionQuery& query) {
+      ChoiceSource unused = ChoiceSource::from_words({});
+      return ccd.check(query, kernel, unused).failure;
+    };
+    for (const Stream& stream : query_streams(kPairKinds, 1)) {
+      for (std::int64_t number = 0; number < diluted(stream, 2); ++number) {
+        ChoiceSource source = source_of_case(3, stream, number);
+        const MotionQuery query = draw_query(stream, source);
+        const std::string_view what = failure_of(query);
+        if (what.empty()) continue;
+        const Shrunk shrunk = shrink(query, [&](const MotionQuery& simpler) { return failure_of(simpler) == what; });
+        EXPECT_EQ(failure_of(shrunk.query), what);
+        EXPECT_LE(cost_of(shrunk.query), cost_of(query));
         few += cost_of(shrunk.query).non_zero <= 12 ? 1 : 0;
         EXPECT_LT(shrunk.trials, 5000);
         ++shrunk_failures;
-      });
+      }
     }
     EXPECT_GT(shrunk_failures, 3);
     EXPECT_GE(few * 10, shrunk_failures * 9);  // what lives in the last bits stays long
