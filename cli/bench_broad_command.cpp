@@ -58,7 +58,7 @@ std::vector<int> sheet_sides(int largest) {
 }
 
 ExitCode bench_broad(const BroadArguments& arguments) {
-  require_separate_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
+  require_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
   const auto rivals = bench::load_rivals(bench::rivals_beside_program());
   for (const bench::LoadedRival& rival : rivals) {
     if (!rival.create) say("selvage: without {}: {}\n", rival.name, rival.absent);

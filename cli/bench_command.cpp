@@ -72,7 +72,7 @@ void print_contradicted(const std::vector<std::string>& places) {
 }
 
 ExitCode bench_queries(const BenchArguments& arguments) {
-  require_separate_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
+  require_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
   std::vector<bench::QueryFile> files;
   std::size_t count = 0;
   for (const std::string& name : arguments.files) {
@@ -133,7 +133,7 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   if (!from_files && !arguments.truth.empty()) throw UsageError("--truth belongs to frames from files: name two");
   std::vector<std::filesystem::path> inputs = {arguments.frame_t0, arguments.frame_t1};
   for (const std::vector<std::string>& files : arguments.truth) inputs.insert(inputs.end(), files.begin(), files.end());
-  require_separate_outputs(inputs, {arguments.json});
+  require_outputs(inputs, {arguments.json});
   const bench::MeshMotion motion = from_files ? bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1)
                                               : bench::crumpled_sheet(arguments.sheet);
   std::vector<bench::LabelledPair> labels;

@@ -34,7 +34,7 @@ std::string table(const bench::SetReport& report) {
 }
 
 ExitCode bench_methods(const MethodsArguments& arguments) {
-  require_separate_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
+  require_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
   std::vector<bench::SetReport> reports;
   const auto run = [&](const bench::QuerySet& set) {
     if (set.queries.empty()) return;

@@ -61,7 +61,7 @@ std::string tables(const bench::SimBenchReport& report) {
 }
 
 ExitCode bench_sim(const SimBenchArguments& arguments) {
-  require_separate_outputs({}, {arguments.json});
+  require_outputs({}, {arguments.json});
   const bench::SimBenchReport report = bench::run_sim_bench(arguments.options);
   fmt::print("{}", tables(report));
   fmt::print("processor time of all threads, best of {} runs (growth: one run)\n", arguments.options.repeat);

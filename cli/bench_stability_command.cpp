@@ -40,7 +40,7 @@ ExitCode bench_stability(const StabilityArguments& arguments) {
       fmt::print("{:<22} {}\n{:<22} asked: {}\n", c.name, c.difficulty, "", c.criterion);
     return ExitCode::kClean;
   }
-  require_separate_outputs({}, {arguments.json});
+  require_outputs({}, {arguments.json});
   catch_interrupts();
   ProgressBar bar("hard cases");
   bench::StabilityOptions options;

@@ -41,7 +41,7 @@ std::string table(const bench::VerifySheetReport& report) {
 }
 
 ExitCode bench_verify(const VerifyBenchArguments& arguments) {
-  require_separate_outputs({}, {arguments.json});
+  require_outputs({}, {arguments.json});
   const bench::LoadedFrameRival rival = bench::load_frame_rival(bench::rivals_beside_program());
   if (!rival.create) say("selvage: without CGAL: {}\n", rival.absent);
   const std::vector<bench::VerifySheetReport> reports = bench::run_verify_bench(rival, arguments.options);

@@ -130,7 +130,7 @@ std::string json_of(const Diagnosis& diagnosis) {
 }
 
 ExitCode run(unsigned fp_as_found, const std::string& json) {
-  require_separate_outputs({}, {json});
+  require_outputs({}, {json});
   const Diagnosis diagnosis = examine(fp_as_found);
   if (!json.empty()) io::write_atomically(json, json_of(diagnosis));
   print(diagnosis);

@@ -72,7 +72,7 @@ ExitCode run(const MergeArguments& arguments) {
       files.emplace_back(source);
     }
   }
-  require_separate_outputs(files, {arguments.output, arguments.html});
+  require_outputs(files, {arguments.output, arguments.html});
   std::vector<verify::Part> parts;
   for (const fs::path& file : files) {
     parts.push_back({file.string(), verify::parse_report(io::read_file(file), file.string())});

@@ -11,6 +11,7 @@
 #include "cli/arguments/choice.h"
 #include "cli/arguments/hidden_groups.h"
 #include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
 #include "cli/arguments/sequence_argument.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
@@ -34,6 +35,7 @@ struct RenderArguments {
 ExitCode render_sequence(const RenderArguments& arguments) {
   catch_interrupts();
   require_outputs_apart_from(arguments.sequence, {arguments.picture});
+  require_writable({arguments.picture});
   const auto sequence = without_groups(open_sequence(arguments.sequence), arguments.hidden);
   SheetOptions options{arguments.frames, arguments.columns, arguments.width, arguments.view};
   if (options.frames.empty()) options.frames = spread_frames(*sequence, arguments.tiles);

@@ -65,7 +65,7 @@ ExitCode run(const ReplayArguments& arguments) {
     asked = {arguments.plugin, arguments.case_time_s};
     inputs.emplace_back(arguments.plugin);
   }
-  require_separate_outputs(inputs, {arguments.json});
+  require_outputs(inputs, {arguments.json});
   int for_plugins = 0;
   std::vector<Explanation> explanations;
   std::string json = "{\n\"schema\": \"selvage.replay/1\",\n\"cases\": [";

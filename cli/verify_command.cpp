@@ -65,7 +65,7 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
 }
 
 /// Before the check, which may take hours.
-void require_outputs(const VerifyArguments& arguments) {
+void require_writable_outputs(const VerifyArguments& arguments) {
   require_writable({arguments.json, arguments.html});
   if (arguments.cases.empty()) return;
   create_case_folder(arguments.cases);
@@ -109,7 +109,7 @@ ExitCode run(const VerifyArguments& arguments) {
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
   const verify::ReportContext context = report_context(arguments, *sequence, options);
   print_notes(notes_on_groups(arguments, *sequence));
-  require_outputs(arguments);
+  require_writable_outputs(arguments);
   verify::SequenceReport report = check(arguments, *sequence, options, context);
   const auto print = [&] {
     const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));

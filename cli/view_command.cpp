@@ -9,6 +9,7 @@
 
 #include "cli/arguments/choice.h"
 #include "cli/arguments/hidden_groups.h"
+#include "cli/arguments/output_check.h"
 #include "cli/arguments/sequence_argument.h"
 #include "cli/page/player_page.h"
 #include "cli/page/report_words.h"
@@ -28,6 +29,7 @@ struct ViewArguments {
 
 ExitCode view_sequence(const ViewArguments& arguments) {
   require_outputs_apart_from(arguments.sequence, {arguments.page});
+  require_writable({arguments.page});
   const auto sequence = without_groups(open_sequence(arguments.sequence), arguments.hidden);
   const std::string title = source_names({arguments.sequence.sources.begin(), arguments.sequence.sources.end()});
   ProgressBar bar("packing");

@@ -102,4 +102,9 @@ void require_writable(const std::vector<fs::path>& outputs) {
   }
 }
 
+void require_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  require_separate_outputs(inputs, outputs);
+  require_writable(outputs);
+}
+
 }  // namespace selvage::cli

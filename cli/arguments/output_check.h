@@ -31,4 +31,8 @@ void require_folder_name(const std::filesystem::path& output);
 /// Throws io::Error where one of them could not be written now: better before long work than after it. Leaves nothing.
 void require_writable(const std::vector<std::filesystem::path>& outputs);
 
+/// Both, for reports in folders that are there: require_separate_outputs() and require_writable().
+void require_outputs(const std::vector<std::filesystem::path>& inputs,
+                     const std::vector<std::filesystem::path>& outputs);
+
 }  // namespace selvage::cli

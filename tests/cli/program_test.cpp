@@ -186,6 +186,35 @@ TEST(Program, AReportThatWasCutIsNamedInOneLine) {
   }
 }
 
+// Each of these would else compute, and print, or come upon what it cannot read.
+TEST(Program, ReportsThatCannotBeWrittenAreFoundBeforeTheWork) {
+  const TemporaryFolder folder;
+  const auto none = folder.path() / "no" / "x", junk = folder.path() / "junk.obj", part = folder.path() / "part.json";
+  spit(junk, "v 0 0 zero\n");
+  spit(part, "{}");
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"bench", "queries", junk, "--kind", "vf", "--json"},
+                                             {"bench", "ccd", "--json"},
+                                             {"bench", "broad", "--json"},
+                                             {"bench", "methods", "--json"},
+                                             {"bench", "sim", "--json"},
+                                             {"bench", "verify", "--json"},
+                                             {"bench", "stability", "--json"},
+                                             {"doctor", "--json"},
+                                             {"merge", part, "-o"},
+                                             {"merge", part, "-o", folder.path() / "all.json", "--html"},
+                                             {"render", junk, "-o"},
+                                             {"replay", junk, "--json"},
+                                             {"view", junk, "-o"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.push_back(none);
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 4) << command[0] << " " << command[1] << ": " << result.err;
+    EXPECT_NE(result.err.find(none.string()), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "") << command[0];
+  }
+}
+
 TEST(Program, AFileBeyondTheSizeLimitIsAFileErrorAndLeavesNothing) {
   const TemporaryFolder folder;
   std::string mesh;
