@@ -55,7 +55,7 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
   };
   try {
     verify::SequenceReport report = verify::check_sequence(sequence, options);
-    if (interrupted()) (void)progress.flush();
+    if (!is_complete(report)) (void)progress.flush();
     return report;
   } catch (const verify::GroupRuleError& error) {
     throw UsageError(and_what_is_kept(error.what()));

@@ -123,6 +123,8 @@ struct SequenceOptions {
   /// Called between units of work with (done, total); returning false stops the check, and the verdict is kUnknown. So
   /// does check.stop, within a unit, which then counts as not checked.
   std::function<bool(std::size_t, std::size_t)> progress;
+  /// Stop behind the first frame that is violated, itself or in the motion that leads to it.
+  bool stop_at_violation = false;
   GroupRules rules = {};
   bool gap = false;   ///< find the smallest gap of all frames that are checked
   bool weld = false;  ///< vertices with the same bits in every frame are one; reads the whole sequence beforehand

@@ -32,7 +32,7 @@ class SequenceCheck {
       try {
         while (next < end && step(next)) ++next;
       } catch (const Stopped&) {
-        note_stop();
+        note_stop("on request");
       }
     }
     report_.verdict = verdict_of(report_);
@@ -108,7 +108,7 @@ class SequenceCheck {
 
   /// Frame i, and the motion that leads to it. False: stop.
   bool step(std::size_t i) {
-    if (!report_progress()) return false;
+    if (!report_progress() || is_decided()) return false;
     Frame frame = read(i);
     if (options_.motions && i > 0 && !check_motion_to(i, frame)) return false;
     if (options_.frames) check_instant(i, frame);
@@ -214,12 +214,19 @@ class SequenceCheck {
 
   bool report_progress() {
     if (!options_.progress || options_.progress(units_done_, unit_count())) return true;
-    note_stop();
+    note_stop("on request");
     return false;
   }
 
-  void note_stop() {
-    report_.unchecked.push_back("stopped on request after " + std::to_string(units_done_) + " of " +
+  /// Whether no more is asked than what is known. Says so.
+  bool is_decided() {
+    if (!options_.stop_at_violation || report_.violations_total.total() == 0) return false;
+    note_stop("at the first violation");
+    return true;
+  }
+
+  void note_stop(const std::string& where) {
+    report_.unchecked.push_back("stopped " + where + " after " + std::to_string(units_done_) + " of " +
                                 std::to_string(unit_count()) + " frames and motions");
   }
 

@@ -89,6 +89,8 @@ void add_long_runs(CLI::App& command, VerifyArguments& arguments) {
       .add_option("--shard", arguments.shard,
                   "Check part i of N of the frames, or auto: as the Slurm array job says; join with selvage merge")
       ->type_name("i/N");
+  command.add_flag("--fail-fast", arguments.fail_fast,
+                   "Stop behind the first frame that is violated, itself or in the motion that leads to it");
   command.add_flag("--resume", arguments.resume,
                    "Continue the run that was stopped before it finished the report of --json; start anew if there is "
                    "none");
@@ -173,6 +175,7 @@ verify::SequenceOptions sequence_options(const VerifyArguments& arguments, const
   options.rules.ignore = arguments.ignore;
   options.weld = arguments.weld;
   options.gap = arguments.gap;
+  options.stop_at_violation = arguments.fail_fast;
   if (arguments.second_opinion) options.check.second_opinion = verify::SecondOpinionScope::kUndecided;
   if (arguments.second_opinion_all) options.check.second_opinion = verify::SecondOpinionScope::kAll;
   if (!arguments.shard.empty()) options.range = frames_of(parse_shard(arguments.shard), sequence.frame_count());

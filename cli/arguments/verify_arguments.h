@@ -20,6 +20,7 @@ namespace selvage::cli {
 struct VerifyArguments {
   SequenceArgument sequence;
   bool frames_only = false, motion = false, bodies = false, weld = false, resume = false, gap = false;
+  bool fail_fast = false;
   bool second_opinion = false, second_opinion_all = false;
   std::optional<double> min_distance;
   std::vector<std::string> groups, body, exempt, ignore;
@@ -40,10 +41,10 @@ inline constexpr std::int64_t kViolationsInText = 10;
 /// UsageError where there is no such group.
 [[nodiscard]] std::unique_ptr<io::SequenceReader> open_sequence(const VerifyArguments& arguments);
 
-/// Throws UsageError where they make no sense for the sequence.
 /// Of each --group that has the name of a group of the sequence: that the two are one.
 [[nodiscard]] std::vector<std::string> notes_on_groups(const VerifyArguments& arguments,
                                                        const io::SequenceReader& sequence);
+/// Throws UsageError where they make no sense for the sequence.
 [[nodiscard]] verify::SequenceOptions sequence_options(const VerifyArguments& arguments,
                                                        const io::SequenceReader& sequence);
 /// What decides on the verdict, by name and in a fixed order: reports on parts are joined only where it is the same.

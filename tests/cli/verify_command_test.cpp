@@ -421,6 +421,27 @@ TEST(VerifyCommand, AnInterruptThatLeavesWorkIs75WhateverWasFound) {
   EXPECT_NE(whole.out.find("stopped on request"), std::string::npos) << whole.out;
 }
 
+TEST(VerifyCommand, FailFastStopsAndCanGoOn) {
+  const TemporaryFolder folder;
+  const auto bad = folder.path() / "bad.obj", good = folder.path() / "good.obj", json = folder.path() / "report.json";
+  spit(bad, two_faces(0));
+  spit(good, two_faces(1));
+  const std::vector<std::string> all = {"verify", "--frames-only", "--json", json, good, bad, good, bad};
+  std::vector<std::string> fast = all, on = all;
+  fast.emplace_back("--fail-fast");
+  on.emplace_back("--resume");
+  const auto stopped = run_program(folder, fast);
+  EXPECT_EQ(stopped.exit_code, 1) << stopped.err;
+  EXPECT_TRUE(stopped.out.starts_with("violated\n")) << stopped.out;
+  EXPECT_NE(stopped.out.find("stopped at the first violation after 2 of 4 frames"), std::string::npos) << stopped.out;
+  EXPECT_EQ(nlohmann::json::parse(testing::slurp(json))["frames"]["checked"], 2);
+
+  const auto whole = run_program(folder, on);
+  EXPECT_EQ(whole.exit_code, 1) << whole.err;
+  EXPECT_EQ(whole.out.find("stopped"), std::string::npos) << whole.out;
+  EXPECT_EQ(nlohmann::json::parse(testing::slurp(json))["frames"]["violated"], 2);
+}
+
 TEST(VerifyCommand, OutputsThatCannotBeWrittenAreFoundBeforeTheCheck) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "a.obj", run = folder.path() / "run", none = folder.path() / "no" / "x";

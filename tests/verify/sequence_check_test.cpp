@@ -146,6 +146,24 @@ TEST(SequenceCheck, StoppedIsUnknown) {
   }
 }
 
+TEST(SequenceCheck, AsksNoMoreThanTheFirstViolationWhereThatIsEnough) {
+  SequenceOptions options;
+  options.stop_at_violation = true;
+  const std::vector<io::MeshData> meshes = {sheet_and_triangle(3), sheet_and_triangle(-3), sheet_and_triangle(-4)};
+  const SequenceReport report = check_frames(meshes, options);
+  EXPECT_EQ(report.verdict, Verdict::kViolated);
+  EXPECT_EQ(report.motions.checked, 1) << "the motion to the second frame is violated";
+  EXPECT_EQ(report.frames.checked, 2) << "which is checked to its end";
+  EXPECT_FALSE(is_complete(report));
+  ASSERT_EQ(report.unchecked.size(), 1U);
+  EXPECT_EQ(report.unchecked.front(), "stopped at the first violation after 3 of 5 frames and motions");
+
+  const SequenceReport last = check_frames({meshes[1], meshes[2], meshes[0]}, options);
+  EXPECT_EQ(last.verdict, Verdict::kViolated);
+  EXPECT_TRUE(is_complete(last)) << "nothing is left to be stopped";
+  EXPECT_EQ(check_frames({meshes[1], meshes[2]}, options).verdict, Verdict::kClean);
+}
+
 TEST(SequenceCheck, IsStoppedWithinAFrameThatCollapsed) {
   constexpr std::int64_t kFew = 50;  // of some 1000 blocks of pairs
   io::MeshData collapsed = sheet(40);
