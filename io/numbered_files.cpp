@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,11 +21,30 @@ namespace fs = std::filesystem;
 
 namespace {
 
+bool is_digits(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 struct NumberedFile {
   std::int64_t number;
   std::string digits;  ///< of which some may be leading zeros
   fs::path file;
 };
+
+std::optional<std::int64_t> frame_number(std::string_view digits) {
+  constexpr std::size_t kMostDigits = 18;  // of every such number std::int64_t holds the double
+  std::int64_t number = 0;
+  if (digits.size() > kMostDigits || !is_digits(digits)) return std::nullopt;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return number;
+}
+
+/// Whether it is a number that no frame has: one that was passed over would be a frame that is not missed.
+bool is_other_number(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  const std::size_t point = std::min(text.find('.'), text.size());
+  return is_digits(text.substr(0, point)) && (point == text.size() || is_digits(text.substr(point + 1)));
+}
 
 /// `number` with as many digits as its neighbour below has.
 std::string digits_like(const std::string& neighbour, std::int64_t number) {
@@ -73,10 +93,13 @@ std::vector<fs::path> numbered_files(const fs::path& pattern) {
     const std::string file = entry->path().filename().string();
     if (file.size() <= before.size() + after.size() || !file.starts_with(before) || !file.ends_with(after)) continue;
     const char *begin = file.data() + before.size(), *stop = file.data() + file.size() - after.size();
-    std::int64_t number = 0;
-    const auto [behind, error] = std::from_chars(begin, stop, number);
-    if (error != std::errc() || behind != stop || number < 0) continue;
-    found.push_back({number, std::string(begin, stop), pattern.parent_path() / file});
+    const std::string digits(begin, stop);
+    if (const auto number = frame_number(digits)) {
+      found.push_back({*number, digits, pattern.parent_path() / file});
+    } else if (is_other_number(digits)) {
+      bad_input((pattern.parent_path() / file).string(),
+                "frames are numbered 0, 1, ... up to 18 digits, without sign or fraction; rename it, or move it away");
+    }
   }
   if (status) file_error(folder.string(), "list", status.value());
   if (found.empty()) {

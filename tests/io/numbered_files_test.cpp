@@ -66,6 +66,19 @@ TEST_F(NumberedFiles, TheOneThatIsMissingIsNamed) {
 
 TEST_F(NumberedFiles, NoneAtAllIsAFileThatIsNotThere) { expect_missing("walk_*.obj", "walk_*.obj"); }
 
+// Negative frames are a run-up, and fractions are sub-frames: neither may be left out unseen.
+TEST_F(NumberedFiles, NumbersThatNoFrameHasAreRefused) {
+  make({"up_-1.obj", "up_0.obj", "half_1.5.obj", "half_1.obj", "long_1234567890123456789.obj", "long_1.obj"});
+  for (const auto& [pattern, file] : {std::pair("up_*.obj", "up_-1.obj"), std::pair("half_*.obj", "half_1.5.obj"),
+                                      std::pair("long_*.obj", "long_1234567890123456789.obj")}) {
+    const auto [kind, message] = refusal_of(pattern);
+    EXPECT_EQ(kind, ErrorKind::kBadInput);
+    EXPECT_NE(message.find(file), std::string::npos) << message;
+  }
+  make({"v_1.obj", "v_1.2.3.obj", "v_-.obj", "v_.5.obj", "v_1..obj", "v_999999999999999999.x.obj"});
+  EXPECT_EQ(names_of("v_*.obj"), std::vector<std::string>{"v_1.obj"}) << "the others are no numbers";
+}
+
 TEST_F(NumberedFiles, WhatIsNoNumberingIsRefused) {
   make({"twice_1.obj", "twice_01.obj", "odd_0.obj", "odd_4.obj", "odd_10.obj"});
   EXPECT_EQ(refusal_of("twice_*.obj").kind, ErrorKind::kBadInput);
