@@ -76,7 +76,7 @@ TEST(VerifyPage, SaysWhatTheReportSays) {
   const auto cases = data_of(html, "cases");
   ASSERT_EQ(cases.size(), 3U);
   EXPECT_NE(html.find("selvage replay " + cases[0]["name"].get<std::string>()), html.npos);
-  spit(kept, cases[0]["text"]);
+  spit(kept, cases[0]["text"].get<std::string>());
   const auto replayed = run_program(folder, {"replay", kept});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_NE(replayed.out.find(report["violations"][0]["t"]["lower"]), std::string::npos) << replayed.out;

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::expect_error;
-using testing::read_plainly;
+using testing::slurp;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 std::size_t entries(const TemporaryFolder& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
@@ -36,11 +36,11 @@ TEST(AtomicFile, BytesComeBack) {
 
 TEST(AtomicFile, LinkIsFollowed) {
   const TemporaryFolder folder;
-  write_plainly(folder / "target", "old");
+  spit(folder / "target", "old");
   fs::create_symlink(folder / "target", folder / "link");
   write_atomically(folder / "link", "new");
   EXPECT_TRUE(fs::is_symlink(folder / "link"));
-  EXPECT_EQ(read_plainly(folder / "target"), "new");
+  EXPECT_EQ(slurp(folder / "target"), "new");
 }
 
 TEST(AtomicFile, FailureLeavesTheOldFile) {
@@ -70,7 +70,7 @@ void run_as_nobody(const std::function<void()>& action) {
 
 TEST(AtomicFile, UnwritableFolderLeavesTheOldFile) {
   const TemporaryFolder folder;
-  write_plainly(folder / "a", "old");
+  spit(folder / "a", "old");
   fs::permissions(folder.path(),
                   fs::perms::others_read | fs::perms::others_exec | fs::perms::owner_read | fs::perms::owner_exec);
   run_as_nobody([&] {
@@ -78,7 +78,7 @@ TEST(AtomicFile, UnwritableFolderLeavesTheOldFile) {
                  [&] { write_atomically(folder / "a", "new"); });
   });
   fs::permissions(folder.path(), fs::perms::owner_all);
-  EXPECT_EQ(read_plainly(folder / "a"), "old");
+  EXPECT_EQ(slurp(folder / "a"), "old");
 }
 
 TEST(AtomicFile, FullDeviceIsAnErrorAndTheDeviceStays) {
@@ -89,7 +89,7 @@ TEST(AtomicFile, FullDeviceIsAnErrorAndTheDeviceStays) {
 
 TEST(AtomicFile, ReadRefusesWhatHasNoEnd) {
   const TemporaryFolder folder;
-  write_plainly(folder / "a", "12345");
+  spit(folder / "a", "12345");
   EXPECT_EQ(read_file(folder / "a", 5), "12345");
   expect_error(ErrorKind::kBadInput, "larger than 4", [&] { (void)read_file(folder / "a", 4); });
   expect_error(ErrorKind::kFile, "directory", [&] { (void)read_file(folder.path()); });
@@ -116,7 +116,7 @@ TEST(AtomicFile, APipeIsWrittenInPlace) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const std::string bytes(200'000, 'p');
   std::thread writer([&] { write_atomically(pipe, bytes); });
-  EXPECT_EQ(read_plainly(pipe), bytes);
+  EXPECT_EQ(slurp(pipe), bytes);
   writer.join();
 }
 

@@ -113,10 +113,10 @@ int rename(const char* from, const char* to) noexcept {
 namespace selvage::io {
 namespace {
 
-using testing::read_plainly;
 using testing::same_bits;
+using testing::slurp;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 constexpr std::size_t kFrames = 3;
 const SequenceHeader kHeader = {.triangles = {{0, 1, 2}}, .groups = {}, .producer = "test"};
@@ -252,11 +252,11 @@ TEST(AtomicFileFaults, TheOldFileStaysWhateverCallFails) {
   for (const Fault fault : {Fault::kFailOnce, Fault::kFailHalfway}) {
     for (int calls = 0; calls < 4; ++calls) {  // create, write, sync, rename; then the new file is in place
       const TemporaryFolder folder;
-      write_plainly(folder / "a", "old");
+      spit(folder / "a", "old");
       plan = {.is_armed = true, .fault = fault, .calls_before = calls, .log = {}};
       EXPECT_THROW(write_atomically(folder / "a", "new content"), Error);
       plan = {};
-      EXPECT_EQ(read_plainly(folder / "a"), "old");
+      EXPECT_EQ(slurp(folder / "a"), "old");
       EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file is left";
     }
   }
@@ -277,7 +277,7 @@ std::map<std::string, std::string> files_below(const std::filesystem::path& fold
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file() && !is_temporary_name(name)) files[name] = read_plainly(entry.path());
+    if (entry.is_regular_file() && !is_temporary_name(name)) files[name] = slurp(entry.path());
   }
   return files;
 }

@@ -15,9 +15,9 @@ using testing::dictionary;
 using testing::expect_error;
 using testing::npy;
 using testing::numbers;
-using testing::read_plainly;
+using testing::slurp;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 struct Hostile {
   std::string name, parser, bytes, fragment;
@@ -344,18 +344,18 @@ class HostileFolder : public ::testing::Test {
     });
   }
   void replace(const std::string& file, const std::string& from, const std::string& to) {
-    std::string bytes = read_plainly(folder_ / file);
+    std::string bytes = slurp(folder_ / file);
     ASSERT_NE(bytes.find(from), bytes.npos);
-    write_plainly(folder_ / file, bytes.replace(bytes.find(from), from.size(), to));
+    spit(folder_ / file, bytes.replace(bytes.find(from), from.size(), to));
   }
   void forget_checksums() {
     for (const std::string file : {"sequence.json", "frames.jsonl"}) {
-      std::string bytes = read_plainly(folder_ / file);
+      std::string bytes = slurp(folder_ / file);
       for (std::size_t at = 0; (at = bytes.find("\"crc32\"")) != bytes.npos;) {
         const std::size_t comma = bytes.rfind(',', at);
         bytes.erase(comma, bytes.find('}', at) - comma);
       }
-      write_plainly(folder_ / file, bytes);
+      spit(folder_ / file, bytes);
     }
   }
   TemporaryFolder folder_;
@@ -367,36 +367,36 @@ TEST_F(HostileFolder, MissingFrame) {
 }
 
 TEST_F(HostileFolder, OneBitOfAFrame) {
-  std::string bytes = read_plainly(folder_ / "frame_000001.npy");
+  std::string bytes = slurp(folder_ / "frame_000001.npy");
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
-  write_plainly(folder_ / "frame_000001.npy", bytes);
+  spit(folder_ / "frame_000001.npy", bytes);
   expect_refused(ErrorKind::kBadInput, "frame_000001.npy: the checksum differs");
   forget_checksums();
   EXPECT_EQ(open_sequence({folder_.path()})->frame(1).points.size(), 3u) << "checksums are optional";
 }
 
 TEST_F(HostileFolder, OneBitOfTheFaces) {
-  std::string bytes = read_plainly(folder_ / "faces.npy");
+  std::string bytes = slurp(folder_ / "faces.npy");
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
-  write_plainly(folder_ / "faces.npy", bytes);
+  spit(folder_ / "faces.npy", bytes);
   expect_refused(ErrorKind::kBadInput, "faces.npy: the checksum differs");
 }
 
 TEST_F(HostileFolder, FrameOfAnotherSize) {
   forget_checksums();
-  write_plainly(folder_ / "frame_000001.npy", npy(dictionary("<f8", "(2, 3)"), numbers<double>({1, 2, 3, 4, 5, 6})));
+  spit(folder_ / "frame_000001.npy", npy(dictionary("<f8", "(2, 3)"), numbers<double>({1, 2, 3, 4, 5, 6})));
   expect_refused(ErrorKind::kBadInput, "frame_000001.npy: 2 vertices, the first frame has 3");
 }
 
 TEST_F(HostileFolder, FrameOfAnotherType) {
   forget_checksums();
-  write_plainly(folder_ / "frame_000001.npy", npy(dictionary("<f4", "(1, 3)"), numbers<float>({1, 2, 3})));
+  spit(folder_ / "frame_000001.npy", npy(dictionary("<f4", "(1, 3)"), numbers<float>({1, 2, 3})));
   expect_refused(ErrorKind::kBadInput, "frame_000001.npy: the type is not the precision");
 }
 
 TEST_F(HostileFolder, FacesBeyondTheVertices) {
   forget_checksums();
-  write_plainly(folder_ / "faces.npy", npy(dictionary("<i4", "(1, 3)"), numbers<std::int32_t>({0, 1, 3})));
+  spit(folder_ / "faces.npy", npy(dictionary("<i4", "(1, 3)"), numbers<std::int32_t>({0, 1, 3})));
   expect_refused(ErrorKind::kBadInput, "faces.npy: face 0 names vertex 3 of 3");
 }
 
@@ -417,7 +417,7 @@ TEST_F(HostileFolder, NoFrameList) {
 }
 
 TEST_F(HostileFolder, NamesWithLineBreaksStayInOneLine) {
-  write_plainly(folder_ / "a\nb.obj", "x");
+  spit(folder_ / "a\nb.obj", "x");
   expect_error(ErrorKind::kBadInput, "a?b.obj:1: 'x'", [&] { (void)open_sequence({folder_ / "a\nb.obj"}); });
 }
 

@@ -15,8 +15,8 @@
 namespace selvage::io {
 namespace {
 
-using testing::read_plainly;
 using testing::same_bits;
+using testing::slurp;
 using testing::TemporaryFolder;
 
 const SequenceHeader kHeader = {.triangles = {{0, 1, 2}}, .groups = {}, .producer = "test"};
@@ -100,7 +100,7 @@ TEST(SequenceWriterKilled, NothingAcknowledgedIsLostNothingListedIsTorn) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(undisturbed.path())) {
     const std::string name = entry.path().filename().string();
-    EXPECT_EQ(read_plainly(folder / name), read_plainly(undisturbed / name)) << name;
+    EXPECT_EQ(slurp(folder / name), slurp(undisturbed / name)) << name;
     ++files;
   }
   const auto in_folder = std::distance(std::filesystem::directory_iterator(folder.path()), {});

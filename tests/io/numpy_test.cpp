@@ -10,10 +10,10 @@
 namespace selvage::io {
 namespace {
 
-using testing::read_plainly;
 using testing::same_bits;
+using testing::slurp;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 /// A Python that has NumPy; distributions may have several interpreters.
 std::optional<std::string> python_with_numpy() {
@@ -25,7 +25,7 @@ std::optional<std::string> python_with_numpy() {
 
 /// The first Python example of the page.
 std::string documented_example() {
-  const std::string page = read_plainly(SELVAGE_SOURCE_DIR "/docs/formats.md");
+  const std::string page = slurp(SELVAGE_SOURCE_DIR "/docs/formats.md");
   const std::string fence = "```python\n";
   const std::size_t begin = page.find(fence);
   return begin == page.npos ? "" : page.substr(begin + fence.size(), page.find("```\n", begin) - begin - fence.size());
@@ -57,7 +57,7 @@ TEST(NumPy, ReadsAndWritesTheSameBits) {
   }
   const std::string example = documented_example();
   ASSERT_NE(example, "");
-  write_plainly(folder / "script.py", example + kConversions);
+  spit(folder / "script.py", example + kConversions);
   ASSERT_EQ(std::system(("cd '" + folder.path().string() + "' && " + *python + " script.py").c_str()), 0);
 
   const std::vector<Group> groups = {{"cloth", Group::Role::kCloth, 0, 1}, {"body", Group::Role::kBody, 1, 2}};

@@ -71,7 +71,7 @@ TEST(Png, FileIsWritten) {
   const testing::TemporaryFolder folder;
   const Picture picture = {1, 1, {1, 2, 3}};
   write_png(folder / "a.png", picture);
-  EXPECT_EQ(testing::read_plainly(folder / "a.png"), png_bytes(picture));
+  EXPECT_EQ(testing::slurp(folder / "a.png"), png_bytes(picture));
 }
 
 TEST(Png, PixelsMustFillThePicture) {

@@ -23,8 +23,8 @@ namespace {
 using testing::cache_value;
 using testing::check_property;
 using testing::expect_error;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 const char* const kLeftAndRight = "o left\nv 9 9 9\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 1 1 0\no right\nf 3 2 4\n";
 
@@ -52,8 +52,8 @@ void expect_frames(const SequenceReader& reader) {
 
 TEST(PointCache, Pc2IsReadWithTheMeshBesideIt) {
   const TemporaryFolder folder;
-  write_plainly(folder / "cloth.pc2", testing::pc2(4, 3));
-  write_plainly(folder / "cloth.obj", kLeftAndRight);
+  spit(folder / "cloth.pc2", testing::pc2(4, 3));
+  spit(folder / "cloth.obj", kLeftAndRight);
   const auto reader = open_sequence({folder / "cloth.pc2"});
   expect_frames(*reader);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(reader->time(i), 2.5 + 0.5 * static_cast<double>(i));
@@ -62,8 +62,8 @@ TEST(PointCache, Pc2IsReadWithTheMeshBesideIt) {
 
 TEST(PointCache, MddIsReadWithTheMeshThatIsNamed) {
   const TemporaryFolder folder;
-  write_plainly(folder / "run.MDD", testing::mdd(4, {-1, 0.04f, 7}));
-  write_plainly(folder / "other.obj", kLeftAndRight);
+  spit(folder / "run.MDD", testing::mdd(4, {-1, 0.04f, 7}));
+  spit(folder / "other.obj", kLeftAndRight);
   const auto reader = open_sequence({folder / "run.MDD"}, folder / "other.obj");
   expect_frames(*reader);
   EXPECT_EQ(reader->time(0), -1);
@@ -73,12 +73,12 @@ TEST(PointCache, MddIsReadWithTheMeshThatIsNamed) {
 
 TEST(PointCache, TheMeshMustBeThereAndFit) {
   const TemporaryFolder folder;
-  write_plainly(folder / "cloth.pc2", testing::pc2(4, 3));
+  spit(folder / "cloth.pc2", testing::pc2(4, 3));
   expect_error(ErrorKind::kBadInput, "cloth.pc2: has no faces, and no cloth.obj or .ply stands beside it",
                [&] { (void)open_sequence({folder / "cloth.pc2"}); });
-  write_plainly(folder / "cloth.ply", "ply\n");
+  spit(folder / "cloth.ply", "ply\n");
   expect_error(ErrorKind::kBadInput, "cloth.ply:", [&] { (void)open_sequence({folder / "cloth.pc2"}); });
-  write_plainly(folder / "cloth.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  spit(folder / "cloth.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   expect_error(ErrorKind::kBadInput, "cloth.pc2: 4 vertices, the base mesh has 3",
                [&] { (void)open_sequence({folder / "cloth.pc2"}); });
   expect_error(ErrorKind::kFile, "none.obj: cannot open",

@@ -21,10 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::expect_error;
-using testing::read_plainly;
 using testing::same_bits;
+using testing::slurp;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 const Triangles kTriangles = {{0, 1, 2}, {2, 1, 0}, {1, 0, 2}, {0, 2, 1}};
 const std::vector<Group> kGroups = {{"left sleeve", Group::Role::kCloth, 0, 1},
@@ -190,20 +190,20 @@ TEST(SequenceOutput, NothingIsOverwritten) {
                {"a.pvd", "a.pvd"}, {"a.pvd", "a_000001.vtp"}, {"a", "a"}};
   for (const auto& c : cases) {
     const TemporaryFolder folder;
-    write_plainly(folder / c.present, "mine");
+    spit(folder / c.present, "mine");
     expect_error(ErrorKind::kFile, std::string(c.present) + ": is there already", [&] {
       const auto output = create(folder / c.target, kTwoFrames);
       output->append(0, mesh_of(kTwoFrames[0]));
       output->append(1, mesh_of(kTwoFrames[1]));
       output->finish();
     });
-    EXPECT_EQ(read_plainly(folder / c.present), "mine");
+    EXPECT_EQ(slurp(folder / c.present), "mine");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1) << c.target;
   }
   const TemporaryFolder folder;
-  write_plainly(folder / "mine", "mine");
+  spit(folder / "mine", "mine");
   expect_error(ErrorKind::kFile, "is a folder that is not empty", [&] { (void)create(folder.path(), kTwoFrames); });
-  EXPECT_EQ(read_plainly(folder / "mine"), "mine");
+  EXPECT_EQ(slurp(folder / "mine"), "mine");
 }
 
 TEST(SequenceOutput, OfWhatFailsNothingIsLeft) {
@@ -244,10 +244,10 @@ TEST(SequenceOutput, WhatOthersPutBesideAFailureStays) {
       const auto output = create(folder / name, kTwoFrames);
       output->append(0, mesh_of(kTwoFrames[0]));
       (void)write_and_open(folder / "out" / "b", kTwoFrames);
-      write_plainly(folder / "out" / "render.log", "note");
+      spit(folder / "out" / "render.log", "note");
     }
     EXPECT_EQ(open_sequence({folder / "out" / "b"})->frame_count(), 2U) << name;
-    EXPECT_EQ(read_plainly(folder / "out" / "render.log"), "note") << name;
+    EXPECT_EQ(slurp(folder / "out" / "render.log"), "note") << name;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 2) << name;
   }
 }
@@ -279,7 +279,7 @@ TEST(SequenceOutput, GroupsThatChangeAreRefusedWhereTheyAreHeldOnce) {
 TEST(SequenceOutput, NpzCanBeReadAsAStream) {
   const TemporaryFolder folder;
   (void)write_and_open(folder / "a.npz", kTwoFrames);
-  const std::string bytes = read_plainly(folder / "a.npz");
+  const std::string bytes = slurp(folder / "a.npz");
   const auto little = [&]<typename T>(std::size_t at, T) { return load<T>(bytes.data() + at, std::endian::little); };
   std::size_t at = 0;
   std::vector<std::string> names;

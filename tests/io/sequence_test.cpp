@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::expect_error;
-using testing::read_plainly;
 using testing::same_bits;
+using testing::slurp;
+using testing::spit;
 using testing::TemporaryFolder;
-using testing::write_plainly;
 
 SequenceHeader square_header() {
   return {.triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -87,8 +87,8 @@ TEST(SequenceFolder, ResumeContinuesWithTheSameBytes) {
     SequenceWriter writer(resumed.path(), square_header());
     for (int i = 0; i < 3; ++i) writer.append(i, square(i == 2 ? 77 : i));
   }
-  write_plainly(resumed / "frame_000003.npy.tmp-42", "torn");
-  write_plainly(resumed / "report.json.tmp-42", "not ours");
+  spit(resumed / "frame_000003.npy.tmp-42", "torn");
+  spit(resumed / "report.json.tmp-42", "not ours");
   {
     SequenceWriter writer(resumed.path(), square_header(), true);
     EXPECT_EQ(writer.frame_count(), 3u);
@@ -99,7 +99,7 @@ TEST(SequenceFolder, ResumeContinuesWithTheSameBytes) {
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(whole.path())) {
     const std::string name = entry.path().filename().string();
-    EXPECT_EQ(read_plainly(whole / name), read_plainly(resumed / name)) << name;
+    EXPECT_EQ(slurp(whole / name), slurp(resumed / name)) << name;
   }
   EXPECT_FALSE(fs::exists(resumed / "frame_000003.npy.tmp-42"));
   EXPECT_TRUE(fs::exists(resumed / "report.json.tmp-42"));
@@ -182,27 +182,27 @@ TEST(SequenceFolder, TornLastLineIsNotPartOfTheList) {
     SequenceWriter writer(folder.path(), square_header());
     for (int i = 0; i < 2; ++i) writer.append(i, square(i));
   }
-  const std::string list = read_plainly(folder / "frames.jsonl");
+  const std::string list = slurp(folder / "frames.jsonl");
   const std::size_t second = list.find('\n') + 1;
   for (std::size_t length = 0; length <= list.size(); ++length) {
-    write_plainly(folder / "frames.jsonl", std::string_view(list).substr(0, length));
+    spit(folder / "frames.jsonl", std::string_view(list).substr(0, length));
     const std::size_t listed = (length >= second) + (length >= list.size());
     EXPECT_EQ(open_sequence({folder.path()})->frame_count(), listed) << length;
   }
-  write_plainly(folder / "frames.jsonl", list.substr(0, list.size() - 5));
+  spit(folder / "frames.jsonl", list.substr(0, list.size() - 5));
   SequenceWriter writer(folder.path(), square_header(), true);
   writer.append(1, square(1));
-  EXPECT_EQ(read_plainly(folder / "frames.jsonl"), list);
+  EXPECT_EQ(slurp(folder / "frames.jsonl"), list);
 }
 
 TEST(SequenceFolder, ResumingChangesNothingBeforeTheFirstFrame) {
   const TemporaryFolder folder;
   { SequenceWriter(folder.path(), square_header()).append(0, square(0)); }
-  const std::string torn = read_plainly(folder / "frames.jsonl") + "{";
-  write_plainly(folder / "frames.jsonl", torn);
-  write_plainly(folder / "frame_000001.npy.tmp-42", "left by a kill");
+  const std::string torn = slurp(folder / "frames.jsonl") + "{";
+  spit(folder / "frames.jsonl", torn);
+  spit(folder / "frame_000001.npy.tmp-42", "left by a kill");
   SequenceWriter writer(folder.path(), square_header(), true);
-  EXPECT_EQ(read_plainly(folder / "frames.jsonl"), torn) << "whoever resumes may still be refused";
+  EXPECT_EQ(slurp(folder / "frames.jsonl"), torn) << "whoever resumes may still be refused";
   EXPECT_TRUE(fs::exists(folder / "frame_000001.npy.tmp-42"));
   writer.append(1, square(1));
   EXPECT_EQ(open_sequence({folder.path()})->frame_count(), 2u);
@@ -212,9 +212,9 @@ TEST(SequenceFolder, ResumingChangesNothingBeforeTheFirstFrame) {
 TEST(MeshFiles, ChangedFacesAreReported) {
   const TemporaryFolder folder;
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-  write_plainly(folder / "a.obj", points + "f 1 2 3\nf 1 3 4\n");
-  write_plainly(folder / "b.obj", points + "f 1 2 3 4\n");
-  write_plainly(folder / "c.obj", points + "g left\nf 1 2 4\ng right\nf 2 3 4\n");
+  spit(folder / "a.obj", points + "f 1 2 3\nf 1 3 4\n");
+  spit(folder / "b.obj", points + "f 1 2 3 4\n");
+  spit(folder / "c.obj", points + "g left\nf 1 2 4\ng right\nf 2 3 4\n");
   const auto reader = open_sequence({folder / "a.obj", folder / "b.obj", folder / "c.obj"});
   ASSERT_EQ(reader->frame_count(), 3u);
   EXPECT_TRUE(reader->same_faces_as_previous(0));
@@ -224,7 +224,7 @@ TEST(MeshFiles, ChangedFacesAreReported) {
   EXPECT_EQ(reader->frame_name(1), (folder / "b.obj").string());
   EXPECT_EQ(reader->time(2), 2.0);
   EXPECT_EQ(reader->kind(), SequenceKind::kFrames);
-  write_plainly(folder / "d.obj", points);
+  spit(folder / "d.obj", points);
   expect_error(ErrorKind::kBadInput, "d.obj: no face", [&] {
     (void)open_sequence({folder / "a.obj", folder / "d.obj"});
   });
@@ -234,10 +234,10 @@ TEST(SequenceFolder, FacesThatAreNoneAreNamedWithTheirFile) {
   const TemporaryFolder folder;
   SequenceDescription description;
   description.faces_file = "faces.npy";
-  write_plainly(folder / "sequence.json", to_json(description));
-  write_plainly(folder / "faces.npy", npy_bytes(Triangles{}));
-  write_plainly(folder / "frames.jsonl", "{\"file\":\"a.npy\"}\n");
-  write_plainly(folder / "a.npy", npy_bytes(Points{{0, 0, 0}}, Precision::kFloat64, "a"));
+  spit(folder / "sequence.json", to_json(description));
+  spit(folder / "faces.npy", npy_bytes(Triangles{}));
+  spit(folder / "frames.jsonl", "{\"file\":\"a.npy\"}\n");
+  spit(folder / "a.npy", npy_bytes(Points{{0, 0, 0}}, Precision::kFloat64, "a"));
   expect_error(ErrorKind::kBadInput, "faces.npy: no face; write the array of the surface's corners, #F by 3",
                [&] { (void)open_sequence({folder.path()}); });
 }
@@ -256,7 +256,7 @@ TEST(OpenSequence, WrongSourcesAreNamed) {
   expect_error(ErrorKind::kBadInput, "no file", [] { (void)open_sequence({}); });
   expect_error(ErrorKind::kBadInput, "a folder without sequence.json", [&] { (void)open_sequence({folder.path()}); });
   expect_error(ErrorKind::kFile, "missing.obj", [&] { (void)open_sequence({folder / "missing.obj"}); });
-  write_plainly(folder / "a.stl", "solid");
+  spit(folder / "a.stl", "solid");
   expect_error(ErrorKind::kBadInput, "none of .obj, .ply, .npz", [&] { (void)open_sequence({folder / "a.stl"}); });
   expect_error(ErrorKind::kBadInput, "name it alone", [&] { (void)open_sequence({folder.path(), folder / "a.obj"}); });
 }

@@ -1,52 +1,18 @@
-// Temporary folders, bytes and expected errors for the tests of files.
+// Bytes, and the errors that are expected of them, for the tests of files.
 #pragma once
 
 #include <bit>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "io/error.h"
 #include "io/mesh_data.h"
+#include "tests/temporary_folder.h"
 
 namespace selvage::testing {
-
-/// A folder that is removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "selvage-io-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code status;
-    std::filesystem::remove_all(path_, status);
-  }
-  [[nodiscard]] std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline void write_plainly(const std::filesystem::path& file, std::string_view bytes) {
-  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-inline std::string read_plainly(const std::filesystem::path& file) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return bytes.str();
-}
 
 /// Runs `action`, which must throw io::Error of `kind` in one line that holds `fragment`.
 inline void expect_error(io::ErrorKind kind, const std::string& fragment, const std::function<void()>& action) {

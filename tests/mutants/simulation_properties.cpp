@@ -1,9 +1,6 @@
 // A whole simulation: every step exact (S1), scripts followed (S4), velocities true, and the same bits for any number
 // of threads, from a checkpoint, and in the files (K7, S5).
-#include <filesystem>
-
 #include <oneapi/tbb/task_arena.h>
-#include <unistd.h>
 
 #include "fuzz/draw/step_world.h"
 #include "io/atomic_file.h"
@@ -11,6 +8,7 @@
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/mutants/properties.h"
+#include "tests/temporary_folder.h"
 #include "verify/check.h"
 
 namespace selvage::mutants {
@@ -114,27 +112,9 @@ std::string compare_run_threads(std::uint64_t seed) {
   return end_with(seed, 1) == end_with(seed, 3) ? "" : "other bits";
 }
 
-/// A folder of this process, gone at the end.
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("selvage_mutant_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Records every step; half-way the run is dropped and a new process would go on from the checkpoint.
 std::string judge_recording(std::uint64_t seed) {
-  const Folder folder;
+  const testing::TemporaryFolder folder;
   sim::Scene scene = sim::parse_scene(scene_text(seed), "drawn.toml");
   scene.file = folder.path() / "drawn.toml";
   io::write_atomically(scene.file, scene_text(seed));

@@ -50,7 +50,7 @@ TEST(HostEnvironment, ThatTrapsDivisionsOrRoundsUpwardsChangesNoBit) {
 /// Positions after some frames of a simulation that a host reads, builds and steps.
 template <typename Set>
 Positions simulated_in(const Set& set, const std::string& solver) {
-  const selvage::testing::ScratchFolder folder;
+  const selvage::testing::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "scene.toml";
   std::ofstream(file) << selvage::testing::small_scene_text(8, "solver = \"" + solver + "\"\n")
                       << "rotation_deg = [31, 17, 5]\n";

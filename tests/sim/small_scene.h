@@ -1,38 +1,12 @@
 // A small scene that has everything: a sheet that falls on a moving ball over a floor.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include "sim/scene/scene_reader.h"
+#include "tests/temporary_folder.h"
 
 namespace selvage::testing {
-
-/// A folder for one test, gone when the test ends.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string("selvage_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(getpid()));
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// 14 by 14 vertices; in contact from about 0.15 s on. `extra` goes to the top of the file.
 inline std::string small_scene_text(int frames, const std::string& extra = "", const std::string& collision = "") {
@@ -67,7 +41,7 @@ sheet = {nx = 2, ny = 2, width_m = 6, height_m = 6}
 
 /// Scenes are read from files, because a checkpoint belongs to the file's bytes.
 inline sim::Scene write_and_read_scene(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
+  spit(file, text);
   return sim::read_scene(file);
 }
 

@@ -11,8 +11,8 @@
 namespace selvage {
 
 using namespace sim;
-using testing::ScratchFolder;
 using testing::small_scene_text;
+using testing::TemporaryFolder;
 
 TEST(World, PartsAreInOrderAndPinsAreColliders) {
   const Scene scene = parse_scene(small_scene_text(1), "small.toml");
@@ -68,7 +68,7 @@ TEST(World, RefusesSpringsThatNoStepOfTheDynamicsIsShortEnoughFor) {
 }
 
 TEST(World, ReadsMeshFilesBesideTheScene) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "two.obj") << "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 100 100 0\nf 1 2 3\nf 2 4 3\n";
   const Scene scene = testing::write_and_read_scene(folder.path() / "mesh.toml", R"(
 [time]
@@ -93,7 +93,7 @@ vertices = [3]
 }
 
 TEST(World, VerticesOfNoFaceAreNamedWhereTheyAreCloth) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "loose.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 6 6 6\nf 1 2 3\n";
   const std::string cloth = "[time]\nframes = 1\n[[cloth]]\ndensity_kg_m2 = 0.5\nstretch_n_m = 40\n";
   const std::string loose = "mesh = {file = \"loose.obj\"}\n";

@@ -78,7 +78,7 @@ sequence = {file = "ball_*.obj", frames_per_s = 12}
     return read_scene(scene_file());
   }
 
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 }  // namespace

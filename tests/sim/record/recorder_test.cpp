@@ -5,7 +5,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -16,20 +15,14 @@
 namespace selvage {
 
 using namespace sim;
-using testing::ScratchFolder;
+using testing::slurp;
 using testing::small_scene_text;
+using testing::TemporaryFolder;
 
 namespace {
 
 constexpr int kFrames = 8;
 const char* const kProducer = "test";
-
-std::string slurp(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 bool same_bits(const io::Points& points, const Positions& x) {
   return points.size() == static_cast<std::size_t>(x.rows()) &&
@@ -47,7 +40,7 @@ void run(Simulation& simulation, Recorder& recorder, std::int64_t frames, int st
 
 class RecorderTest : public ::testing::Test {
  protected:
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   Scene scene_ = testing::write_and_read_scene(folder_.path() / "small.toml", small_scene_text(kFrames));
 };
 
