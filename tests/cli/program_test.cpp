@@ -189,7 +189,7 @@ TEST(Program, AReportThatWasCutIsNamedInOneLine) {
 // Each of these would else compute, and print, or come upon what it cannot read.
 TEST(Program, ReportsThatCannotBeWrittenAreFoundBeforeTheWork) {
   const TemporaryFolder folder;
-  const auto none = folder.path() / "no" / "x", junk = folder.path() / "junk.obj", part = folder.path() / "part.json";
+  const auto none = folder.path() / "no" / "x.png", junk = folder.path() / "junk.obj", part = folder.path() / "part.json";
   spit(junk, "v 0 0 zero\n");
   spit(part, "{}");
   for (const std::vector<std::string>& command :
