@@ -61,7 +61,8 @@ Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
       clock_(lengths_.clock()),
       dynamics_(make_dynamics(scene_, world_, lengths_.dynamics_s())),
       collision_step_(world_.mesh, scene_.collision, world_.contacts),
-      allowance_(scene_, world_),
+      parts_(world_.mesh),
+      allowance_(scene_, world_, parts_),
       script_(scene_, world_),
       vertex_faces_(world_.mesh),
       x_(world_.x_t0),
@@ -123,7 +124,7 @@ Simulation::Try Simulation::try_step(StepResult& result) {
   for (int round = holds ? 0 : kHoldingRounds;; ++round) {
     const bool is_last = round == kHoldingRounds;
     const std::vector<RepulsionContact>& held_to_the_end = run_dynamics(held, is_last, tried, result);
-    tried.failed = can_halve() && (result.dynamics.unconverged > 0 || !tried.candidate.allFinite());
+    tried.failed = can_halve() && result.dynamics.unconverged > 0;
     if (tried.failed) return tried;
     resolve_collisions(held_to_the_end, is_last, tried, result.phases);
     // Cut back by the collision step (travel_limit.h), which a shorter one need not do.
@@ -216,17 +217,26 @@ bool Simulation::energizes(const Try& tried) const {
          allowance_.energizes(tried.end, tried.safe.x, script_.inverse_mass(), clock_.dt_s());
 }
 
+// The dynamics' own velocity holds for cloth that the collision step has not changed, whatever it did elsewhere.
 void Simulation::commit(Try& tried) {
   const Eigen::Index cloth = world_.cloth_vertex_count;
   const CollisionStepResult& safe = tried.safe;
   const double dt_s = clock_.dt_s();
+  std::vector<std::uint8_t> is_changed(static_cast<std::size_t>(x_.rows()));
+  for (Eigen::Index i = 0; i < x_.rows(); ++i) {
+    is_changed[static_cast<std::size_t>(i)] = safe.velocity.row(i) != (tried.candidate.row(i) - x_.row(i)) / dt_s;
+  }
   v_ = (safe.x - x_) / dt_s;
   x_ = safe.x;
-  if (touched(safe.report)) {
-    tried.end = {x_.topRows(cloth), safe.velocity.topRows(cloth)};
-    dynamics_->final_velocity(tried.end, script_.inverse_mass(), dt_s);
-  }
   v_.topRows(cloth) = tried.end.v;
+  if (touched(safe.report)) {
+    Motion end = {x_.topRows(cloth), safe.velocity.topRows(cloth)};
+    dynamics_->final_velocity(end, script_.inverse_mass(), dt_s);
+    is_changed = parts_.spread(is_changed);
+    for (Eigen::Index i = 0; i < cloth; ++i) {
+      if (is_changed[static_cast<std::size_t>(i)] != 0) v_.row(i) = end.v.row(i);
+    }
+  }
   loads_ = had_room(safe.report) ? std::move(tried.loads) : ContactLoads();
 }
 

@@ -9,6 +9,7 @@
 #include "sim/base/vertex_faces.h"
 #include "sim/collision_step.h"
 #include "sim/contact/repulsion_contact.h"
+#include "sim/contact/surface_parts.h"
 #include "sim/dynamics/contact_load.h"
 #include "sim/dynamics/dynamics.h"
 #include "sim/scene/scene.h"
@@ -37,7 +38,7 @@ struct StepResult {
   bool is_bent = false;    ///< some body did not go straight, though the step was as short as it may be
   Strained most_strained;  ///< of structural and shear springs, at the end of the step
   /// Tries thrown away because repulsions were not enough, the equations of implicit dynamics were not solved, or
-  /// candidates were not finite or cut back.
+  /// candidates were cut back.
   std::int32_t halvings = 0;
   StepPhases phases;  ///< those tries included
 };
@@ -97,6 +98,7 @@ class Simulation {
   double shortest_s_ = 0;  ///< for what meets in this step
   std::unique_ptr<Dynamics> dynamics_;
   CollisionStep collision_step_;
+  SurfaceParts parts_;
   StepAllowance allowance_;
   ScriptedMotion script_;
   VertexFaces vertex_faces_;

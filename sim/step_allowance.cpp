@@ -34,10 +34,10 @@ constexpr double kLongStep_s = 1.01 / 60;
 
 }  // namespace
 
-StepAllowance::StepAllowance(const Scene& scene, const World& world)
+StepAllowance::StepAllowance(const Scene& scene, const World& world, const SurfaceParts& parts)
     : scene_(scene),
       world_(world),
-      parts_(world.mesh),
+      parts_(parts),
       patience_{world.cloth_vertex_count / kVerticesACollision, kImpulseRounds} {}
 
 Patience StepAllowance::patience_before_last(std::int32_t halvings) const {

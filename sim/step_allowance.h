@@ -14,8 +14,8 @@ namespace selvage::sim {
 
 class StepAllowance {
  public:
-  /// Both must outlive this.
-  StepAllowance(const Scene& scene, const World& world);
+  /// All must outlive this; `parts` of the world's mesh.
+  StepAllowance(const Scene& scene, const World& world, const SurfaceParts& parts);
 
   /// Of a collision step after the last run of the dynamics, where a shorter step can be tried.
   [[nodiscard]] const Patience& patience() const { return patience_; }
@@ -37,7 +37,7 @@ class StepAllowance {
 
   const Scene& scene_;
   const World& world_;
-  SurfaceParts parts_;
+  const SurfaceParts& parts_;
   Patience patience_;
 };
 

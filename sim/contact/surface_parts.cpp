@@ -11,14 +11,19 @@ SurfaceParts::SurfaceParts(const Mesh& mesh) : part_(static_cast<std::size_t>(me
 }
 
 std::vector<std::uint8_t> SurfaceParts::cloth_flags(const CollisionBodies& bodies) const {
-  std::vector<std::uint8_t> part_is_cloth(part_.size(), 0);
+  std::vector<std::uint8_t> is_cloth(part_.size(), 0);
   for (std::size_t v = 0; v < part_.size(); ++v) {
     const bool on_body = !bodies.body.empty() && bodies.body[v] >= 0 && bodies.body[v] < bodies.first_pin;
-    if (bodies.inverse_mass[v] > 0 || !on_body) part_is_cloth[static_cast<std::size_t>(part_[v])] = 1;
+    is_cloth[v] = bodies.inverse_mass[v] > 0 || !on_body;
   }
-  std::vector<std::uint8_t> flags(part_.size());
-  for (std::size_t v = 0; v < part_.size(); ++v) flags[v] = part_is_cloth[static_cast<std::size_t>(part_[v])];
-  return flags;
+  return spread(is_cloth);
+}
+
+std::vector<std::uint8_t> SurfaceParts::spread(const std::vector<std::uint8_t>& flags) const {
+  std::vector<std::uint8_t> of_part(part_.size(), 0), spread(part_.size());
+  for (std::size_t v = 0; v < part_.size(); ++v) of_part[static_cast<std::size_t>(part_[v])] |= flags[v];
+  for (std::size_t v = 0; v < part_.size(); ++v) spread[v] = of_part[static_cast<std::size_t>(part_[v])];
+  return spread;
 }
 
 }  // namespace selvage::sim

@@ -17,6 +17,8 @@ class SurfaceParts {
   [[nodiscard]] VertexId part(VertexId vertex) const { return part_[static_cast<std::size_t>(vertex)]; }
   /// #V: 1 where the vertex' part holds a vertex with mass, or one without a body, or with a pin. O(#V).
   [[nodiscard]] std::vector<std::uint8_t> cloth_flags(const CollisionBodies& bodies) const;
+  /// #V: 1 where some vertex of the vertex' part has a flag; flags: #V. O(#V).
+  [[nodiscard]] std::vector<std::uint8_t> spread(const std::vector<std::uint8_t>& flags) const;
 
  private:
   std::vector<VertexId> part_;  ///< #V: the smallest vertex of the part

@@ -48,20 +48,39 @@ void CentralDifferences::implicit_half_kick(double h) {
   if (options_.quadratic_drag_1_m > 0) {
     march(system, h / 2);
   } else {
-    solver_.solve(system, rhs_, h / 2, impulses_, v_);
+    solver_.solve(system, rhs_, h / 2, impulses_, v_, velocity_residual_);
   }
 }
 
-// rhs_ holds the elastic kick, which does not depend on the velocity; the march adds what does.
+// What is left of a residual is an error of the impulses, with which the next half step begins: in a mode of which B
+// takes x times the momentum, that times x. Where both come to one, damping feeds what it should take: a sheet that
+// swings gained energy from x = 17 on with the residual 0.05 (0.85), and with 0.01 at 49 (0.5), 3 s, 16 x 16 vertices.
+double CentralDifferences::velocity_residual() const {
+  constexpr double kMostError = 0.2;
+  double most = 0;
+  for (Eigen::Index i = 0; i < x_.rows(); ++i) {
+    most = std::max(most, inverse_mass_[i] * springs_.row_sum(static_cast<VertexId>(i)));
+  }
+  return most > 0 ? std::min(kVelocityResidual, kMostError / most) : kVelocityResidual;
+}
+
+// rhs_ holds the elastic kick, which does not depend on the velocity. It acts along the march: a body that falls as
+// fast as drag lets it goes on so, however many steps that takes.
 void CentralDifferences::march(const VelocitySystem& system, double time_s) {
+  Positions v(rhs_.rows(), 3), kicked(rhs_.rows(), 3);
+  v_.copy_to(v);
+  rhs_.copy_to(kicked);
+  const Positions elastic = (kicked - v) / time_s;
   double rate_1_s = 0, speed = 0;
-  Eigen::ArrayXd drag_1_s = Eigen::ArrayXd::Zero(rhs_.rows());
+  RowDrag drag{Eigen::ArrayXd::Zero(rhs_.rows()), Eigen::ArrayXd::Zero(rhs_.rows())};
   for (Eigen::Index i = 0; i < rhs_.rows(); ++i) {
     const double w = system.inverse_mass[i];
     if (w == 0) continue;
     rate_1_s = std::max(rate_1_s, w * springs_.row_sum(static_cast<VertexId>(i)) / time_s);
-    speed = std::max(speed, rhs_.row(i).norm());
-    drag_1_s[i] = options_.drag_1_s;
+    const double terminal_m_s = std::sqrt(elastic.row(i).norm() / options_.quadratic_drag_1_m);
+    speed = std::max({speed, v.row(i).norm(), std::min(kicked.row(i).norm(), terminal_m_s)});
+    drag.linear_1_s[i] = options_.drag_1_s;
+    drag.quadratic_1_m[i] = options_.quadratic_drag_1_m;
   }
   rate_1_s += 2 * options_.quadratic_drag_1_m * speed;
   const auto acceleration = [&](const Positions& u, Positions& a) {
@@ -69,14 +88,10 @@ void CentralDifferences::march(const VelocitySystem& system, double time_s) {
     springs_.multiply(x_, v_, impulses_);
     a.resize(u.rows(), 3);
     parallel_each(a.rows(), [&](Eigen::Index i) {
-      const double w = system.inverse_mass[i];
-      const double quadratic_1_s = w > 0 ? options_.quadratic_drag_1_m * u.row(i).norm() : 0;
-      a.row(i) = -(w / time_s) * impulses_.row(i) - quadratic_1_s * u.row(i);
+      a.row(i) = elastic.row(i) - (system.inverse_mass[i] / time_s) * impulses_.row(i);
     });
   };
-  Positions v(rhs_.rows(), 3);
-  rhs_.copy_to(v);
-  march_velocity(acceleration, rate_1_s, drag_1_s, time_s, 1, v);
+  march_velocity(acceleration, drag, rate_1_s, time_s, v);
   v_.copy(v);
   springs_.multiply(x_, v_, impulses_);
 }
@@ -98,6 +113,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   x_.copy(motion.x);
   v_.copy(motion.v);
   springs_.set_shares({h / 2, 0}, inverse_mass);
+  velocity_residual_ = velocity_residual();
   springs_.look(x_, force_);
   springs_.multiply(x_, v_, impulses_);
   for (int step = 0; step < count; ++step) {
@@ -135,6 +151,7 @@ void CentralDifferences::final_velocity(Motion& motion, std::span<const double> 
   x_.copy(motion.x);
   v_.copy(motion.v);
   springs_.set_shares({h / 2, h / 2 * (h / 2)}, inverse_mass);
+  velocity_residual_ = velocity_residual();
   springs_.look(x_, force_);
   impulses_.set_zero();  // a guess that does not depend on what was before, so that a run resumes with the same bits
   implicit_half_kick(h);

@@ -51,7 +51,8 @@ class CentralDifferences : public Dynamics {
   /// that of the last internal step. Without an advance() before, h = dt_s and motion.v is the midstep velocity itself.
   /// That may be longer than what is stable for explicit springs, so here they act where the velocity carries the ends
   /// in half a step: (h/2)^2 k n n^T is added to the matrix. For h within the stable step this is a correction of
-  /// second order; for longer ones it is what keeps it bounded. Forces stay along the springs, so angular momentum is
+  /// second order in the step; over time it damps cloth in contact, the more the shorter collision steps are
+  /// (docs/numerics.md, *After contact*). For longer ones it is what keeps it bounded. Forces stay along the springs, so angular momentum is
   /// kept. (A part across springs in tension did not keep it, by 6e-8 of it a step, and table-legs was as calm
   /// without.)
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
@@ -67,6 +68,8 @@ class CentralDifferences : public Dynamics {
   /// Leaves the impulses of B at the new velocity in impulses_.
   void implicit_half_kick(double h);
   void march(const VelocitySystem& system, double time_s);
+  /// To which the velocity is found, for the shares that the springs have.
+  [[nodiscard]] double velocity_residual() const;
 
   CentralDifferencesOptions options_;
   const SpringSystem& system_;
@@ -76,6 +79,7 @@ class CentralDifferences : public Dynamics {
   LaneVectors force_;     ///< elastic, at x_
   LaneVectors impulses_;  ///< of damping over half a step, at the last velocity
   LaneVectors rhs_, x_t1_;
+  double velocity_residual_ = kVelocityResidual;
   double internal_step_s_ = 0;  ///< of the last advance(); 0: there was none
   LaneVectors last_midstep_v_;  ///< of its last internal step
   Positions average_v_;         ///< over all of it

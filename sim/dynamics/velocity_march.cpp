@@ -3,27 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/assert.h"
-
 namespace selvage::sim {
 
-std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double rate_upper_1_s,
-                            const Eigen::ArrayXd& drag_1_s, double time_s, std::int32_t refinement, Positions& v) {
-  SELVAGE_ASSERT(refinement >= 1);
-  const double wanted = std::ceil(time_s * rate_upper_1_s / kMarchContraction) * refinement;
+void march_velocity(const AccelerationOfVelocity& acceleration, const RowDrag& drag, double rate_upper_1_s,
+                    double time_s, Positions& v) {
+  const double wanted = std::ceil(time_s * rate_upper_1_s / kMarchContraction);
   // Written so that NaN and infinity end at the limit: the caller finds them in the velocity.
-  const std::int32_t steps =
-      wanted < kMarchStepLimit ? std::max(static_cast<std::int32_t>(wanted), refinement) : kMarchStepLimit;
+  const int steps = wanted < kMarchStepLimit ? std::max(static_cast<int>(wanted), 1) : kMarchStepLimit;
   const double k = time_s / steps;
   Positions start, change;
-  for (std::int32_t step = 0; step < steps; ++step) {
+  for (int step = 0; step < steps; ++step) {
     start = v;
-    for (std::int32_t iteration = 0; iteration < kFixedPointIterations; ++iteration) {
+    for (int iteration = 0; iteration < kFixedPointIterations; ++iteration) {
       acceleration(v, change);
+      const Eigen::ArrayXd drag_1_s = drag.linear_1_s + drag.quadratic_1_m * v.rowwise().norm().array();
       v = (start + k * change).array().colwise() / (1 + k * drag_1_s);
     }
   }
-  return steps;
 }
 
 }  // namespace selvage::sim

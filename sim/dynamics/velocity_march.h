@@ -1,7 +1,6 @@
 // The velocity at the end of a step when damping is not linear: an explicit march (paper, section 7.6).
 #pragma once
 
-#include <cstdint>
 #include <functional>
 
 #include "kernel/types.h"
@@ -16,15 +15,21 @@ using AccelerationOfVelocity = std::function<void(const Positions& v, Positions&
 inline constexpr double kMarchContraction = 0.5;
 /// Iterations a march step: the first error of a step is k a, what is left after eight is 1/256 of it, below the
 /// method's own error of first order.
-inline constexpr std::int32_t kFixedPointIterations = 8;
+inline constexpr int kFixedPointIterations = 8;
 /// More steps than this are not taken; the rate would ask for them only in a simulation that has blown up.
-inline constexpr std::int32_t kMarchStepLimit = 10'000;
+inline constexpr int kMarchStepLimit = 10'000;
 
-/// Advances v by M steps u(m+1) = u(m) + k (a(u(m+1)) - d u(m+1)), M k = time_s, each solved by fixed-point iteration
-/// from u(m), in which the drag d = `drag_1_s` >= 0 of each row is divided by: none is too strong for it.
-/// `rate_upper_1_s` bounds |lambda_max(da/dv)| on the way; M = ceil(time_s rate_upper_1_s / kMarchContraction), at
-/// least 1, and `refinement` times as many. First order in time_s / M. Returns M.
-std::int32_t march_velocity(const AccelerationOfVelocity& acceleration, double rate_upper_1_s,
-                            const Eigen::ArrayXd& drag_1_s, double time_s, std::int32_t refinement, Positions& v);
+/// Of each row: acceleration -(linear + quadratic |v|) v; none is below zero.
+struct RowDrag {
+  Eigen::ArrayXd linear_1_s, quadratic_1_m;
+};
+
+/// Advances v by M steps u(m+1) = u(m) + k (a(u(m+1)) - drag(u(m+1)) u(m+1)), M k = time_s, each solved by fixed-point
+/// iteration from u(m), in which 1 + k drag(u) is divided by: none is too strong for it, since |k dr u / (1 + k dr u)|
+/// <
+/// 1. `rate_upper_1_s` bounds |lambda_max| of all of this on the way; M = ceil(time_s rate_upper_1_s /
+/// kMarchContraction), at least 1. First order in time_s / M.
+void march_velocity(const AccelerationOfVelocity& acceleration, const RowDrag& drag, double rate_upper_1_s,
+                    double time_s, Positions& v);
 
 }  // namespace selvage::sim

@@ -24,7 +24,8 @@ struct Repulsion {
 /// has the normal component `displacement` (negative: approaching). `inverse_mass_kg` is the pair's K in 1/kg: an
 /// impulse j changes the relative velocity by K j. Differs from the paper's formula in the spring's limit, which there
 /// comes out twice as large for equal masses (impulse m dv for two particles of mass m changes their relative velocity
-/// by 2 dv); its text asks for this one.
+/// by 2 dv); its text asks for this one. And the spring's force k d is one at the two points: the paper's formula gives
+/// the relative velocity 2 k d dt / m whatever the weights, which in the middle of a face is half as much force again.
 [[nodiscard]] Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg,
                                   const CollisionOptions& options, double dt_s);
 

@@ -25,6 +25,14 @@ TEST(SurfaceParts, ThatPinsHoldAllOverAreCloth) {
   EXPECT_EQ(SurfaceParts(mesh).cloth_flags(bodies), (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}));
 }
 
+TEST(SurfaceParts, SpreadAFlagOverTheWholePart) {
+  Faces F(2, 3);
+  F << 0, 1, 2, 4, 5, 6;
+  const Mesh mesh = make_mesh(7, F);
+  EXPECT_EQ(SurfaceParts(mesh).spread({0, 0, 0, 0, 0, 1, 0}), (std::vector<std::uint8_t>{0, 0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(SurfaceParts(mesh).spread({0, 0, 1, 1, 0, 0, 0}), (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0}));
+}
+
 TEST(SurfaceParts, AreConnectedWhateverTheOrderOfEdges) {
   // A strip numbered from both ends to the middle: joins happen out of order.
   constexpr VertexId kCount = 101;

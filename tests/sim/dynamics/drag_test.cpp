@@ -84,6 +84,46 @@ TEST(Drag, TakesCloseToItsClosedForm) {
   }
 }
 
+// Where drag holds gravity, nothing changes any more, however the step is parted: damping, which acts on nothing here,
+// is what makes the march take many steps.
+TEST(Drag, LetsClothFallOnAtItsTerminalSpeed) {
+  constexpr double kDrag_1_s = 2, kQuadratic_1_m = 4, kDown_m_s2 = 9.81;
+  const double terminal_m_s =
+      (std::sqrt(kDrag_1_s * kDrag_1_s + 4 * kQuadratic_1_m * kDown_m_s2) - kDrag_1_s) / (2 * kQuadratic_1_m);
+  for (const char* damping : {"0", "1", "5"}) {
+    Simulation simulation(parse_scene(
+        std::string("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 2\nquadratic_drag_1_m = 4\n[time]\nframes_per_s = "
+                    "30\nduration_s = 3\ndynamics_step_s = 0.02\n[[cloth]]\nname = \"sheet\"\nsheet = {nx = 6, ny = "
+                    "6, width_m = 1, height_m = 1}\ndensity_kg_m2 = 0.2\nstretch_n_m = 2\ndamping_ratio = ") +
+            damping + "\n",
+        "terminal.toml"));
+    run_to(simulation, 3);
+    const Positions v = simulation.state().v;
+    EXPECT_NEAR(v.col(2).minCoeff(), -terminal_m_s, 1e-8) << damping;
+    EXPECT_NEAR(v.col(2).maxCoeff(), -terminal_m_s, 1e-8) << damping;
+  }
+}
+
+// A march of as many steps as that would need is not made. At 10^6 1/m gravity is held at 3 mm/s, or at 1 m/s where it
+// is 10^5 times as strong.
+TEST(Drag, TheStrongestIsBorneInAnyStep) {
+  for (const auto& [gravity_m_s2, terminal_m_s] : {std::pair(9.81, std::sqrt(9.81e-6)), std::pair(1e6, 1.0)}) {
+    Simulation simulation(parse_scene(
+        "quadratic_drag_1_m = 1e6\ngravity_m_s2 = [0, 0, -" + std::to_string(gravity_m_s2) +
+            "]\n[time]\nframes_per_s = 0.1\nframes = 2\n[[cloth]]\nsheet = {nx = 2, ny = 2, width_m = 0.5, height_m = "
+            "0.5}\ndensity_kg_m2 = 0.2\nstretch_n_m = 1e-3\nvelocity_m_s = [1e3, 0, 0]\n",
+        "strong.toml"));
+    for (int step = 0; step < 2; ++step) {
+      const StepResult result = simulation.step();
+      EXPECT_EQ(result.report.status, StepStatus::kSafe) << gravity_m_s2;
+      EXPECT_EQ(result.halvings, 0) << gravity_m_s2;
+    }
+    const Positions v = simulation.state().v;
+    EXPECT_LE(v.rowwise().norm().maxCoeff(), 1.01 * terminal_m_s) << gravity_m_s2;
+    EXPECT_LE(v.col(2).maxCoeff(), -0.5 * terminal_m_s) << gravity_m_s2;
+  }
+}
+
 TEST(Drag, AsksForStepsThatTakeHalfOfAVelocityAndNoMoreThanSixtyFour) {
   EXPECT_EQ(steps_for_drag(0, 1), 1);
   EXPECT_EQ(steps_for_drag(15.0 * 20, 1.0 / 30), 10);
