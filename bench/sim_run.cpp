@@ -36,12 +36,9 @@ Conserved conserved(const sim::Simulation& simulation, const Vec3& centre) {
     sum.angular_scale += x.norm() * v.norm() / w;
   }
   for (const sim::Spring& spring : world.springs.springs()) {
-    const double longer = (state.x.row(spring.a) - state.x.row(spring.b)).norm() - spring.rest_length_m;
-    sum.energy += spring.stiffness_n_m * longer * longer / 2;
-    if (spring.kind != sim::SpringKind::kBending) {
-      sum.strain = std::max(sum.strain, std::abs(longer) / spring.rest_length_m);
-    }
+    sum.energy += elastic_j(spring, state.x);
   }
+  sum.strain = sim::most_strained(world.springs, state.x).strain;
   sum.energy += sum.kinetic;
   return sum;
 }

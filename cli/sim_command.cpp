@@ -19,6 +19,7 @@
 #include "cli/process/terminal.h"
 #include "cli/start/enclosed_cloth.h"
 #include "cli/start/start_check.h"
+#include "sim/description.h"
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"

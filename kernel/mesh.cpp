@@ -67,8 +67,7 @@ const char* describe(InputError error) {
     case InputError::kBadTolerance:
       return "the tolerance is negative, NaN or infinite; pass a length of at least 0";
     case InputError::kBadOption:
-      return "a collision option is NaN or outside its range, or the normal of a held contact is no unit vector; the "
-             "ranges stand beside "
+      return "a collision option, or one of the contact surfaces, is NaN or outside its range; the ranges stand beside "
              "the options";
     case InputError::kBadMass:
       return "an inverse mass is negative, NaN or infinite, or not 0 on a body; pass 0 for every scripted vertex";
@@ -79,6 +78,9 @@ const char* describe(InputError error) {
     case InputError::kBadSurfaces:
       return "the contact surfaces do not fit the mesh; give every vertex the number of one of `properties`, the same "
              "to all three of a face, and name rest pairs of the mesh whose features share no vertex";
+    case InputError::kBadContact:
+      return "a held contact is none of this mesh, or not as it was met; give back what a step from the same positions "
+             "has met";
   }
   return "unknown error";
 }

@@ -38,7 +38,8 @@ enum class InputError : std::uint8_t {
   kBadMass,
   kBadTimeStep,
   kOffLattice,
-  kBadSurfaces
+  kBadSurfaces,
+  kBadContact
 };
 
 /// One sentence for a person, with the remedy.

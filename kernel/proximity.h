@@ -29,6 +29,10 @@ struct Proximity {
 /// x = {p, a, b, c}: point p against triangle (a, b, c), which may have zero area. REQUIRES |coordinate| <=
 /// kMaxCoordinate, all finite; anything else answers distance 0, bracket [0, infinity], and no weights.
 [[nodiscard]] Proximity vf_proximity(const std::array<Vec3, 4>& x);
+/// x = {p, a, b}: a vertex of a face against the edge (a, b) opposite to it, as a face without area.
+[[nodiscard]] inline Proximity self_proximity(const std::array<Vec3, 3>& x) {
+  return vf_proximity({x[0], x[1], x[2], x[2]});
+}
 /// x = {a, b, c, d}: edge (a, b) against edge (c, d), parallel and zero-length ones included.
 [[nodiscard]] Proximity ee_proximity(const std::array<Vec3, 4>& x);
 

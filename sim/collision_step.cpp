@@ -44,57 +44,66 @@ std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>
   return {contacts.begin(), std::remove_if(contacts.begin(), contacts.end(), none_was_made)};
 }
 
-/// Memory of attempts, which is used again: pages that are new to a process take time (docs/simulator-speed.md).
-struct Room {
-  std::vector<RepulsionContact> found;
-  Contacts swept;
+/// What persists between steps. Of the room only the memory: pages that are new to a process take time
+/// (docs/simulator-speed.md).
+struct Persistent {
+  Persistent(const Mesh& step_mesh, const CollisionOptions& step_options, ContactSurfaces surfaces)
+      : mesh(step_mesh),
+        options(step_options),
+        contacts(step_mesh, step_options, std::move(surfaces)),
+        hierarchy(step_mesh),
+        parts(step_mesh),
+        proximities(step_mesh, contacts) {}
+
+  const Mesh& mesh;
+  CollisionOptions options;
+  ContactTable contacts;
+  BoxHierarchy hierarchy;
+  SurfaceParts parts;
+  StartProximities proximities;
+  std::vector<RepulsionContact> room_of_found;
+  Contacts room_of_swept;
 };
 
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
  public:
-  Attempt(const Mesh& mesh, BoxHierarchy& hierarchy, const CollisionOptions& options, const ContactTable& contacts,
-          StartProximities& proximities, Room& room, const CollisionBodies& bodies, std::vector<std::uint8_t> surface,
-          ScriptedGroups& groups, double dt_s, const Patience& patience, std::span<const RepulsionContact> held)
-      : mesh_(mesh),
-        hierarchy_(hierarchy),
-        options_(options),
-        contacts_(contacts),
-        proximities_(proximities),
-        room_(room),
+  Attempt(Persistent& step, const CollisionBodies& bodies, ScriptedGroups& groups, double dt_s,
+          const Patience& patience, std::span<const RepulsionContact> held)
+      : step_(step),
         bodies_(bodies),
         groups_(groups),
         dt_s_(dt_s),
         patience_(patience),
         held_(held),
-        surface_(std::move(surface)),
-        tracker_(mesh, hierarchy, contacts, options.max_intervals, surface_),
-        update_(mesh.vertex_count) {}
+        surface_(step.parts.cloth_flags(bodies)),
+        tracker_(step.mesh, step.hierarchy, step.contacts, step.options.max_intervals, surface_),
+        update_(step.mesh.vertex_count) {}
 
-  /// A conflict where the fail-safe ends in one.
+  /// The report says how it ended; a conflict where the fail-safe ends in one.
   std::optional<StepLimiter::Conflict> run(const PositionsRef& V_t0, const PositionsRef& V_candidate) {
     report_ = {};
+    report_.status = StepStatus::kAbandoned;
     met_.clear();
-    motion_.start(V_t0, groups_.targets(V_t0, V_candidate), options_.precision);
+    motion_.start(V_t0, groups_.targets(V_t0, V_candidate), step_.options.precision);
     groups_.observe(motion_);
     report_.cut_candidates = limit_travel(groups_, motion_);
-    if (options_.repulsion) repel();
-    is_abandoned_ = !search();
-    if (is_abandoned_) return std::nullopt;
+    if (step_.options.repulsion) repel();
+    if (!search()) return std::nullopt;
     report_.first_collisions = static_cast<std::int64_t>(tracker_.collisions().size());
-    if (options_.repulsion) meet_collisions();
-    is_abandoned_ = report_.first_collisions > patience_.collisions;
-    if (is_abandoned_) return std::nullopt;
+    if (step_.options.repulsion) meet_collisions();
+    if (report_.first_collisions > patience_.collisions) return std::nullopt;
     const PhaseTimer timer(report_.phases.response);
     apply_impulses();
-    is_abandoned_ = patience_.impulse_rounds < Patience::kEndless && !tracker_.collisions().empty();
-    if (is_abandoned_) return std::nullopt;
+    if (patience_.impulse_rounds < Patience::kEndless && !tracker_.collisions().empty()) return std::nullopt;
     move_impact_zones();
-    return hold_back();
+    auto conflict = hold_back();
+    report_.status = conflict ? StepStatus::kStopped : StepStatus::kSafe;
+    if (conflict) report_.witness = conflict->collision;
+    return conflict;
   }
 
   /// After run().
-  [[nodiscard]] bool is_abandoned() const { return is_abandoned_; }
   [[nodiscard]] const StepMotion& motion() const { return motion_; }
   [[nodiscard]] CollisionStepReport& report() { return report_; }
   [[nodiscard]] const CollisionTracker& tracker() const { return tracker_; }
@@ -109,18 +118,12 @@ class Attempt {
   std::optional<StepLimiter::Conflict> hold_back();
   [[nodiscard]] bool zone_can_help(const Collision& collision) const;
 
-  const Mesh& mesh_;
-  BoxHierarchy& hierarchy_;
-  const CollisionOptions& options_;
-  const ContactTable& contacts_;
-  StartProximities& proximities_;
-  Room& room_;
+  Persistent& step_;
   const CollisionBodies& bodies_;
   ScriptedGroups& groups_;
   const double dt_s_;
   const Patience patience_;
   const std::span<const RepulsionContact> held_;
-  bool is_abandoned_ = false;
   std::vector<RepulsionContact> met_;  ///< beside held_
   const std::vector<std::uint8_t> surface_;
   StepMotion motion_;
@@ -134,25 +137,25 @@ class Attempt {
 void Attempt::repel() {
   {
     const PhaseTimer timer(report_.phases.proximity);
-    proximities_.start(hierarchy_, motion_.V_t0(), surface_);
-    proximities_.leave_out(held_);
+    step_.proximities.start(step_.hierarchy, motion_.V_t0(), surface_);
+    step_.proximities.leave_out(held_);
   }
-  Contacts& contacts = room_.swept;
+  Contacts& contacts = step_.room_of_swept;
   contacts.clear();
   for (const RepulsionContact& held : held_) contacts.add(held);
   for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
     std::span<const RepulsionContact> found;
     {
       const PhaseTimer timer(report_.phases.proximity);
-      found =
-          make_contacts(proximities_.find(motion_.x()), contacts_, motion_.V_t0(), bodies_.inverse_mass, room_.found);
+      found = make_contacts(step_.proximities.find(motion_.x()), step_.contacts, motion_.V_t0(), bodies_.inverse_mass,
+                            step_.room_of_found);
     }
     const PhaseTimer timer(report_.phases.repulsion);
     for (const RepulsionContact& contact : found) contacts.add(contact);
-    contacts.repel(options_, dt_s_, sweeps, motion_);
+    contacts.repel(step_.options, dt_s_, sweeps, motion_);
   }
   met_ = contacts.pressed(held_.size());
-  report_.proximities = std::ssize(held_) + proximities_.count();
+  report_.proximities = std::ssize(held_) + step_.proximities.count();
   report_.repulsions = contacts.count().repulsions;
   report_.frictions = contacts.count().frictions;
 }
@@ -161,7 +164,8 @@ void Attempt::repel() {
 /// patience with so much: then false.
 bool Attempt::search() {
   const PhaseTimer timer(report_.phases.search);
-  const std::size_t most = std::max(kLeastMostMeetings, kMostMeetings * static_cast<std::size_t>(mesh_.vertex_count));
+  const std::size_t most =
+      std::max(kLeastMostMeetings, kMostMeetings * static_cast<std::size_t>(step_.mesh.vertex_count));
   for (int halvings = 0; halvings < kMostHalvings; ++halvings) {
     if (tracker_.start(motion_, most)) return true;
     report_.first_collisions = static_cast<std::int64_t>(most) + 1;
@@ -176,7 +180,7 @@ void Attempt::meet_collisions() {
   for (const Collision& collision : tracker_.collisions()) {
     if (collision.kind == PairKind::kSelf) continue;
     const std::array<VertexId, 4> pair = tracker_.vertices(collision);
-    const ContactProperties properties = contacts_.of(collision.kind, collision.first, collision.second);
+    const ContactProperties properties = step_.contacts.of(collision.kind, collision.first, collision.second);
     const auto contact = make_contact(collision, pair, properties, motion_.V_t0(), bodies_.inverse_mass);
     if (contact) met_.push_back(*contact);
   }
@@ -184,7 +188,7 @@ void Attempt::meet_collisions() {
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
 void Attempt::apply_impulses() {
-  const std::int64_t most_rounds = std::min<std::int64_t>(options_.impulse_iterations, patience_.impulse_rounds);
+  const std::int64_t most_rounds = std::min<std::int64_t>(step_.options.impulse_iterations, patience_.impulse_rounds);
   while (report_.impulse_rounds < most_rounds && !tracker_.collisions().empty()) {
     ++report_.impulse_rounds;
     std::vector<PairChange> changes;
@@ -192,10 +196,10 @@ void Attempt::apply_impulses() {
       const std::array<VertexId, 4> pair = tracker_.vertices(collision);
       const Interaction interaction =
           make_interaction(collision.kind, pair, collision.ccd.weights, bodies_.inverse_mass);
-      const double tolerance_m = contacts_.of(collision.kind, collision.first, collision.second).tolerance_m;
+      const double tolerance_m = step_.contacts.of(collision.kind, collision.first, collision.second).tolerance_m;
       changes.push_back(collision_impulse(collision, interaction, motion_, tolerance_m));
     }
-    update_.apply(changes, options_.relaxation, motion_);
+    update_.apply(changes, step_.options.relaxation, motion_);
     if (!motion_.anything_changed()) return;
     tracker_.update(motion_);
   }
@@ -207,19 +211,24 @@ bool Attempt::zone_can_help(const Collision& collision) const {
   const std::array<VertexId, 4> v = tracker_.vertices(collision);
   const Positions& V = motion_.V_t0();
   const std::array<Vec3, 4> x{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
-  const double tolerance = contacts_.of(collision.kind, collision.first, collision.second).tolerance_m;
-  if (collision.kind == PairKind::kEe) return ee_proximity(x).distance_lower > tolerance;
-  // A self pair is {p, a, b, p}: its edge is a face without area.
-  const Vec3& c = collision.kind == PairKind::kSelf ? x[2] : x[3];
-  return vf_proximity({x[0], x[1], x[2], c}).distance_lower > tolerance;
+  const double tolerance = step_.contacts.of(collision.kind, collision.first, collision.second).tolerance_m;
+  switch (collision.kind) {
+    case PairKind::kVf:
+      return vf_proximity(x).distance_lower > tolerance;
+    case PairKind::kEe:
+      return ee_proximity(x).distance_lower > tolerance;
+    case PairKind::kSelf:
+      break;
+  }
+  return self_proximity({x[0], x[1], x[2]}).distance_lower > tolerance;
 }
 
 /// Section 7.5: merge what collides into rigid zones, and grow them until nothing collides.
 void Attempt::move_impact_zones() {
   if (tracker_.collisions().empty()) return;
   const Positions displacement = motion_.displacement();  // zones keep the momentum that the impulses left
-  ImpactZones zones(mesh_.vertex_count, groups_);
-  while (report_.zone_rounds < options_.zone_iterations && !tracker_.collisions().empty()) {
+  ImpactZones zones(step_.mesh.vertex_count, groups_);
+  while (report_.zone_rounds < step_.options.zone_iterations && !tracker_.collisions().empty()) {
     bool merged = false;
     for (const Collision& collision : tracker_.collisions()) {
       if (zone_can_help(collision)) merged = zones.merge(tracker_.vertices(collision)) || merged;
@@ -235,9 +244,9 @@ void Attempt::move_impact_zones() {
 /// The fail-safe: what still collides is held back, more of it every round.
 std::optional<StepLimiter::Conflict> Attempt::hold_back() {
   if (!tracker_.has_motion_collision()) return std::nullopt;
-  StepLimiter limiter(mesh_, hierarchy_, groups_, contacts_.thickness_upper());
+  StepLimiter limiter(step_.mesh, step_.hierarchy, groups_, step_.contacts.thickness_upper());
   while (tracker_.has_motion_collision()) {
-    SELVAGE_ASSERT(report_.fail_safe_rounds <= 3 * static_cast<std::int64_t>(mesh_.vertex_count));
+    SELVAGE_ASSERT(report_.fail_safe_rounds <= 3 * static_cast<std::int64_t>(step_.mesh.vertex_count));
     ++report_.fail_safe_rounds;
     if (auto conflict = limiter.restrain(tracker_, motion_)) return conflict;
     tracker_.update(motion_);
@@ -268,22 +277,8 @@ std::string_view name_of(StepStatus status) {
   return "called invalid";
 }
 
-struct CollisionStep::Impl {
-  Impl(const Mesh& step_mesh, const CollisionOptions& step_options, ContactSurfaces surfaces)
-      : mesh(step_mesh),
-        options(step_options),
-        contacts(step_mesh, step_options, std::move(surfaces)),
-        hierarchy(step_mesh),
-        parts(step_mesh),
-        proximities(step_mesh, contacts) {}
-
-  const Mesh& mesh;
-  CollisionOptions options;
-  ContactTable contacts;
-  BoxHierarchy hierarchy;
-  SurfaceParts parts;
-  StartProximities proximities;
-  Room room;
+struct CollisionStep::Impl : Persistent {
+  using Persistent::Persistent;
 };
 
 CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, ContactSurfaces surfaces)
@@ -305,8 +300,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   if (result.report.input_error != InputError::kNone) return result;
 
   ScriptedGroups groups(bodies);
-  Attempt attempt(impl_->mesh, impl_->hierarchy, impl_->options, impl_->contacts, impl_->proximities, impl_->room,
-                  bodies, impl_->parts.cloth_flags(bodies), groups, dt_s, patience, held);
+  Attempt attempt(*impl_, bodies, groups, dt_s, patience, held);
   auto conflict = attempt.run(V_t0, V_candidate);
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
     groups.wait(conflict->groups, conflict->vertices);  // of which one at least moved till now: so this ends
@@ -317,14 +311,9 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   result.met = std::move(attempt.met());
   result.report.waiting_bodies = groups.waiting_bodies();
   result.report.waiting_vertices = groups.waiting_vertices();
-  if (conflict || attempt.is_abandoned()) {
-    result.report.status = conflict ? StepStatus::kStopped : StepStatus::kAbandoned;
-    if (conflict) result.report.witness = conflict->collision;
-    return result;
-  }
+  if (result.report.status != StepStatus::kSafe) return result;
   // What is not finite was not certified, whatever the tracker says.
   SELVAGE_ASSERT(attempt.motion().x().allFinite());
-  result.report.status = StepStatus::kSafe;
   result.report.certificate = attempt.tracker().report();
   result.report.below_tolerance = attempt.tracker().collisions();
   result.x = attempt.motion().x();
@@ -340,7 +329,7 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
   const std::vector<PairProximity> near = impl.proximities.find(V_candidate, fall);
-  const auto contacts = make_contacts(near, impl.contacts, V_t0, bodies.inverse_mass, impl.room.found);
+  const auto contacts = make_contacts(near, impl.contacts, V_t0, bodies.inverse_mass, impl.room_of_found);
   return {contacts.begin(), contacts.end()};
 }
 

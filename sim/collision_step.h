@@ -30,8 +30,8 @@ enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kAbandoned,    ///< the caller's Patience ended; the returned positions are V_t0
-  kInvalidInput  ///< NaN, sizes, domain (input_error says which; first_bad_option() which option): nothing was done;
-                 ///< the returned positions are V_t0
+  kInvalidInput  ///< NaN, sizes, domain (input_error says which; first_bad_option(), where it is one of the options,
+                 ///< which): nothing was done; the returned positions are V_t0
 };
 [[nodiscard]] std::string_view name_of(StepStatus status);
 
@@ -58,6 +58,11 @@ struct CollisionStepReport {
   /// Of x: the pairs not proved separated (those of below_tolerance), and the queries of all rounds. A pair is asked
   /// again only after one of its vertices changed, so each answer is for the motion V_t0 -> x.
   CollisionReport certificate;
+
+  /// Whether repulsions left something to resolve.
+  [[nodiscard]] bool collided() const { return impulse_rounds + zone_rounds + fail_safe_rounds > 0; }
+  /// Whether anything met.
+  [[nodiscard]] bool touched() const { return repulsions + frictions > 0 || collided(); }
 };
 
 struct CollisionStepResult {

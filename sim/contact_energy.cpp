@@ -1,14 +1,6 @@
 #include "sim/contact_energy.h"
 
 namespace selvage::sim {
-namespace {
-
-double elastic_j(const Spring& spring, const PositionsRef& x) {
-  const double elongation = (x.row(spring.b) - x.row(spring.a)).norm() - spring.rest_length_m;
-  return spring.stiffness_n_m / 2 * elongation * elongation;
-}
-
-}  // namespace
 
 std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, const SurfaceParts& parts,
                                             std::span<const double> inverse_mass, const Motion& end,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
-#include "sim/time_step.h"
+#include "sim/step_clock.h"
 #include "sim/world.h"
 
 namespace selvage::sim {

@@ -14,21 +14,13 @@ namespace {
 
 std::unique_ptr<Dynamics> make_dynamics(const Scene& scene, const World& world, double step_s) {
   const StabilizerSystem* stabilizers = world.stabilizers.empty() ? nullptr : &world.stabilizers;
+  const FieldForces fields{scene.gravity_m_s2, scene.drag_1_s, scene.quadratic_drag_1_m};
   if (scene.solver == Solver::kImplicit) {
-    return std::make_unique<ImplicitDynamics>(
-        world.springs,
-        ImplicitDynamicsOptions{
-            {scene.gravity_m_s2, scene.drag_1_s, scene.quadratic_drag_1_m}, scene.strain, step_s, stabilizers});
+    return std::make_unique<ImplicitDynamics>(world.springs,
+                                              ImplicitDynamicsOptions{fields, scene.strain, step_s, stabilizers});
   }
-  CentralDifferencesOptions options;
-  options.gravity_m_s2 = scene.gravity_m_s2;
-  options.drag_1_s = scene.drag_1_s;
-  options.quadratic_drag_1_m = scene.quadratic_drag_1_m;
-  options.strain = scene.strain;
-  options.stabilizers = stabilizers;
-  options.step_s = step_s;
-  options.stable_step_s = world.stable_step_s;
-  return std::make_unique<CentralDifferences>(world.springs, options);
+  return std::make_unique<CentralDifferences>(
+      world.springs, CentralDifferencesOptions{fields, scene.strain, step_s, world.stable_step_s, stabilizers});
 }
 
 // How often the dynamics runs again with the contacts that the collision step met. Two sheets that meet at 12 m/s leave
@@ -40,17 +32,11 @@ constexpr int kHoldingRounds = 3;
 // 1,005; docs/simulator-speed.md has more.
 constexpr std::int32_t kLastSweeps = 4;
 
-bool collided(const CollisionStepReport& report) {
-  return report.impulse_rounds + report.zone_rounds + report.fail_safe_rounds > 0;
-}
-
 // Where a body had to wait, or zones or the fail-safe had to act, there was no room, and what presses without room
 // would be learnt without end: sheets that jammed after they had met at 100 m/s were thrown apart at 10^9 m/s.
 bool had_room(const CollisionStepReport& report) {
   return report.waiting_bodies.empty() && report.zone_rounds + report.fail_safe_rounds == 0;
 }
-
-bool touched(const CollisionStepReport& report) { return report.repulsions + report.frictions > 0 || collided(report); }
 
 }  // namespace
 
@@ -208,7 +194,7 @@ double Simulation::fastest_contact(const std::vector<RepulsionContact>& contacts
 
 bool Simulation::overstrains(const Try& tried) const {
   const CollisionStepReport& report = tried.safe.report;
-  return report.status == StepStatus::kSafe && (touched(report) || tried.held.repulsions > 0) &&
+  return report.status == StepStatus::kSafe && (report.touched() || tried.held.repulsions > 0) &&
          allowance_.overstrains(x_, tried.candidate, tried.safe.x, clock_.halvings());
 }
 
@@ -229,7 +215,7 @@ void Simulation::commit(Try& tried) {
   v_ = (safe.x - x_) / dt_s;
   x_ = safe.x;
   v_.topRows(cloth) = tried.end.v;
-  if (touched(safe.report)) {
+  if (safe.report.touched()) {
     Motion end = {x_.topRows(cloth), safe.velocity.topRows(cloth)};
     dynamics_->final_velocity(end, script_.inverse_mass(), dt_s);
     is_changed = parts_.spread(is_changed);

@@ -16,8 +16,8 @@
 #include "sim/scripted_motion.h"
 #include "sim/springs/spring_strain.h"
 #include "sim/step_allowance.h"
+#include "sim/step_clock.h"
 #include "sim/step_lengths.h"
-#include "sim/time_step.h"
 #include "sim/world.h"
 
 namespace selvage::sim {

@@ -86,15 +86,15 @@ InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> hel
     const bool fits = is_pair && is_first && is_second(contact.second) && is_second(contact.second_t0) &&
                       contact.interaction.vertex_count == kPairVertices &&
                       contact.interaction.vertices == pair_vertices(mesh, contact.kind, contact.first, contact.second);
-    if (!fits) return InputError::kSizeMismatch;
+    if (!fits) return InputError::kBadContact;
     const auto is_finite = [](double value) { return std::isfinite(value); };
     const auto& [vertices, weights, vertex_count, mobility, scale] = contact.interaction;
     const bool finite = contact.normal.allFinite() && is_finite(contact.distance) && contact.mobility > 0 &&
                         is_finite(contact.mobility) && is_finite(scale) && is_valid(contact.properties) &&
                         std::ranges::all_of(weights, is_finite) && std::ranges::all_of(mobility, is_finite) &&
                         std::ranges::all_of(contact.x_t0, [](const Vec3& x) { return x.allFinite(); });
-    if (!finite) return InputError::kNotFinite;
-    if (!(std::abs(contact.normal.norm() - 1) <= kUnitRounding)) return InputError::kBadOption;
+    const bool is_unit = std::abs(contact.normal.norm() - 1) <= kUnitRounding;
+    if (!finite || !is_unit) return InputError::kBadContact;
   }
   return InputError::kNone;
 }

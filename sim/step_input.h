@@ -18,8 +18,8 @@ namespace selvage::sim {
                                              const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                              const CollisionBodies& bodies, double dt_s);
 
-/// Likewise of the contacts given to a step: kSizeMismatch where one is no vf or ee pair of the mesh with the vertices
-/// of that, kNotFinite, or kBadOption where a normal is no unit vector. O(#contacts).
+/// kBadContact where a contact given to a step is no vf or ee pair of the mesh with the vertices of that, has a number
+/// that is not finite or out of its range, or a normal that is no unit vector; else kNone. O(#contacts).
 [[nodiscard]] InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> held);
 
 }  // namespace selvage::sim

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/scene/scene.h"
-#include "sim/time_step.h"
+#include "sim/step_clock.h"
 #include "sim/world.h"
 
 namespace selvage::sim {

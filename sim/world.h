@@ -1,7 +1,7 @@
 // Everything about a scene that does not change while it runs.
 #pragma once
 
-#include <string>
+#include <cstdint>
 #include <vector>
 
 #include "io/mesh_data.h"
@@ -42,8 +42,5 @@ struct ScriptedVertices {
 /// Reads the mesh and sequence files and builds. Throws io::Error: with the line of the scene, a bad mesh, a vertex
 /// without mass, a pinned vertex out of range, sleeves that do not fit, and springs too stiff for explicit dynamics.
 [[nodiscard]] World build_world(const Scene& scene);
-
-/// What the run models, one line each, for a person: what the scene does not ask for is not built and not listed.
-[[nodiscard]] std::string describe(const Scene& scene, const World& world);
 
 }  // namespace selvage::sim

@@ -42,9 +42,8 @@ void ExactWatch::start(const Positions& x) {
 void ExactWatch::step(const Positions& x_t0, const Positions& x_t1, const sim::CollisionStepReport& report) {
   TrialReport& account = trial_.report();
   ++account.steps;
-  const bool collided = report.impulse_rounds + report.zone_rounds + report.fail_safe_rounds > 0;
-  account.steps_with_contact += collided || report.repulsions > 0;
-  account.steps_with_collisions += collided;
+  account.steps_with_contact += report.collided() || report.repulsions > 0;
+  account.steps_with_collisions += report.collided();
   account.pairs_below_tolerance += static_cast<std::int64_t>(report.below_tolerance.size());
   account.fail_safe_steps += report.fail_safe_vertices > 0;
   account.fail_safe_vertices += report.fail_safe_vertices;

@@ -59,14 +59,6 @@ double ScenePlay::fastest_m_s() const {
   return simulation_.state().v.topRows(simulation_.world().cloth_vertex_count).rowwise().norm().maxCoeff();
 }
 
-double ScenePlay::largest_strain() const {
-  double largest = 0;
-  for (const sim::Spring& spring : simulation_.world().springs.springs()) {
-    if (spring.kind == sim::SpringKind::kBending) continue;
-    const double length = (x().row(spring.b) - x().row(spring.a)).norm();
-    largest = std::max(largest, std::abs(length / spring.rest_length_m - 1));
-  }
-  return largest;
-}
+double ScenePlay::largest_strain() const { return sim::most_strained(simulation_.world().springs, x()).strain; }
 
 }  // namespace selvage::bench

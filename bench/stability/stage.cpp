@@ -99,8 +99,8 @@ Stage::Stage(Trial& trial, StageSetup setup)
       v_(setup_.v),
       x_start_(setup_.x) {
   sim::CentralDifferencesOptions options;
-  options.gravity_m_s2 = setup_.gravity_m_s2;
-  options.drag_1_s = setup_.drag_1_s;
+  options.fields.gravity_m_s2 = setup_.gravity_m_s2;
+  options.fields.drag_1_s = setup_.drag_1_s;
   options.strain = setup_.strain;
   options.step_s = std::min(sim::kStableShare * sim::stable_step_s(springs_, setup_.inverse_mass), setup_.dt_s);
   dynamics_ = std::make_unique<sim::CentralDifferences>(springs_, options);
@@ -182,12 +182,9 @@ void Stage::weigh(const Positions& candidate, const sim::CollisionStepResult& re
 }
 
 void Stage::commit(const sim::CollisionStepResult& result) {
-  const sim::CollisionStepReport& report = result.report;
-  const bool touched =
-      report.repulsions + report.frictions + report.impulse_rounds + report.zone_rounds + report.fail_safe_rounds > 0;
   Positions scripted_v = (result.x - x_) / setup_.dt_s;
   x_ = result.x;
-  if (touched || !has_end_) {
+  if (result.report.touched() || !has_end_) {
     end_ = {x_, result.velocity};
     if (has_end_) dynamics_->final_velocity(end_, setup_.inverse_mass, setup_.dt_s);
   }
@@ -216,10 +213,7 @@ double Stage::energy_j() const {
   for (Eigen::Index i = 0; i < x_.rows(); ++i) {
     sum -= mass_of(setup_, i) * setup_.gravity_m_s2.dot((x_.row(i) - x_start_.row(i)).transpose());
   }
-  for (const sim::Spring& spring : setup_.springs) {
-    const double stretch = (x_.row(spring.b) - x_.row(spring.a)).norm() - spring.rest_length_m;
-    sum += spring.stiffness_n_m / 2 * stretch * stretch;
-  }
+  for (const sim::Spring& spring : setup_.springs) sum += elastic_j(spring, x_);
   return sum;
 }
 
@@ -227,8 +221,7 @@ double Stage::largest_strain() const {
   double largest = 0;
   for (const sim::Spring& spring : setup_.springs) {
     if (spring.kind == sim::SpringKind::kBending) continue;
-    const double length = (x_.row(spring.b) - x_.row(spring.a)).norm();
-    largest = std::max(largest, std::abs(length / spring.rest_length_m - 1));
+    largest = std::max(largest, std::abs(elongation(spring, x_)));
   }
   return largest;
 }

@@ -81,17 +81,6 @@ bool has_edge_without_length(const sim::World& world) {
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
 }
 
-sim::StartRepair repair_of(std::int64_t pairs, const Positions& before, const Positions& after) {
-  sim::StartRepair repair;
-  repair.pairs = pairs;
-  for (Eigen::Index v = 0; v < before.rows(); ++v) {
-    const double moved_m = (after.row(v) - before.row(v)).stableNorm();
-    repair.moved_vertices += moved_m > 0 ? 1 : 0;
-    repair.largest_move_m = std::max(repair.largest_move_m, moved_m);
-  }
-  return repair;
-}
-
 }  // namespace
 
 std::string part_of_vertex(const sim::World& world, VertexId vertex) {
@@ -124,8 +113,8 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
            fmt::format("--repair found no way out for them, of {} pairs before; {}", pairs.size(),
                        start_remedy(world, simulation.x(), since_start, true)));
   }
-  sim::StartRepair done = repair_of(std::ssize(pairs), simulation.x(), repaired.x);
-  done.largest_strain = repaired.largest_strain;
+  const sim::StartRepair done{std::ssize(pairs), repaired.moved_vertices, repaired.largest_move_m,
+                              repaired.largest_strain};
   sim::SimulationState state = simulation.state();
   state.x = std::move(repaired.x);
   simulation.restore(state);

@@ -15,18 +15,23 @@
 namespace selvage::sim {
 namespace {
 
+// Prefers no turn about axes for which the points ask for none. 100 times the rounding of the covariance, so that the
+// preference wins there; where the second largest extent is 1/100 of the largest it shifts the angle by 10^-10.
+constexpr double kLeastTurnWeight = 1e-14;
+
 double largest_coordinate(std::span<const Vec3> vectors) {
   double largest = 0;
   for (const Vec3& v : vectors) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   return largest;
 }
 
-/// Subtracts the weighted mean, divides by a power of two, and returns {mean, power}.
+/// y = (x - mean) / scale.
 struct Centered {
   std::vector<Vec3> y;
   Vec3 mean;
   double scale;
 };
+/// With the weighted mean, and a power of two that leaves no coordinate above 1.
 Centered centered(std::span<const Vec3> x, std::span<const double> share) {
   Centered result{{x.begin(), x.end()}, Vec3::Zero(), 1};
   for (std::size_t i = 0; i < x.size(); ++i) result.mean += share[i] * (x[i] - x[0]);
@@ -75,10 +80,6 @@ RigidMotion momentum_motion(std::span<const Vec3> x, std::span<const Vec3> displ
   result.turn = std::sin(angle) * axis + 2 * sine_of_half * sine_of_half * axis * axis;
   return result;
 }
-
-/// Prefers no turn about axes for which the points ask for none. 100 times the rounding of the covariance, so that the
-/// preference wins there; where the second largest extent is 1/100 of the largest it shifts the angle by 10^-10.
-constexpr double kLeastTurnWeight = 1e-14;
 
 RigidMotion best_fit_motion(std::span<const Vec3> x_t0, std::span<const Vec3> x_t1) {
   const std::vector<double> share(x_t0.size(), 1.0 / static_cast<double>(x_t0.size()));

@@ -27,7 +27,7 @@ std::vector<RestPair> find_rest_pairs(const Mesh& mesh, const PositionsRef& V_re
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId vertex = mesh.faces[f][k];
       const Vec3 a = V_rest.row(mesh.faces[f][(k + 1) % 3]), b = V_rest.row(mesh.faces[f][(k + 2) % 3]);
-      const double distance_m = vf_proximity({V_rest.row(vertex), a, b, b}).distance;  // an edge is a face without area
+      const double distance_m = self_proximity({V_rest.row(vertex), a, b}).distance;
       if (distance_m < thickness_m) pairs.push_back({PairKind::kSelf, vertex, static_cast<FaceId>(f), distance_m});
     }
   }

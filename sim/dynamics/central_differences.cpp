@@ -8,6 +8,7 @@
 #include "sim/base/parallel.h"
 #include "sim/dynamics/drag_steps.h"
 #include "sim/dynamics/held_contacts.h"
+#include "sim/dynamics/scripted_ends.h"
 #include "sim/dynamics/velocity_march.h"
 #include "sim/springs/spring_strain.h"
 
@@ -43,9 +44,9 @@ int CentralDifferences::step_count_in_contact(double dt_s, const PositionsRef& x
 }
 
 void CentralDifferences::implicit_half_kick(double h) {
-  elastic_half_kick(half_kick(h), inverse_mass_, force_, v_, rhs_);
-  const VelocitySystem system{springs_, x_, inverse_mass_, options_.drag_1_s};
-  if (options_.quadratic_drag_1_m > 0) {
+  elastic_half_kick({h, options_.fields}, inverse_mass_, force_, v_, rhs_);
+  const VelocitySystem system{springs_, x_, inverse_mass_, options_.fields.drag_1_s};
+  if (options_.fields.quadratic_drag_1_m > 0) {
     march(system, h / 2);
   } else {
     solver_.solve(system, rhs_, h / 2, impulses_, v_, velocity_residual_);
@@ -77,12 +78,12 @@ void CentralDifferences::march(const VelocitySystem& system, double time_s) {
     const double w = system.inverse_mass[i];
     if (w == 0) continue;
     rate_1_s = std::max(rate_1_s, w * springs_.row_sum(static_cast<VertexId>(i)) / time_s);
-    const double terminal_m_s = std::sqrt(elastic.row(i).norm() / options_.quadratic_drag_1_m);
+    const double terminal_m_s = std::sqrt(elastic.row(i).norm() / options_.fields.quadratic_drag_1_m);
     speed = std::max({speed, v.row(i).norm(), std::min(kicked.row(i).norm(), terminal_m_s)});
-    drag.linear_1_s[i] = options_.drag_1_s;
-    drag.quadratic_1_m[i] = options_.quadratic_drag_1_m;
+    drag.linear_1_s[i] = options_.fields.drag_1_s;
+    drag.quadratic_1_m[i] = options_.fields.quadratic_drag_1_m;
   }
-  rate_1_s += 2 * options_.quadratic_drag_1_m * speed;
+  rate_1_s += 2 * options_.fields.quadratic_drag_1_m * speed;
   const auto acceleration = [&](const Positions& u, Positions& a) {
     v_.copy(u);
     springs_.multiply(x_, v_, impulses_);
@@ -100,13 +101,9 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
                                            std::span<const double> inverse_mass, double dt_s, HeldContacts* contacts) {
   const int count =
       std::max(contacts == nullptr ? step_count(dt_s, options_.step_s) : step_count_in_contact(dt_s, motion.x),
-               steps_for_drag(quadratic_drag_1_s(options_.quadratic_drag_1_m, motion.v, inverse_mass), dt_s));
+               steps_for_drag(quadratic_drag_1_s(options_.fields.quadratic_drag_1_m, motion.v, inverse_mass), dt_s));
   const double h = dt_s / count;
-  for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
-    if (inverse_mass[static_cast<std::size_t>(i)] == 0) {
-      motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
-    }
-  }
+  start_scripts(motion, scripted_x_t1, inverse_mass, dt_s);
   internal_step_s_ = h;
   strain_.forget();
   inverse_mass_.copy(inverse_mass);
@@ -117,7 +114,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   springs_.look(x_, force_);
   springs_.multiply(x_, v_, impulses_);
   for (int step = 0; step < count; ++step) {
-    explicit_half_kick(half_kick(h), inverse_mass_, force_, impulses_, x_, v_, x_t1_);
+    explicit_half_kick({h, options_.fields}, inverse_mass_, force_, impulses_, x_, v_, x_t1_);
     const LimitedMotion limited{x_, h, v_, x_t1_};
     const MidstepMotion held{h, double(step + 1) / count, x_t1_, v_};
     if (contacts != nullptr) contacts->bear(held);
@@ -132,9 +129,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   const Positions x_t0 = motion.x;
   x_.copy_to(motion.x);
   v_.copy_to(motion.v);
-  for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
-    if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) = scripted_x_t1.row(i);
-  }
+  end_scripts(motion.x, scripted_x_t1, inverse_mass);
   average_v_ = (motion.x - x_t0) / dt_s;
   return {};
 }

@@ -14,17 +14,13 @@
 namespace selvage::sim {
 
 struct CentralDifferencesOptions {
-  Vec3 gravity_m_s2 = Vec3::Zero();
-  double drag_1_s = 0;  ///< acceleration -drag v: still air, proportional to mass
+  FieldForces fields;  ///< where drag is quadratic, the velocity marches (velocity_march.h) instead of being solved for
   StrainLimits strain;
   double step_s = 0;  ///< longest internal step; REQUIRES > 0 and below stable_step_s()
   /// stable_step_s() of the springs. Where contacts are held, and a spring is longer by more than 0.3, internal steps
   /// are at most 0.9 of this over its length in units of that at rest, or 0.35 of it. REQUIRES > 0
   double stable_step_s = std::numeric_limits<double>::infinity();
   const StabilizerSystem* stabilizers = nullptr;  ///< none, or outlives the dynamics
-  /// Air drag that grows with the square of the speed: acceleration -quadratic_drag_1_m |v| v. Damping is not linear
-  /// then, and the velocity marches (velocity_march.h) instead of being solved for.
-  double quadratic_drag_1_m = 0;
 };
 
 /// Explicit in the elastic forces, implicit in damping in the second half step (paper, sections 5 and 7.6):
@@ -52,9 +48,9 @@ class CentralDifferences : public Dynamics {
   /// That may be longer than what is stable for explicit springs, so here they act where the velocity carries the ends
   /// in half a step: (h/2)^2 k n n^T is added to the matrix. For h within the stable step this is a correction of
   /// second order in the step; over time it damps cloth in contact, the more the shorter collision steps are
-  /// (docs/numerics.md, *After contact*). For longer ones it is what keeps it bounded. Forces stay along the springs, so angular momentum is
-  /// kept. (A part across springs in tension did not keep it, by 6e-8 of it a step, and table-legs was as calm
-  /// without.)
+  /// (docs/numerics.md, *After contact*). For longer ones it is what keeps it bounded. Forces stay along the springs,
+  /// so angular momentum is kept. (A part across springs in tension did not keep it, by 6e-8 of it a step, and
+  /// table-legs was as calm without.)
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:
@@ -62,9 +58,6 @@ class CentralDifferences : public Dynamics {
     return static_cast<int>(std::ceil(dt_s / longest_s));
   }
   [[nodiscard]] int step_count_in_contact(double dt_s, const PositionsRef& x) const;
-  [[nodiscard]] HalfKick half_kick(double h) const {
-    return {h, options_.gravity_m_s2, options_.drag_1_s, options_.quadratic_drag_1_m};
-  }
   /// Leaves the impulses of B at the new velocity in impulses_.
   void implicit_half_kick(double h);
   void march(const VelocitySystem& system, double time_s);

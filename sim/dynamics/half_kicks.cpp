@@ -32,8 +32,8 @@ void ExplicitHalfKick(const HalfKick& kick, const LaneScalars& inverse_mass, con
   const Real d;
   const Axes force(forces), impulse(impulses), x(positions), v(velocities);
   const Value h = hn::Set(d, kick.h), half = hn::Set(d, kick.h / 2);
-  const Value linear_1_s = hn::Set(d, kick.drag_1_s), quadratic_1_m = hn::Set(d, kick.quadratic_drag_1_m);
-  const Vector gravity = Broadcast(kick.gravity_m_s2);
+  const Value linear_1_s = hn::Set(d, kick.fields.drag_1_s), quadratic_1_m = hn::Set(d, kick.fields.quadratic_drag_1_m);
+  const Vector gravity = Broadcast(kick.fields.gravity_m_s2);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     const Value w = hn::LoadU(d, inverse_mass.data() + row);
     const Vector before = ReadRows(v, row);
@@ -55,7 +55,7 @@ void ElasticHalfKick(const HalfKick& kick, const LaneScalars& inverse_mass, cons
   const Real d;
   const Axes force(forces), v(velocities);
   const Value half = hn::Set(d, kick.h / 2);
-  const Vector gravity = Broadcast(kick.gravity_m_s2);
+  const Vector gravity = Broadcast(kick.fields.gravity_m_s2);
   for (Eigen::Index row = begin; row < end; row += VectorRows()) {
     const Value w = hn::LoadU(d, inverse_mass.data() + row);
     const Vector before = ReadRows(v, row);

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "sim/base/lane_vectors.h"
+#include "sim/dynamics/field_forces.h"
 
 namespace selvage::sim {
 
 struct HalfKick {
   double h = 0;  ///< of the whole step, s
-  Vec3 gravity_m_s2 = Vec3::Zero();
-  double drag_1_s = 0, quadratic_drag_1_m = 0;  ///< accelerations -drag_1_s v and -quadratic_drag_1_m |v| v
+  FieldForces fields;
 };
 
 // Vertices without inverse mass keep their velocity. All of it is found vertex by vertex: same bits for any thread

@@ -7,6 +7,7 @@
 #include "kernel/assert.h"
 #include "sim/base/parallel.h"
 #include "sim/dynamics/drag_steps.h"
+#include "sim/dynamics/scripted_ends.h"
 #include "sim/dynamics/stage_contacts.h"
 
 namespace selvage::sim {
@@ -60,11 +61,7 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
   const int step_count =
       std::max(static_cast<int>(std::ceil(dt_s / step_s_)),
                steps_for_drag(quadratic_drag_1_s(stage_.fields().quadratic_drag_1_m, motion.v, inverse_mass), dt_s));
-  for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
-    if (inverse_mass[static_cast<std::size_t>(i)] == 0) {
-      motion.v.row(i) = (scripted_x_t1.row(i) - motion.x.row(i)) / dt_s;
-    }
-  }
+  start_scripts(motion, scripted_x_t1, inverse_mass, dt_s);
   const Positions x_t0 = motion.x;
   DynamicsReport report;
   for (int n = 0; n < step_count; ++n) {
@@ -75,9 +72,7 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
       step(motion, inverse_mass, h, report);
     }
   }
-  for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
-    if (inverse_mass[static_cast<std::size_t>(i)] == 0) motion.x.row(i) = scripted_x_t1.row(i);
-  }
+  end_scripts(motion.x, scripted_x_t1, inverse_mass);
   end_v_ = motion.v;
   average_v_ = (motion.x - x_t0) / dt_s;
   return report;

@@ -8,18 +8,13 @@
 #include <vector>
 
 #include "sim/base/conjugate_gradients.h"
+#include "sim/dynamics/field_forces.h"
 #include "sim/dynamics/stage_stabilizers.h"
 #include "sim/springs/spring.h"
 
 namespace selvage::sim {
 
 class StageContacts;
-
-/// Forces on top of springs and stabilisers: acceleration gravity - (drag + quadratic_drag |v|) v.
-struct FieldForces {
-  Vec3 gravity_m_s2 = Vec3::Zero();
-  double drag_1_s = 0, quadratic_drag_1_m = 0;
-};
 
 /// What the equations of a stage are: find x with v = (x - origin) / h and v = v_t0 + h a(x, v).
 struct StageEquations {

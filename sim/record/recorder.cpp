@@ -71,7 +71,8 @@ void remove_leftovers(const std::filesystem::path& folder) {
   if (failed) io::file_error((folder / kRunFile).string(), "remove", failed.value());
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();
-    const bool is_ours = file.starts_with("checkpoint.bin.") || file.starts_with("run.json.");
+    const bool is_ours =
+        file.starts_with(std::string(kCheckpointFile) + ".") || file.starts_with(std::string(kRunFile) + ".");
     std::error_code status;  // what cannot be removed is in nobody's way
     if (is_ours && io::is_temporary_name(file)) std::filesystem::remove(entry.path(), status);
   }
@@ -161,8 +162,8 @@ void Recorder::record(const StepResult& step) {
 
 void Recorder::finish(const RunOutcome& outcome) {
   if (outcome.end != RunEnd::kFailed) save_checkpoint();
-  std::string json = fmt::format("{{\n  \"schema\": \"selvage.run/1\",\n  \"producer\": \"{}\",\n  \"end\": \"{}\",\n",
-                                 producer_, name_of(outcome.end));
+  std::string json = fmt::format("{{\n  \"schema\": \"selvage.run/1\",\n  \"producer\": {},\n  \"end\": \"{}\",\n",
+                                 json_text(producer_), name_of(outcome.end));
   json += fmt::format("  \"exit_code\": {},\n  \"error\": {},\n", outcome.exit_code, json_text(outcome.error));
   json += fmt::format("  \"time_s\": {},\n", simulation_.clock().time_s());
   for_each_total(totals_, [&](const char* name, const auto& field) {

@@ -16,7 +16,7 @@ void RunTotals::add(const StepResult& step) {
   proximities += report.proximities;
   repulsions += report.repulsions;
   frictions += report.frictions;
-  steps_with_collisions += report.impulse_rounds + report.zone_rounds + report.fail_safe_rounds > 0 ? 1 : 0;
+  steps_with_collisions += report.collided() ? 1 : 0;
   first_collisions += report.first_collisions;
   impulse_rounds += report.impulse_rounds;
   zone_rounds += report.zone_rounds;

@@ -9,22 +9,15 @@
 namespace selvage::sim {
 namespace {
 
-constexpr double kStepSeconds = 1;   // nothing here has a time: no springs, no gravity
-constexpr int kApproachSteps = 12;   // each goes half of what is left
-constexpr double kLeastGain = 1e-3;  // of the way: a step that gains less ends the approach
 // A body that comes back goes at most this many gaps a step: a ball through which a cloth passed by its middle comes
 // back in 3.2 s so, and in 10.4 s with steps four times as long, which the rigid zones have to resolve (measured).
 constexpr double kStepGaps = 4;
 constexpr int kMostReturnSteps = 256;  // so that bodies much larger than the gap come back too
 constexpr double kClearGaps = 4;       // between bodies that stand aside and the cloth
 
-CollisionStep make_step(const UntangleState& state) {
-  return {state.mesh, step_options(state.options), state.options.surfaces};
-}
-
 class BodyReturn {
  public:
-  explicit BodyReturn(UntangleState& state) : state_(state), step_(make_step(state)) {
+  explicit BodyReturn(UntangleState& state) : state_(state), step_(state.make_step()) {
     for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
       if (state.mesh.vertex_owner[static_cast<std::size_t>(v)] < 0) continue;
       (state.is_body(v) ? body_box_ : cloth_box_).extend(Vec3(state.x.row(v)));
@@ -85,7 +78,7 @@ std::optional<Positions> BodyReturn::come_back(const Positions& away) {
       const Vec3 end = state_.V.row(v), start = away.row(v);
       candidate.row(v) = state_.on_lattice(end + left * (start - end));
     }
-    const CollisionStepResult result = step_(x, candidate, state_.bodies, kStepSeconds);
+    const CollisionStepResult result = step_(x, candidate, state_.bodies, kRepairStep_s);
     if (result.report.status != StepStatus::kSafe) return std::nullopt;
     x = result.x;
   }
@@ -127,28 +120,5 @@ bool BodyReturn::come_from_aside() {
 }  // namespace
 
 bool return_bodies(UntangleState& state) { return BodyReturn(state).run(); }
-
-void approach_start(UntangleState& state) {
-  std::vector<double> inverse_mass(state.bodies.inverse_mass.begin(), state.bodies.inverse_mass.end());
-  for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
-    if (state.x.row(v) == state.V.row(v)) inverse_mass[static_cast<std::size_t>(v)] = 0;
-  }
-  CollisionStep step = make_step(state);
-  double left = (state.x - state.V).norm();
-  for (int n = 0; n < kApproachSteps && left > 0; ++n) {
-    Positions candidate = state.x;
-    for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
-      if (!(inverse_mass[static_cast<std::size_t>(v)] > 0)) continue;
-      const Vec3 here = state.x.row(v), there = state.V.row(v);
-      candidate.row(v) = here + (there - here) / 2;
-    }
-    const CollisionStepResult result = step(state.x, candidate, {inverse_mass, state.bodies.body}, kStepSeconds);
-    if (result.report.status != StepStatus::kSafe) return;
-    const double now_left = (result.x - state.V).norm();
-    if (!(now_left < (1 - kLeastGain) * left)) return;
-    state.x = result.x;
-    left = now_left;
-  }
-}
 
 }  // namespace selvage::sim

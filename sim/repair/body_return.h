@@ -12,8 +12,4 @@ namespace selvage::sim {
 /// intersect. Changes the cloth in state.x; false where the bodies could not come back.
 [[nodiscard]] bool return_bodies(UntangleState& state);
 
-/// Certified steps towards where the cloth was, in which only what was moved moves. PRE: state.x is free of
-/// intersections. POST: so it is still.
-void approach_start(UntangleState& state);
-
 }  // namespace selvage::sim

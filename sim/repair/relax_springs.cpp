@@ -22,8 +22,7 @@ double excess(const SpringSystem& springs, const PositionsRef& x, double strain_
   double sum = 0;
   for (const Spring& spring : springs.springs()) {
     if (spring.kind == SpringKind::kBending) continue;
-    const double elongation = (x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1;
-    sum += std::max(0.0, elongation - strain_limit);
+    sum += std::max(0.0, elongation(spring, x) - strain_limit);
   }
   return sum;
 }

@@ -52,13 +52,21 @@ RepairedStart repair_start(const Simulation& simulation, const FindIntersections
   const auto bodies = [&] { return bodies_of(world, scripted, SqueezePolicy::kStop); };
   const UntangleOptions options = untangle_options(simulation.scene(), world);
   UntangleResult untangled = untangle(world.mesh, simulation.x(), bodies(), options, find);
-  RepairedStart result{std::move(untangled.x), std::move(untangled.report.remaining), untangled.report.rounds};
+  RepairedStart result;
+  result.x = std::move(untangled.x);
+  result.remaining = std::move(untangled.report.remaining);
+  result.rounds = untangled.report.rounds;
   if (!result.remaining.empty()) return result;
   hold_what_did_not_move(world.mesh, simulation.x(), result.x, scripted.inverse_mass);
   RelaxedSprings relaxed = relax(simulation, result.x, bodies(), options);
   result.x = std::move(relaxed.x);
   result.relax_steps = relaxed.steps;
   result.largest_strain = relaxed.largest_strain;
+  for (Eigen::Index v = 0; v < result.x.rows(); ++v) {
+    const double moved_m = (result.x.row(v) - simulation.x().row(v)).stableNorm();
+    result.moved_vertices += moved_m > 0 ? 1 : 0;
+    result.largest_move_m = std::max(result.largest_move_m, moved_m);
+  }
   return result;
 }
 

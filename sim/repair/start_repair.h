@@ -10,6 +10,8 @@ namespace selvage::sim {
 struct RepairedStart {
   Positions x;  ///< of the simulation, where pairs remain
   std::vector<FacePair> remaining;
+  std::int64_t moved_vertices = 0;  ///< in the end
+  double largest_move_m = 0;
   std::int32_t rounds = 0;       ///< states that were judged
   std::int32_t relax_steps = 0;  ///< in which stretched cloth drew together
   double largest_strain = 0;     ///< after them (spring_strain.h)

@@ -4,6 +4,7 @@
 
 #include "kernel/assert.h"
 #include "kernel/fp_env.h"
+#include "sim/repair/approach_start.h"
 #include "sim/repair/body_return.h"
 #include "sim/repair/membrane.h"
 
@@ -24,18 +25,13 @@ UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const Collision
   const SurfaceParts parts(mesh);
   UntangleState state{mesh, bodies, options, find, parts, parts.cloth_flags(bodies), V, V};
   UntangleReport report;
-  report.before = report.remaining = state.judge(state.x);
-  if (!report.before.empty()) {
+  report.remaining = state.judge(state.x);
+  if (!report.remaining.empty()) {
     if (draw_cloth_back(state) && return_bodies(state)) approach_start(state);
     report.remaining = state.judge(state.x);
   }
   report.rounds = state.rounds;
   if (!report.remaining.empty()) state.x = V;
-  for (Eigen::Index v = 0; v < V.rows(); ++v) {
-    const double moved_m = (state.x.row(v) - V.row(v)).stableNorm();
-    report.moved_vertices += moved_m > 0 ? 1 : 0;
-    report.largest_move_m = std::max(report.largest_move_m, moved_m);
-  }
   return {std::move(state.x), std::move(report)};
 }
 

@@ -34,9 +34,7 @@ struct UntangleOptions {
 [[nodiscard]] CollisionOptions step_options(const UntangleOptions& options);
 
 struct UntangleReport {
-  std::vector<FacePair> before, remaining;
-  std::int64_t moved_vertices = 0;
-  double largest_move_m = 0;
+  std::vector<FacePair> remaining;
   std::int32_t rounds = 0;  ///< states that were judged
 };
 

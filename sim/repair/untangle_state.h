@@ -9,6 +9,8 @@
 
 namespace selvage::sim {
 
+inline constexpr double kRepairStep_s = 1;  ///< nothing has a time in a repair: no springs, no gravity
+
 struct UntangleState {
   const Mesh& mesh;
   const CollisionBodies& bodies;
@@ -23,6 +25,8 @@ struct UntangleState {
   [[nodiscard]] bool is_body(VertexId v) const { return is_cloth[static_cast<std::size_t>(v)] == 0; }
   [[nodiscard]] bool is_scripted(VertexId v) const { return !(bodies.inverse_mass[static_cast<std::size_t>(v)] > 0); }
   [[nodiscard]] bool is_body_face(FaceId f) const { return is_body(mesh.faces[static_cast<std::size_t>(f)][0]); }
+  /// For certified steps.
+  [[nodiscard]] CollisionStep make_step() const { return {mesh, step_options(options), options.surfaces}; }
   [[nodiscard]] bool may_judge() const { return rounds < kMaxUntangleRounds; }
 
   [[nodiscard]] std::vector<FacePair> judge(const Positions& at) {

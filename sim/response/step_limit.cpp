@@ -21,8 +21,7 @@ std::vector<double> clearance(const Mesh& mesh, BoxHierarchy& hierarchy, const P
     if (std::ranges::none_of(face, [&](VertexId v) { return flagged[static_cast<std::size_t>(v)] != 0; })) continue;
     const std::array<Vec3, 3> x{V.row(face[0]), V.row(face[1]), V.row(face[2])};
     for (std::size_t k = 0; k < 3; ++k) {
-      // The third kind of event: a vertex and the opposite edge, here as a face without area.
-      const Proximity self = vf_proximity({x[k], x[(k + 1) % 3], x[(k + 2) % 3], x[(k + 2) % 3]});
+      const Proximity self = self_proximity({x[k], x[(k + 1) % 3], x[(k + 2) % 3]});
       for (const VertexId v : face) lower_to(v, self.distance_lower);
     }
   }

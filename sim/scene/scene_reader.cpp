@@ -198,7 +198,7 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::span<const std::string> 
   cloth.stabilize_n_m = table.number("stabilize_n_m", kNotNegative, 0);
   note_stiffest(table, cloth);
   cloth.damping_ratio = table.number("damping_ratio", {0, 10}, 0);
-  cloth.contact = contacts.read(table, true);
+  cloth.contact = contacts.read(table, io::Group::Role::kCloth);
   cloth.thickness_line = table.line("thickness_m");
   std::set<VertexId> pinned;
   for (TomlTable& pin_table : table.tables("pin")) {
@@ -240,7 +240,7 @@ BodySpec read_body(TomlTable table, std::span<const std::string> earlier, std::s
     body.parent = read_body_index(table, "parent", earlier, " above; name one, and put it before what hangs on it");
   }
   body.script = read_script(table);
-  body.contact = contacts.read(table, false);
+  body.contact = contacts.read(table, io::Group::Role::kBody);
   table.finish();
   return body;
 }
@@ -276,21 +276,15 @@ TimeSpec read_time(TomlTable table) {
 
 CollisionOptions read_collision(TomlTable table) {
   CollisionOptions options;
-  options.thickness_m = table.number("thickness_m", kPositive, options.thickness_m);
-  options.tolerance_m = table.number("tolerance_m", kNotNegative, options.tolerance_m);
-  if (!(options.tolerance_m < options.thickness_m)) {
-    table.fail("tolerance_m", "tolerance_m must be below thickness_m; repulsions could not keep it otherwise");
-  }
+  const ContactProperties contact = read_contact(table, contact_of(options));
+  options.thickness_m = contact.thickness_m;
+  options.tolerance_m = contact.tolerance_m;
+  options.friction_static = contact.friction_static;
+  options.friction_kinetic = contact.friction_kinetic;
   options.repulsion = table.boolean("repulsion", options.repulsion);
   options.repulsion_stiffness_n_m = table.number("repulsion_stiffness_n_m", kNotNegative, 0);
   options.overlap_fraction = table.number("overlap_fraction", {0, 1}, options.overlap_fraction);
   options.relaxation = table.number("relaxation", {0, 1, true}, options.relaxation);
-  options.friction_static = table.number("friction_static", kNotNegative, 0);
-  options.friction_kinetic = table.number("friction_kinetic", kNotNegative, options.friction_static);
-  if (options.friction_kinetic > options.friction_static) {
-    table.fail("friction_kinetic",
-               fmt::format("friction_kinetic must not exceed friction_static, which is {}", options.friction_static));
-  }
   options.impulse_iterations =
       static_cast<std::int32_t>(table.integer("impulse_rounds", 0, 1000, options.impulse_iterations));
   options.zone_iterations = static_cast<std::int32_t>(table.integer("zone_rounds", 0, 1000, options.zone_iterations));

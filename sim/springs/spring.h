@@ -27,6 +27,7 @@ struct Spring {
 /// Springs with the list of those that end at each vertex.
 class SpringSystem {
  public:
+  SpringSystem() = default;  ///< of no vertex
   /// REQUIRES ends in [0, vertex_count), a != b, and fewer than 2^31 springs.
   SpringSystem(std::vector<Spring> springs, std::int32_t vertex_count);
 
@@ -56,10 +57,19 @@ class SpringSystem {
   std::vector<End> ends_;
 };
 
+/// By how much a spring is longer than at rest, over its length at rest.
+[[nodiscard]] inline double elongation(const Spring& spring, const PositionsRef& x) {
+  return (x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1;
+}
+[[nodiscard]] inline double elastic_j(const Spring& spring, const PositionsRef& x) {
+  const double longer_m = (x.row(spring.b) - x.row(spring.a)).norm() - spring.rest_length_m;
+  return spring.stiffness_n_m / 2 * longer_m * longer_m;
+}
+
 /// The largest step for which central differencing of these springs is stable: 2 / omega, where the squared frequency
 /// omega^2 = lambda_max(M^-1 K) is at most max_i w_i (2 sum_{s at i} k_s + the stabilisers' row sum) (Gershgorin's rows
-/// of the stretched springs' matrix; Hughes 1987 for the limit 2 / omega, which damping does not lower in this scheme, found to velocity_residual()).
-/// Infinite without springs.
+/// of the stretched springs' matrix; Hughes 1987 for the limit 2 / omega, which damping does not lower in this scheme,
+/// found to velocity_residual()). Infinite without springs.
 [[nodiscard]] double stable_step_s(const SpringSystem& springs, std::span<const double> inverse_mass,
                                    const StabilizerSystem& stabilizers = {});
 

@@ -18,10 +18,6 @@ constexpr double kLimitsBorneInAll = 3;
 // their length (tests/sim/step_test.cpp).
 constexpr double kGrowth = 0.2;
 
-double elongation(const Spring& spring, const PositionsRef& x) {
-  return (x.row(spring.b) - x.row(spring.a)).norm() / spring.rest_length_m - 1;
-}
-
 double strain(const Spring& spring, const PositionsRef& x) { return std::abs(elongation(spring, x)); }
 
 /// For parallel_sum(): the "sum" of two is the larger, or the first.

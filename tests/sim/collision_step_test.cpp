@@ -408,25 +408,25 @@ TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
   };
   EXPECT_EQ(error_with([](RepulsionContact&) {}), InputError::kNone);
   EXPECT_EQ(error_with([&](RepulsionContact& c) { c.interaction.vertices[3] = mesh.vertex_count; }),
-            InputError::kSizeMismatch);
-  EXPECT_EQ(error_with([](RepulsionContact& c) { c.interaction.vertices[0] = -1; }), InputError::kSizeMismatch);
-  EXPECT_EQ(error_with([](RepulsionContact& c) { c.second = 1'000; }), InputError::kSizeMismatch);
-  EXPECT_EQ(error_with([](RepulsionContact& c) { c.second_t0 = -1; }), InputError::kSizeMismatch);
+            InputError::kBadContact);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.interaction.vertices[0] = -1; }), InputError::kBadContact);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.second = 1'000; }), InputError::kBadContact);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.second_t0 = -1; }), InputError::kBadContact);
   for (const std::size_t count : {0, 3, 5, 1'000'000'000}) {  // 3 is of self pairs alone
-    EXPECT_EQ(error_with([=](RepulsionContact& c) { c.interaction.vertex_count = count; }), InputError::kSizeMismatch)
+    EXPECT_EQ(error_with([=](RepulsionContact& c) { c.interaction.vertex_count = count; }), InputError::kBadContact)
         << count;
   }
   EXPECT_EQ(error_with([](RepulsionContact& c) { std::swap(c.interaction.vertices[0], c.interaction.vertices[3]); }),
-            InputError::kSizeMismatch)
+            InputError::kBadContact)
       << "vertices of another pair";
-  EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = static_cast<PairKind>(7); }), InputError::kSizeMismatch);
-  EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = PairKind::kSelf; }), InputError::kSizeMismatch);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = static_cast<PairKind>(7); }), InputError::kBadContact);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.kind = PairKind::kSelf; }), InputError::kBadContact);
   for (const double length : {0.0, 0.999, 1e300}) {
-    EXPECT_EQ(error_with([=](RepulsionContact& c) { c.normal *= length; }), InputError::kBadOption) << length;
+    EXPECT_EQ(error_with([=](RepulsionContact& c) { c.normal *= length; }), InputError::kBadContact) << length;
   }
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.normal[1] = std::numeric_limits<double>::quiet_NaN(); }),
-            InputError::kNotFinite);
-  EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 0; }), InputError::kNotFinite);
+            InputError::kBadContact);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 0; }), InputError::kBadContact);
 }
 
 TEST(CollisionStep, IsMovedWithItsMesh) {

@@ -57,7 +57,7 @@ TEST(Physics, PendulumSwingsWithItsPeriod) {
   const SpringSystem spring({Spring{0, 1, SpringKind::kStructural, 1, stiffness, 0.05}}, 2);
   const std::vector<double> inverse_mass = {0, 1 / mass};
   CentralDifferencesOptions options;
-  options.gravity_m_s2 = {0, 0, -kGravity};
+  options.fields.gravity_m_s2 = {0, 0, -kGravity};
   options.strain = {.strain = 0, .strain_rate = 0};
   options.step_s = 1e-3;
   CentralDifferences dynamics(spring, options);
@@ -111,8 +111,8 @@ TEST(Physics, HangingStripIsTheDiscreteCatenary) {
   std::vector<double> inverse_mass(kLinks + 1, 1 / mass);
   inverse_mass.front() = inverse_mass.back() = 0;
   CentralDifferencesOptions options;
-  options.gravity_m_s2 = {0, 0, -kGravity};
-  options.drag_1_s = 4;
+  options.fields.gravity_m_s2 = {0, 0, -kGravity};
+  options.fields.drag_1_s = 4;
   options.strain = {.strain = 0, .strain_rate = 0};
   options.step_s = 0.9 * stable_step_s(springs, inverse_mass);
   Motion motion{Positions::Zero(kLinks + 1, 3), Positions::Zero(kLinks + 1, 3)};

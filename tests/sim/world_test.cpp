@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/description.h"
 #include "tests/sim/small_scene.h"
 
 namespace selvage {

@@ -30,7 +30,7 @@ struct Hanging {
   }
   CentralDifferencesOptions options(double step_s) const {
     CentralDifferencesOptions o;
-    o.gravity_m_s2 = {0, 0, -9.81};
+    o.fields.gravity_m_s2 = {0, 0, -9.81};
     o.strain = {.strain = 0, .strain_rate = 0};
     o.step_s = step_s;
     return o;
@@ -89,15 +89,15 @@ TEST(CentralDifferences, FreeFallIsExactAndDragIsExponential) {
   SpringSystem none({}, 1);
   const std::vector<double> inverse_mass = {2};
   CentralDifferencesOptions options;
-  options.gravity_m_s2 = {0, 0, -9.81};
+  options.fields.gravity_m_s2 = {0, 0, -9.81};
   options.step_s = 1e-3;
   Motion fall{Positions::Zero(1, 3), Positions::Zero(1, 3)};
   CentralDifferences(none, options).advance(fall, Positions::Zero(1, 3), inverse_mass, 0.5);
   EXPECT_NEAR(fall.x(0, 2), -9.81 * 0.25 / 2, 1e-12);
   EXPECT_NEAR(fall.v(0, 2), -9.81 * 0.5, 1e-12);
 
-  options.gravity_m_s2.setZero();
-  options.drag_1_s = 4;
+  options.fields.gravity_m_s2.setZero();
+  options.fields.drag_1_s = 4;
   Motion drift{Positions::Zero(1, 3), Positions::Ones(1, 3)};
   CentralDifferences(none, options).advance(drift, Positions::Zero(1, 3), inverse_mass, 0.5);
   EXPECT_NEAR(drift.v(0, 0), std::exp(-2.0), 1e-6);

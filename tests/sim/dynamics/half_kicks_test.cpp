@@ -16,7 +16,7 @@ struct Kicked {
   selvage::testing::RandomCloth cloth =
       selvage::testing::random_cloth(1, 35);  // two blocks of a parallel loop, and no whole number of lanes
   Positions force = selvage::testing::random_cloth(2, 35).v, impulses = 1e-3 * selvage::testing::random_cloth(3, 35).v;
-  HalfKick kick{0.02, {1, 2, -9.81}, 40, 30};
+  HalfKick kick{0.02, {{1, 2, -9.81}, 40, 30}};
 
   Kicked() { cloth.inverse_mass[11] = 0; }
 };
@@ -33,9 +33,9 @@ TEST(HalfKicks, OfAllForcesIsWhatItStates) {
     for (Eigen::Index i = 0; i < v.rows(); ++i) {
       const double w = k.cloth.inverse_mass[static_cast<std::size_t>(i)];
       const Row before = k.cloth.v.row(i);
-      const double drag_1_s = k.kick.drag_1_s + k.kick.quadratic_drag_1_m * before.norm();
+      const double drag_1_s = k.kick.fields.drag_1_s + k.kick.fields.quadratic_drag_1_m * before.norm();
       const double of_drag = k.kick.h / 2 * drag_1_s, share = 1 / (1 + of_drag * (2 * of_drag / (1 + 2 * of_drag)));
-      const Row acceleration = k.kick.gravity_m_s2.transpose() - drag_1_s * before + w * k.force.row(i);
+      const Row acceleration = k.kick.fields.gravity_m_s2.transpose() - drag_1_s * before + w * k.force.row(i);
       const Row after = before + share * (k.kick.h / 2 * acceleration - w * k.impulses.row(i));
       const Row expected = w > 0 ? after : before, found = v.row(i);
       EXPECT_LE((found - expected).norm(), 1e-13 * (before.norm() + (after - before).norm())) << unit << ", " << i;
@@ -54,7 +54,7 @@ TEST(HalfKicks, OfWhatDoesNotDependOnTheVelocityIsWhatItStates) {
                       selvage::testing::to_lanes(k.cloth.v), kicked);
     for (Eigen::Index i = 0; i < kicked.rows(); ++i) {
       const double w = k.cloth.inverse_mass[static_cast<std::size_t>(i)];
-      const Row acceleration = k.kick.gravity_m_s2.transpose() + w * k.force.row(i);
+      const Row acceleration = k.kick.fields.gravity_m_s2.transpose() + w * k.force.row(i);
       const Row after = k.cloth.v.row(i) + k.kick.h / 2 * acceleration;
       EXPECT_EQ(Row(kicked.row(i)), w > 0 ? after : Row(k.cloth.v.row(i))) << unit << ", " << i;
     }

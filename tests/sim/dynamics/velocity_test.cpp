@@ -246,7 +246,7 @@ TEST(VelocityMarch, AgreesWithConjugateGradientsAsTheStepShrinks) {
   options.strain = {.strain = 0, .strain_rate = 0};
   options.step_s = 0.5 * stable_step_s(cloth.springs, cloth.inverse_mass);
   CentralDifferencesOptions marching = options;
-  marching.quadratic_drag_1_m = 1e-300;  // marches, and drags nothing
+  marching.fields.quadratic_drag_1_m = 1e-300;  // marches, and drags nothing
   double difference[2];
   int n = 0;
   for (const double dt_s : {1e-3, 1e-4}) {

@@ -39,16 +39,11 @@ std::string defect_of(const StepScene& scene, const UntangleResult& result) {
   const bool is_clean = exact_defect(scene, result.x).empty();
   if (is_clean != result.report.remaining.empty()) return "it does not say whether it is clean";
   if (!is_clean && result.x != scene.V_t0) return "half repaired";
-  std::int64_t moved = 0;
   for (Eigen::Index v = 0; v < result.x.rows(); ++v) {
     const bool moves = result.x.row(v) != scene.V_t0.row(v);
-    moved += moves ? 1 : 0;
     if (moves && scene.inverse_mass[static_cast<std::size_t>(v)] == 0) return "a script was left";
   }
-  const double largest_m = (result.x - scene.V_t0).rowwise().norm().maxCoeff();
-  const bool counted = moved == result.report.moved_vertices &&
-                       std::abs(largest_m - result.report.largest_move_m) <= 1e-12 * (1 + largest_m);
-  return counted ? "" : "it miscounts what it moved";
+  return "";
 }
 
 /// Repairs, and requires that it worked with no vertex moved farther.
@@ -56,10 +51,10 @@ void expect_repaired(const StepScene& scene, double largest_move_m) {
   ASSERT_NE(exact_defect(scene, scene.V_t0), "") << "the case is no tangle";
   const UntangleResult result = untangle_scene(scene);
   EXPECT_EQ(defect_of(scene, result), "");
-  EXPECT_TRUE(result.report.remaining.empty())
-      << result.report.remaining.size() << " pairs remain of " << result.report.before.size();
-  EXPECT_LE(result.report.largest_move_m, largest_move_m);
-  EXPECT_GT(result.report.moved_vertices, 0);
+  EXPECT_TRUE(result.report.remaining.empty()) << result.report.remaining.size() << " pairs remain";
+  const double move_m = (result.x - scene.V_t0).rowwise().norm().maxCoeff();
+  EXPECT_LE(move_m, largest_move_m);
+  EXPECT_GT(move_m, 0);
 }
 
 StepScene interpenetrating_layers() {
@@ -147,7 +142,7 @@ TEST(Untangle, ClothThatIsPinnedInsideABodyIsLeftAsItIs) {
   scene.add(make_sphere(0.1, 1), Vec3::Zero(), 0);
   const UntangleResult result = untangle_scene(scene);
   EXPECT_FALSE(result.report.remaining.empty());
-  EXPECT_EQ(result.report.moved_vertices, 0);
+  EXPECT_EQ(result.x, scene.V_t0);
   EXPECT_EQ(defect_of(scene, result), "");
 }
 
@@ -160,7 +155,7 @@ TEST(Untangle, WhatCouldBeRepairedIsNotWhereSomethingRemains) {
   scene.V_t0.middleRows(81, 25).col(0).array() -= 0.12;
   const UntangleResult result = untangle_scene(scene);
   EXPECT_FALSE(result.report.remaining.empty());
-  EXPECT_LT(result.report.remaining.size(), result.report.before.size()) << "the sheets alone could be";
+  EXPECT_LT(result.report.remaining.size(), exact_judge(scene)(scene.V_t0).size()) << "the sheets alone could be";
   EXPECT_EQ(defect_of(scene, result), "");
 }
 
@@ -199,7 +194,7 @@ TEST(Untangle, EndsCleanOrSaysWhatRemains) {
     const bool is_tangled = !exact_defect(scene, scene.V_t0).empty();
     const UntangleResult result = untangle_scene(scene);
     ASSERT_EQ(defect_of(scene, result), "") << seed;
-    ASSERT_EQ(result.report.before.empty(), !is_tangled) << seed;
+    ASSERT_TRUE(is_tangled || result.x == scene.V_t0) << seed;
     ASSERT_LE(result.report.rounds, kMaxUntangleRounds + 4) << seed;
     tangled += is_tangled ? 1 : 0;
     repaired += is_tangled && result.report.remaining.empty() ? 1 : 0;

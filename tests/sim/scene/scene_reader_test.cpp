@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/description.h"
 #include "sim/world.h"
 
 namespace selvage {

@@ -1,4 +1,4 @@
-#include "sim/time_step.h"
+#include "sim/step_clock.h"
 
 #include <algorithm>
 #include <cmath>
