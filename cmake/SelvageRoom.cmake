@@ -20,10 +20,11 @@ function(public_headers target name)
   target_sources(${target} PRIVATE "${stamp}" PUBLIC FILE_SET HEADERS BASE_DIRS "${public}" FILES ${written})
 endfunction()
 
-# selvage_room(NAME SOURCES ... [LANES ...] HEADERS ... PUBLIC ... PRIVATE ...)
+# selvage_room(NAME SOURCES ... [LANES ...] [HEADERS ...] PUBLIC ... PRIVATE ...)
 #   Makes the static library selvage_NAME with the alias selvage::NAME from the folder that calls it.
 #   LANES are sources that include themselves, once for each vector unit (Highway).
-#   Inside the tree headers are "NAME/x.h"; for users, installed or not, they are <selvage/NAME/x.h>.
+#   Inside the tree headers are "NAME/x.h"; for users, installed or not, HEADERS are <selvage/NAME/x.h>. A room
+#   that is used through the program alone names none.
 function(selvage_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LANES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   set(target selvage_${name})
@@ -32,7 +33,9 @@ function(selvage_room name)
   compile_alone(${target} ${ROOM_LANES})
   add_library(selvage::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  public_headers(${target} ${name} ${ROOM_HEADERS})
+  if(ROOM_HEADERS)
+    public_headers(${target} ${name} ${ROOM_HEADERS})
+  endif()
   target_compile_features(${target} INTERFACE cxx_std_20)
   target_link_libraries(${target}
     PUBLIC ${ROOM_PUBLIC}
