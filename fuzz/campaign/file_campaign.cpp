@@ -5,6 +5,7 @@
 
 #include "fuzz/kept/file_case.h"
 #include "fuzz/kept/file_formats.h"
+#include "fuzz/shrink/shrink_bytes.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {

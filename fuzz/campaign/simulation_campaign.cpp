@@ -4,6 +4,7 @@
 
 #include "fuzz/draw/random_scene.h"
 #include "fuzz/kept/scene_case.h"
+#include "fuzz/shrink/shrink_bytes.h"
 #include "fuzz/shrink/shrink_choices.h"
 
 namespace selvage::fuzz {

@@ -41,7 +41,4 @@ class KeptBytes final : public KeptCase {
 /// The lines of a case of this kind, up to the end of the text. Throws io::Error.
 [[nodiscard]] ByteCase parse_byte_case(const ByteKind& kind, CaseLines& lines);
 
-/// Leaves out lines, then bytes, and shortens numbers, as long as it fails with the same word. Deterministic.
-[[nodiscard]] ByteCase shrink(const ByteCase& kept, const std::string& failure, std::int64_t max_trials);
-
 }  // namespace selvage::fuzz

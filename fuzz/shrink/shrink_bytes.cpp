@@ -1,8 +1,8 @@
-// Shrinking of texts: what is left out is not needed.
+#include "fuzz/shrink/shrink_bytes.h"
+
 #include <algorithm>
 #include <cctype>
-
-#include "fuzz/kept/byte_case.h"
+#include <vector>
 
 namespace selvage::fuzz {
 namespace {

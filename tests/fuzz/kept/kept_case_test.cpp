@@ -13,6 +13,7 @@
 #include "fuzz/kept/scene_case.h"
 #include "fuzz/kept/step_case.h"
 #include "fuzz/kept/subdivision_case.h"
+#include "fuzz/shrink/shrink_bytes.h"
 #include "fuzz/shrink/shrink_choices.h"
 #include "fuzz/shrink/shrink_mesh.h"
 #include "tests/fuzz/nothing_done.h"
