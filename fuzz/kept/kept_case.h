@@ -4,7 +4,8 @@
 //   seed step:soup:1:123                where it came from: property, stream, seed, number
 //   failure touches                     the promise that was broken, in a word
 //   ...                                 the case itself, as its kind writes it
-// Kinds: step, broad, subdivision (mesh_case.h), simulation, file (byte_case.h), drawn (drawn_case.h).
+// Kinds are those that mesh_kind() and byte_kind() of kept_case.cpp list (mesh_case.h, byte_case.h), and drawn
+// (drawn_case.h).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// A case that is a mesh at a few instants and some numbers, which is all that the step, the broad phase and the
-// subdivision take. What a kind adds is a table and a judge; text and shrinking are written once.
+// A case that is a mesh at a few instants and some numbers, which is all that the code under test takes: mesh_kind() of
+// kept_case.cpp lists the kinds. What a kind adds is a table and a judge; text and shrinking are written once.
 //   set thickness_m 0x1p-3              each of the kind's settings, in its order
 //   vertices 6
 //   v 0 0 0  0 0 1  0x1p+0 -1           a vertex: its place at each of the kind's instants, then its marks
