@@ -1,10 +1,10 @@
 #include "fuzz/campaign/broad_campaign.h"
 
-#include <algorithm>
+#include <array>
 
 #include "fuzz/campaign/mesh_property.h"
+#include "fuzz/campaign/surface_streams.h"
 #include "fuzz/kept/broad_case.h"
-#include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 class BroadCampaign final : public MeshProperty {
  public:
   BroadCampaign() : MeshProperty("broad", std::string(broad_kind().promise)) {
-    for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 40});
+    streams_ = surface_streams(40);
     counters_ = {"motions", "pairs"};
   }
 
@@ -27,9 +27,7 @@ class BroadCampaign final : public MeshProperty {
 
  private:
   [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
-    const auto surface = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
-    SELVAGE_ASSERT(surface != surface_classes().end());
-    const StepWorld world = make_step_world(source, *surface);
+    const StepWorld world = make_step_world(source, surface_class(stream.name));
     std::array<Positions, 3> x{world.x};
     std::array<BroadQuestion, 2> questions;
     for (std::size_t motion = 0; motion < 2; ++motion) {

@@ -1,11 +1,9 @@
 #include "fuzz/campaign/collisions_campaign.h"
 
-#include <algorithm>
-
 #include "fuzz/campaign/mesh_property.h"
+#include "fuzz/campaign/surface_streams.h"
 #include "fuzz/draw/step_world.h"
 #include "fuzz/kept/collisions_case.h"
-#include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -13,7 +11,7 @@ namespace {
 class CollisionsCampaign final : public MeshProperty {
  public:
   CollisionsCampaign() : MeshProperty("collisions", std::string(collisions_kind().promise)) {
-    for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 40});
+    streams_ = surface_streams(40);
     counters_ = {"pairs", "alarms"};
   }
 
@@ -28,9 +26,7 @@ class CollisionsCampaign final : public MeshProperty {
 
  private:
   [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
-    const auto surface = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
-    SELVAGE_ASSERT(surface != surface_classes().end());
-    const StepWorld world = make_step_world(source, *surface);
+    const StepWorld world = make_step_world(source, surface_class(stream.name));
     std::string_view candidate_class;
     const Positions x_t1 = choose_candidate(source, world, world.x, candidate_class);
     const double tolerance = choose_length(source, world);

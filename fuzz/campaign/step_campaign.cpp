@@ -1,21 +1,13 @@
 #include "fuzz/campaign/step_campaign.h"
 
-#include <algorithm>
-
+#include "fuzz/campaign/surface_streams.h"
 #include "fuzz/kept/drawn_case.h"
 #include "fuzz/kept/step_case.h"
 #include "fuzz/shrink/shrink_choices.h"
 #include "fuzz/shrink/shrink_mesh.h"
-#include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
-
-const SurfaceClass& surface_of(const Stream& stream) {
-  const auto found = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
-  SELVAGE_ASSERT(found != surface_classes().end());
-  return *found;
-}
 
 constexpr std::int64_t kStepChoiceTrials = 300;  // each takes milliseconds
 
@@ -23,7 +15,7 @@ class StepCampaign final : public Property {
  public:
   StepCampaign() : Property("step", std::string(step_kind().promise)) {
     weight_ = 2;
-    for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 4});
+    streams_ = surface_streams(4);
     counters_ = {"steps", "collisions", "zones", "fail-safe", "stopped"};
   }
 
@@ -47,7 +39,7 @@ class StepCampaign final : public Property {
     const Choices choices = shrink_choices(
         source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kStepChoiceTrials);
     ChoiceSource again = ChoiceSource::from_words(choices);
-    const StepWorld world = make_step_world(again, surface_of(stream));
+    const StepWorld world = make_step_world(again, surface_class(stream.name));
     const StepObservation seen = run_steps(again, world, selvage_step);
     const MeshCase simplest = step_case(world, seen.x_t0, seen.x_candidate);
     return kept_text(KeptMesh(shrink(simplest, failure)), origin, failure);
@@ -55,7 +47,7 @@ class StepCampaign final : public Property {
 
  private:
   static StepObservation observe(const Stream& stream, ChoiceSource& source) {
-    const StepWorld world = make_step_world(source, surface_of(stream));
+    const StepWorld world = make_step_world(source, surface_class(stream.name));
     return run_steps(source, world, selvage_step);
   }
 };

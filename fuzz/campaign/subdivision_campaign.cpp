@@ -1,12 +1,11 @@
 #include "fuzz/campaign/subdivision_campaign.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "fuzz/campaign/mesh_property.h"
+#include "fuzz/campaign/surface_streams.h"
 #include "fuzz/kept/subdivision_case.h"
 #include "fuzz/oracle/step_oracle.h"
-#include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -51,7 +50,7 @@ Surface tents(ChoiceSource& source) {
 class SubdivisionCampaign final : public MeshProperty {
  public:
   SubdivisionCampaign() : MeshProperty("subdivision", std::string(subdivision_kind().promise)) {
-    for (const SurfaceClass& surface : surface_classes()) streams_.push_back({std::string(surface.name), 0, 1});
+    streams_ = surface_streams(1);
     streams_.push_back({kTents, 0, 8});
     counters_ = {"levels", "stopped", "rounded"};
   }
@@ -79,9 +78,7 @@ class SubdivisionCampaign final : public MeshProperty {
   /// are so even that smoothing hardly moves them.
   static Surface first_surface(const Stream& stream, ChoiceSource& source) {
     if (stream.name == kTents) return tents(source);
-    const auto found = std::ranges::find(surface_classes(), stream.name, &SurfaceClass::name);
-    SELVAGE_ASSERT(found != surface_classes().end());
-    const StepWorld world = make_step_world(source, *found);
+    const StepWorld world = make_step_world(source, surface_class(stream.name));
     Positions x = world.x;
     for (int steps = source.range(0, 2); steps > 0; --steps) {
       std::string_view candidate_class;

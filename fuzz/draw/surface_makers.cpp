@@ -1,8 +1,11 @@
 #include "fuzz/draw/surface_makers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "kernel/assert.h"
 
 namespace selvage::fuzz {
 namespace {
@@ -165,6 +168,12 @@ const std::vector<SurfaceClass>& surface_classes() {
                                                     {"soup", soup},         {"shells", shells}, {"needles", needles},
                                                     {"bodies", with_bodies}};
   return classes;
+}
+
+const SurfaceClass& surface_class(std::string_view name) {
+  const auto found = std::ranges::find(surface_classes(), name, &SurfaceClass::name);
+  SELVAGE_ASSERT(found != surface_classes().end());
+  return *found;
 }
 
 }  // namespace selvage::fuzz

@@ -24,5 +24,7 @@ struct SurfaceClass {
 };
 
 [[nodiscard]] const std::vector<SurfaceClass>& surface_classes();
+/// REQUIRES that there is one of that name.
+[[nodiscard]] const SurfaceClass& surface_class(std::string_view name);
 
 }  // namespace selvage::fuzz
