@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/harness/fuzz_target.h"
 #include "io/atomic_file.h"
 
@@ -22,7 +23,7 @@ TargetResult run_guarded(FuzzTarget& target, const std::string& input) {
   try {
     return target.run({reinterpret_cast<const std::uint8_t*>(input.data()), input.size()});
   } catch (const std::exception& error) {
-    return {{}, std::string("threw: ") + error.what()};
+    return {{}, std::string(kThrew) + ": " + error.what()};
   }
 }
 

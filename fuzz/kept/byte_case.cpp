@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "fuzz/base/deaths.h"
+
 namespace selvage::fuzz {
 namespace {
 
@@ -13,7 +15,7 @@ Retrial retry(const ByteCase& kept) {
   try {
     return kept.kind->retry(kept);
   } catch (const std::exception& error) {
-    return {"threw", {error.what()}, {}};
+    return {kThrew, {error.what()}, {}};
   }
 }
 

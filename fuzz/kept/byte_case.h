@@ -22,7 +22,7 @@ struct ByteCase {
   std::string value, bytes;
 };
 
-/// kind->retry(), where what is thrown is the failure "threw".
+/// kind->retry(), where what is thrown is the failure kThrew.
 [[nodiscard]] Retrial retry(const ByteCase& kept);
 
 class KeptBytes final : public KeptCase {

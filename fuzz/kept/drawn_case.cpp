@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/run/worker.h"
 
 namespace selvage::fuzz {
@@ -56,7 +57,7 @@ Retrial DrawnCase::retry() const {
     const OneCase run = run_case(*draw->property, *draw->stream, draw->seed, draw->number, kCaseSeconds);
     return {run.outcome.failure, {"drawn again from its seed, in a process of its own"}, {}};
   } catch (const std::exception& error) {
-    return {"threw", {error.what()}, {}};
+    return {kThrew, {error.what()}, {}};
   }
 }
 

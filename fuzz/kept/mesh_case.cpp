@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 
+#include "fuzz/base/deaths.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {
@@ -110,7 +111,7 @@ Retrial retry(const MeshCase& kept) {
   try {
     return kept.kind->retry(kept);
   } catch (const std::exception& error) {
-    return {"threw", {error.what()}, {}};
+    return {kThrew, {error.what()}, {}};
   }
 }
 

@@ -48,7 +48,7 @@ struct MeshCase {
   [[nodiscard]] double setting(std::string_view name) const;
 };
 
-/// kind->retry(), where what is thrown is the failure "threw".
+/// kind->retry(), where what is thrown is the failure kThrew.
 [[nodiscard]] Retrial retry(const MeshCase& kept);
 
 class KeptMesh final : public KeptCase {

@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/run/guarded_run.h"
 #include "io/atomic_file.h"
 #include "io/checksum.h"
@@ -230,7 +231,7 @@ PluginInfo probe_plugin(const std::filesystem::path& library, double seconds) {
   const auto probe = run_guarded<PluginInfo>(
       {[&] { plugin.emplace(library); }, seconds}, [&] { return plugin->info(); }, seconds);
   if (!probe.death.empty()) {
-    const std::string limit = probe.death == "hung" ? "; give it more time with --case-time, if it needs it" : "";
+    const std::string limit = probe.death == kHung ? "; give it more time with --case-time, if it needs it" : "";
     refuse(library, "does not survive being loaded: " + probe.death + limit);
   }
   return probe.result;

@@ -11,6 +11,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <poll.h>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/run/campaign_stats.h"
 #include "io/atomic_file.h"
 #include "kernel/assert.h"
@@ -217,9 +218,8 @@ std::optional<Job> Driver::next_job(Pace pace) {
       job.stream = static_cast<std::int32_t>(std::ranges::find(streams, key.first) - streams.begin());
       job.number = finding.number;
       key.second.copy(job.failure, kFailureWord - 1);
-      const bool survives = !key.second.starts_with("crashed") && key.second != "hung" && key.second != "exited" &&
-                            key.second != kBrokeChannel;
-      job.shrunk = survives && key.second != "threw" && pace != Pace::kLate ? 1 : 0;
+      const bool can_shrink = !is_death(key.second) && key.second != kBrokeChannel;
+      job.shrunk = can_shrink && pace != Pace::kLate ? 1 : 0;
       shares_[p].being_kept.insert(key);
       return job;
     }
@@ -341,7 +341,7 @@ void Driver::take_death(Team& team) {
   team.failures.push_back(failure);
   progress.rows[stream] += {1, 1, {}, 0};
   ++progress.number;
-  if (death.failure == "hung") {
+  if (death.failure == kHung) {
     if (++share.hangs >= kMaxHangs) share.is_skipped.assign(share.is_skipped.size(), true);
   } else if (++share.crashes[stream] >= kMaxCrashes) {
     share.is_skipped[stream] = true;

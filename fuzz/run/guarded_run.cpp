@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/run/case_clock.h"
 #include "fuzz/run/process_sight.h"
 #include "io/error.h"
@@ -102,9 +103,9 @@ void become_test_process() {
 }
 
 std::string death_of(int status) {
-  if (!WIFSIGNALED(status)) return "exited";
+  if (!WIFSIGNALED(status)) return kExited;
   const char* name = sigabbrev_np(WTERMSIG(status));
-  return std::string("crashed-SIG") + (name != nullptr ? name : "?");
+  return std::string(kCrashed) + "-SIG" + (name != nullptr ? name : "?");
 }
 
 ChildEnd run_in_child(const ChildWork& child, void* result) {
@@ -118,9 +119,9 @@ ChildEnd run_in_child(const ChildWork& child, void* result) {
   if (stage == Stage::kRefused) throw io::Error(io::ErrorKind::kBadInput, memory.head().refusal);
   ChildEnd end{{}, stage != Stage::kBegun};
   if (!status) {
-    end.death = "hung";
+    end.death = kHung;
   } else if (stage == Stage::kThrew) {
-    end.death = "threw";
+    end.death = kThrew;
   } else if (stage != Stage::kDone || WIFSIGNALED(*status)) {
     end.death = death_of(*status);
   } else {

@@ -12,7 +12,7 @@ namespace selvage::fuzz {
 /// a sanitizer's handler would make an exit; and what is printed is written line by line, so that a crash loses none.
 void become_test_process();
 
-/// How a child died, from its status: "exited", or "crashed-SIGSEGV" and the like.
+/// How a child died, from its status: kExited, or kCrashed with the signal (deaths.h).
 [[nodiscard]] std::string death_of(int status);
 
 /// What has to be done before the code under test is asked, and how long it may take, counted as a case (case_clock.h).
@@ -22,8 +22,8 @@ struct Preparation {
 };
 
 /// What `prepare` and then `work` leave in a memory of `size` bytes that parent and child share. How the child died
-/// (crashed-SIGSEGV, hung, exited, threw), or nothing. What `prepare` throws is thrown here, as io::Error(kBadInput).
-/// What the child prints goes to stderr: it is no result.
+/// (deaths.h), or nothing. What `prepare` throws is thrown here, as io::Error(kBadInput). What the child prints goes to
+/// stderr: it is no result.
 struct ChildWork {
   Preparation prepare;
   std::function<void(void* memory)> work;

@@ -9,6 +9,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/run/guarded_run.h"
 #include "fuzz/run/wire.h"
 #include "io/atomic_file.h"
@@ -27,7 +28,7 @@ Outcome outcome_of(Property& property, const Stream& stream, std::uint64_t seed)
   try {
     return property.run(stream, ChoiceSource::from_seed(seed));
   } catch (...) {  // a plugin may throw anything, which must not unwind what the fork copied
-    return {{1, 1, {}, 0}, "threw"};
+    return {{1, 1, {}, 0}, kThrew};
   }
 }
 

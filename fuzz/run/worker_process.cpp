@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/run/guarded_run.h"
 #include "fuzz/run/process_sight.h"
 #include "fuzz/run/wire.h"
@@ -95,11 +96,7 @@ Death WorkerProcess::bury() {
   Death death;
   death.at_start = progress_->beat.load() == beat_at_start_;
   death.is_abandoned = was_abandoned_;
-  if (was_hung_) {
-    death.failure = "hung";
-  } else {
-    death.failure = death_of(status);
-  }
+  death.failure = was_hung_ ? kHung : death_of(status);
   return death;
 }
 

@@ -10,7 +10,7 @@
 
 namespace selvage::fuzz {
 
-/// How a worker died, for the report: "hung", "exited", or "crashed-SIGSEGV" and the like.
+/// How a worker died, for the report (deaths.h).
 struct Death {
   std::string failure;
   bool at_start = false;      ///< before it ran a case
