@@ -18,14 +18,20 @@ class BroadCampaign final : public MeshProperty {
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
     const BroadTrial trial = try_broad(drawn(stream, source));
-    return {{1, trial.retrial.failure.empty() ? 0 : 1, {2, trial.pairs}, 0}, trial.retrial.failure};
+    Outcome outcome{{1, trial.retrial.failure.empty() ? 0 : 1, {}, 0}, trial.retrial.failure};
+    outcome.counts.of[kMotions] = 2;
+    outcome.counts.of[kPairs] = trial.pairs;
+    return outcome;
   }
 
   [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
-    return counts.cases > 50 && counts.of[1] < counts.cases ? "hardly any pairs" : "";
+    return counts.cases > 50 && counts.of[kPairs] < counts.cases ? "hardly any pairs" : "";
   }
 
  private:
+  // Places in Counts::of, in the order of counters_.
+  enum Counter : std::uint8_t { kMotions, kPairs };
+
   [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
     const StepWorld world = make_step_world(source, surface_class(stream.name));
     std::array<Positions, 3> x{world.x};

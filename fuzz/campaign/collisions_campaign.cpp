@@ -17,14 +17,20 @@ class CollisionsCampaign final : public MeshProperty {
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
     const CollisionsTrial trial = try_collisions(drawn(stream, source));
-    return {{1, trial.retrial.failure.empty() ? 0 : 1, {trial.pairs, trial.alarms}, 0}, trial.retrial.failure};
+    Outcome outcome{{1, trial.retrial.failure.empty() ? 0 : 1, {}, 0}, trial.retrial.failure};
+    outcome.counts.of[kPairs] = trial.pairs;
+    outcome.counts.of[kAlarms] = trial.alarms;
+    return outcome;
   }
 
   [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
-    return counts.cases > 50 && counts.of[1] < counts.cases ? "hardly any collisions" : "";
+    return counts.cases > 50 && counts.of[kAlarms] < counts.cases ? "hardly any collisions" : "";
   }
 
  private:
+  // Places in Counts::of, in the order of counters_.
+  enum Counter : std::uint8_t { kPairs, kAlarms };
+
   [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
     const StepWorld world = make_step_world(source, surface_class(stream.name));
     std::string_view candidate_class;

@@ -65,10 +65,10 @@ class FileCampaign final : public Property {
     Outcome outcome{{1, 0, {}, 0}, {}};
     switch (format_of(stream).parse(damaged(stream, source))) {
       case ParseResult::kAccepted:
-        outcome.counts.of[0] = 1;
+        outcome.counts.of[kAccepted] = 1;
         break;
       case ParseResult::kRefused:
-        outcome.counts.of[1] = 1;
+        outcome.counts.of[kRefused] = 1;
         break;
       case ParseResult::kUnsound:
         outcome.counts.failures = 1;
@@ -79,7 +79,7 @@ class FileCampaign final : public Property {
   }
 
   [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
-    return counts.cases > 200 && counts.of[1] == 0 ? "nothing is refused" : "";
+    return counts.cases > 200 && counts.of[kRefused] == 0 ? "nothing is refused" : "";
   }
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
@@ -89,6 +89,9 @@ class FileCampaign final : public Property {
   }
 
  private:
+  // Places in Counts::of, in the order of counters_.
+  enum Counter : std::uint8_t { kAccepted, kRefused };
+
   static const FileFormat& format_of(const Stream& stream) {
     const auto found = std::ranges::find(file_formats(), stream.name, &FileFormat::name);
     SELVAGE_ASSERT(found != file_formats().end());

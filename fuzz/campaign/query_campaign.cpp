@@ -31,7 +31,13 @@ class QueryCampaign final : public Property {
     const MotionQuery query = draw_query(stream, source);
     const Observation seen = property_.check(query, kernel_, source);
     Outcome outcome{{1, !seen.failure.empty(), {}, seen.near_miss_bits}, std::string(seen.failure)};
-    outcome.counts.of = {seen.touches, seen.hit, seen.alarm, seen.unresolved, seen.undecided, seen.exact_used};
+    auto& of = outcome.counts.of;
+    of[kTouches] = seen.touches;
+    of[kHits] = seen.hit;
+    of[kAlarms] = seen.alarm;
+    of[kUnresolved] = seen.unresolved;
+    of[kUndecided] = seen.undecided;
+    of[kDecidedExactly] = seen.exact_used;
     // With a tolerance, what ends within it is rightly called a collision.
     const bool is_measured = is_judged_exactly_ && seen.failure.empty() && query.options.tolerance == 0;
     if (is_measured && source.one_in(kMeasuredOneIn)) {

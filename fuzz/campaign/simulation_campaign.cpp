@@ -10,7 +10,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::int64_t kSteps = 80;  ///< of a case at most
+constexpr std::int64_t kSceneSteps = 80;  ///< of a case at most
 /// A trial takes tenths of a second.
 constexpr std::int64_t kSceneChoiceTrials = 100, kTextTrials = 300;
 
@@ -23,27 +23,37 @@ class SimulationCampaign final : public Property {
   }
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
-    const SceneTrial trial = try_scene(random_scene(stream.name, source), kSteps);
+    const SceneTrial trial = try_scene(random_scene(stream.name, source), kSceneSteps);
     Outcome outcome{{1, trial.retrial.failure.empty() ? 0 : 1, {}, 0}, trial.retrial.failure};
-    outcome.counts.of = {trial.steps,          trial.with_collisions, trial.with_zones,
-                         trial.with_fail_safe, trial.stopped,         !trial.retrial.unfit.empty()};
+    auto& of = outcome.counts.of;
+    of[kSteps] = trial.steps;
+    of[kCollisions] = trial.with_collisions;
+    of[kZones] = trial.with_zones;
+    of[kFailSafe] = trial.with_fail_safe;
+    of[kStopped] = trial.stopped;
+    of[kNotStarted] = !trial.retrial.unfit.empty();
     return outcome;
   }
 
   [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
-    return counts.cases > 20 && counts.of[5] * 2 > counts.cases ? "most scenes begin in contact" : "";
+    return counts.cases > 20 && counts.of[kNotStarted] * 2 > counts.cases ? "most scenes begin in contact" : "";
   }
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
                    bool shrunk) override {
-    if (!shrunk) return kept_text(KeptBytes(scene_case(random_scene(stream.name, source), kSteps)), origin, failure);
+    if (!shrunk)
+      return kept_text(KeptBytes(scene_case(random_scene(stream.name, source), kSceneSteps)), origin, failure);
     const Choices choices = shrink_choices(
         source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kSceneChoiceTrials);
     ChoiceSource again = ChoiceSource::from_words(choices);
     const std::string scene = random_scene(stream.name, again);
-    const ByteCase simplest = scene_case(scene, std::max<std::int64_t>(1, try_scene(scene, kSteps).steps));
+    const ByteCase simplest = scene_case(scene, std::max<std::int64_t>(1, try_scene(scene, kSceneSteps).steps));
     return kept_text(KeptBytes(shrink(simplest, failure, kTextTrials)), origin, failure);
   }
+
+ private:
+  // Places in Counts::of, in the order of counters_.
+  enum Counter : std::uint8_t { kSteps, kCollisions, kZones, kFailSafe, kStopped, kNotStarted };
 };
 
 }  // namespace

@@ -22,14 +22,19 @@ class StepCampaign final : public Property {
   Outcome run(const Stream& stream, ChoiceSource source) override {
     const StepObservation seen = observe(stream, source);
     Outcome outcome{{1, seen.defect != StepDefect::kNone, {}, 0}, {}};
-    outcome.counts.of = {seen.steps, seen.with_collisions, seen.with_zones, seen.with_fail_safe, seen.stopped};
+    auto& of = outcome.counts.of;
+    of[kSteps] = seen.steps;
+    of[kCollisions] = seen.with_collisions;
+    of[kZones] = seen.with_zones;
+    of[kFailSafe] = seen.with_fail_safe;
+    of[kStopped] = seen.stopped;
     if (seen.defect != StepDefect::kNone) outcome.failure = name_of(seen.defect);
     return outcome;
   }
 
   [[nodiscard]] std::string complaint(const Stream& /*stream*/, const Counts& counts) const override {
     // Measured: half of all steps have collisions, in every class; a tenth says that they have gone.
-    return counts.of[0] > 500 && counts.of[1] * 10 < counts.of[0] ? "hardly any collisions" : "";
+    return counts.of[kSteps] > 500 && counts.of[kCollisions] * 10 < counts.of[kSteps] ? "hardly any collisions" : "";
   }
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
@@ -46,6 +51,9 @@ class StepCampaign final : public Property {
   }
 
  private:
+  // Places in Counts::of, in the order of counters_.
+  enum Counter : std::uint8_t { kSteps, kCollisions, kZones, kFailSafe, kStopped };
+
   static StepObservation observe(const Stream& stream, ChoiceSource& source) {
     const StepWorld world = make_step_world(source, surface_class(stream.name));
     return run_steps(source, world, selvage_step);

@@ -57,18 +57,24 @@ class SubdivisionCampaign final : public MeshProperty {
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
     const SubdivisionTrial trial = try_subdivision(drawn(stream, source));
-    const std::string& failure = trial.retrial.failure;
-    return {{1, failure.empty() ? 0 : 1, {trial.levels, trial.stopped, trial.is_rounded}, 0}, failure};
+    Outcome outcome{{1, trial.retrial.failure.empty() ? 0 : 1, {}, 0}, trial.retrial.failure};
+    outcome.counts.of[kLevels] = trial.levels;
+    outcome.counts.of[kStopped] = trial.stopped;
+    outcome.counts.of[kRounded] = trial.is_rounded;
+    return outcome;
   }
 
   [[nodiscard]] std::string complaint(const Stream& stream, const Counts& counts) const override {
     if (counts.cases <= 100) return "";
-    if (counts.of[0] * 2 < counts.cases) return "rounding spoils most of the surfaces";
+    if (counts.of[kLevels] * 2 < counts.cases) return "rounding spoils most of the surfaces";
     // Measured: a fifth of the levels.
-    return stream.name == kTents && counts.of[1] * 20 < counts.of[0] ? "hardly anything has to stop" : "";
+    return stream.name == kTents && counts.of[kStopped] * 20 < counts.of[kLevels] ? "hardly anything has to stop" : "";
   }
 
  private:
+  // Places in Counts::of, in the order of counters_.
+  enum Counter : std::uint8_t { kLevels, kStopped, kRounded };
+
   [[nodiscard]] MeshCase drawn(const Stream& stream, ChoiceSource source) const override {
     const Surface surface = first_surface(stream, source);
     return subdivision_case(surface.faces, surface.x, surface.is_scripted, source.range(1, 2));

@@ -37,12 +37,13 @@ class Conformance final : public Property {
     const MotionQuery query = draw_query(stream, source);
     const PluginJudgement verdict = judge_steadily(*plugin_, query, source.one_in(16));
     Outcome outcome{{1, verdict.failure.empty() ? 0 : 1, {}, 0}, verdict.failure};
-    outcome.counts.of = {verdict.touches,
-                         verdict.alarm,
-                         verdict.failure == "missed",
-                         verdict.failure == "late-time",
-                         verdict.failure == "alarm-too-far",
-                         verdict.answer.nanoseconds};
+    auto& of = outcome.counts.of;
+    of[ConformanceRow::kTouches] = verdict.touches;
+    of[ConformanceRow::kAlarms] = verdict.alarm;
+    of[ConformanceRow::kMissed] = verdict.failure == "missed";
+    of[ConformanceRow::kLate] = verdict.failure == "late-time";
+    of[ConformanceRow::kTooFar] = verdict.failure == "alarm-too-far";
+    of[ConformanceRow::kNanoseconds] = verdict.answer.nanoseconds;
     if (source.one_in(kMeasuredOneIn) && (verdict.failure.empty() || verdict.failure == "alarm-too-far")) {
       const bool has_time = verdict.alarm && plugin_->info().has_toi;
       outcome.accuracy = measure_accuracy(query, verdict.touches, verdict.alarm,

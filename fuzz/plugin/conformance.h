@@ -19,6 +19,9 @@ namespace selvage::fuzz {
 
 /// What the property above counts in a stream.
 struct ConformanceRow {
+  /// Places in Counts::of, in the order of its counters.
+  enum Counter : std::uint8_t { kTouches, kAlarms, kMissed, kLate, kTooFar, kNanoseconds };
+
   std::int64_t queries = 0, touches = 0, alarms = 0;
   std::int64_t missed = 0, late = 0, too_far = 0;
   std::int64_t misdeeds = 0;  ///< failures of any other kind

@@ -22,13 +22,13 @@ std::string line(const std::string& name, const Counts& counts) {
 
 ConformanceRow::ConformanceRow(const Counts& counts)
     : queries(counts.cases),
-      touches(counts.of[0]),
-      alarms(counts.of[1]),
-      missed(counts.of[2]),
-      late(counts.of[3]),
-      too_far(counts.of[4]),
+      touches(counts.of[kTouches]),
+      alarms(counts.of[kAlarms]),
+      missed(counts.of[kMissed]),
+      late(counts.of[kLate]),
+      too_far(counts.of[kTooFar]),
       misdeeds(counts.failures - missed - late - too_far),
-      nanoseconds(counts.of[5]) {}
+      nanoseconds(counts.of[kNanoseconds]) {}
 
 double ConformanceRow::nanoseconds_per_query() const {
   return queries > 0 ? static_cast<double>(nanoseconds) / static_cast<double>(queries) : 0;
