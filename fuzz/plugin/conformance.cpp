@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::array<PairKind, 2> kKinds{PairKind::kVf, PairKind::kEe};
 
+/// Cases that are asked in a batch too. run() draws it after the query; kept() draws it again there, so that the file
+/// says how the case was asked.
+constexpr std::uint32_t kInBatchOneIn = 16;
+
 class Conformance final : public Property {
  public:
   Conformance(std::filesystem::path library, std::uint32_t crc32)
@@ -35,7 +39,7 @@ class Conformance final : public Property {
   Outcome run(const Stream& stream, ChoiceSource source) override {
     if (!has_loaded_cleanly_) return load_failure();
     const MotionQuery query = draw_query(stream, source);
-    const PluginJudgement verdict = judge_steadily(*plugin_, query, source.one_in(16));
+    const PluginJudgement verdict = judge_steadily(*plugin_, query, source.one_in(kInBatchOneIn));
     Outcome outcome{{1, verdict.failure.empty() ? 0 : 1, {}, 0}, verdict.failure};
     auto& of = outcome.counts.of;
     of[ConformanceRow::kTouches] = verdict.touches;
@@ -56,7 +60,7 @@ class Conformance final : public Property {
                    bool shrunk) override {
     MotionQuery query = draw_query(stream, source);
     query.options = CcdOptions{.tolerance = 0};  // the plugin has its own
-    const bool in_batch = source.one_in(16);
+    const bool in_batch = source.one_in(kInBatchOneIn);
     if (shrunk && failure != kUnsteady) {
       query = shrink(query, [&](const MotionQuery& simpler) {
                 beat_();
