@@ -41,13 +41,17 @@ struct FuzzArguments {
   bool resume = false, list = false;
 };
 
+[[noreturn]] void refuse_time() {
+  throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
+}
+
 double parse_seconds(const std::string& text) {
   std::size_t used = 0;
   double amount = 0;
   try {
     amount = std::stod(text, &used);
   } catch (const std::logic_error&) {
-    throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
+    refuse_time();
   }
   const std::string unit = text.substr(used);
   const double scale = unit.empty() || unit == "s" ? 1
@@ -55,8 +59,7 @@ double parse_seconds(const std::string& text) {
                        : unit == "h"               ? 3600
                        : unit == "d"               ? 86400
                                                    : 0;
-  if (!(amount > 0) || !std::isfinite(amount * scale) || scale == 0)
-    throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
+  if (!(amount > 0) || !std::isfinite(amount * scale) || scale == 0) refuse_time();
   return amount * scale;
 }
 
@@ -146,6 +149,13 @@ class StatusLine {
   bool enabled_;
 };
 
+/// Whether it came to its end. The line is gone by then: what is printed next stands in its place.
+bool run_watched(fuzz::Driver& driver) {
+  catch_interrupts();
+  const StatusLine line(driver);
+  return driver.run(interrupted, [&](const fuzz::DriverStatus& status) { line.update(status); });
+}
+
 fuzz::DriverOptions driver_options(const FuzzArguments& arguments) {
   fuzz::DriverOptions options;
   options.cases = arguments.cases;
@@ -190,12 +200,7 @@ ExitCode run_plugin(const FuzzArguments& arguments) {
   options.target = std::string("plugin ") + info.name;
   options.plugin_crc32 = crc32;
   fuzz::Driver driver(properties, options);
-  catch_interrupts();
-  bool finished = false;
-  {
-    const StatusLine line(driver);
-    finished = driver.run(interrupted, [&](const fuzz::DriverStatus& status) { line.update(status); });
-  }
+  const bool finished = run_watched(driver);
   const fuzz::Ledger& ledger = driver.ledger();
   const ConformanceRun page{"selvage " SELVAGE_VERSION, arguments.plugin, arguments.artifacts, finished};
   const std::string text = fuzz::conformance_text(ledger, info, arguments.artifacts);
@@ -216,12 +221,7 @@ ExitCode run(const FuzzArguments& arguments) {
   }
   if (!arguments.only.empty()) return run_only(arguments, properties);
   fuzz::Driver driver(properties, driver_options(arguments));
-  catch_interrupts();
-  bool finished = false;
-  {
-    const StatusLine line(driver);
-    finished = driver.run(interrupted, [&](const fuzz::DriverStatus& status) { line.update(status); });
-  }
+  const bool finished = run_watched(driver);
   const FuzzTable table = fuzz_table(driver.ledger(), properties, arguments.artifacts);
   const fuzz::DriverStatus& status = driver.status();
   fmt::print("{}{} cases in {:.1f} s, {:.1f} s of processor time: {:.0f} a second\n", table.text, status.cases,
