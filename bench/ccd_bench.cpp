@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/ccd_methods.h"
+#include "bench/measure.h"
 #include "verify/decision/exact_distance.h"
 
 namespace selvage::bench {
@@ -44,7 +45,7 @@ class CcdBench {
   void measure(PairKind kind, std::span<const CcdMethod> methods);
   void judge(PairKind kind, const CcdMethod& method, const std::vector<Alarm>& alarms, CcdMethodReport& of_method);
   [[nodiscard]] bool within_gap(PairKind kind, const Alarm& alarm) const;
-  void measure_toi(PairKind kind, const std::vector<Alarm>& found, CcdMethodReport& of_method);
+  void measure_toi(PairKind kind, const std::vector<Alarm>& found, ToiErrors& errors);
   void compare_labels(std::span<const LabelledPair> labels);
   void summarize();
   std::vector<bool>& truth(PairKind kind) { return kind == PairKind::kVf ? vf_truth_ : ee_truth_; }
@@ -54,7 +55,7 @@ class CcdBench {
   CcdOptions ccd_options_;
   Candidates candidates_;
   std::vector<bool> vf_truth_, ee_truth_;
-  std::map<std::string, std::vector<double>> early_;  // of each method, how early its times of impact are
+  std::map<std::string, ToiErrors> toi_errors_;  // by method, over both kinds
   CcdBenchReport report_;
 };
 
@@ -98,7 +99,7 @@ void CcdBench::judge(PairKind kind, const CcdMethod& method, const std::vector<A
   const std::int64_t contacts = kind == PairKind::kVf ? report_.vf_contacts : report_.ee_contacts;
   of_method.alarms += static_cast<std::int64_t>(alarms.size());
   of_method.false_negatives += contacts - static_cast<std::int64_t>(found.size());
-  if (method.gives_toi) measure_toi(kind, found, of_method);
+  if (method.gives_toi) measure_toi(kind, found, toi_errors_[of_method.name]);
 }
 
 /// The witness of an alarm is at toi_lower or, where only the end of the step is near, at 1.
@@ -108,7 +109,7 @@ bool CcdBench::within_gap(PairKind kind, const Alarm& alarm) const {
   return within_at(query.x_t0, query.x_t1, alarm.toi, alarm.gap_bound);
 }
 
-void CcdBench::measure_toi(PairKind kind, const std::vector<Alarm>& found, CcdMethodReport& of_method) {
+void CcdBench::measure_toi(PairKind kind, const std::vector<Alarm>& found, ToiErrors& errors) {
   const std::size_t stride = found.size() / kToiSample + 1;
   for (std::size_t i = 0; i < found.size(); i += stride) {
     const ExactQuery query = exact_query(kind, motion_, candidates_, found[i].pair);
@@ -117,11 +118,7 @@ void CcdBench::measure_toi(PairKind kind, const std::vector<Alarm>& found, CcdMe
         (is_vf ? verify::exact_vf_motion : verify::exact_ee_motion)(query.x_t0, query.x_t1, verify::Detail::kFirstTime)
             .first.lower_approx;
     const double toi = found[i].toi;
-    if (verify::compare_first_touch(query.x_t0, query.x_t1, is_vf, toi) < 0) {
-      ++of_method.toi.late;
-      of_method.toi.late_max = std::max(of_method.toi.late_max, toi - first);
-    }
-    early_[of_method.name].push_back(std::max(0.0, first - toi));
+    errors.add(first, toi, verify::compare_first_touch(query.x_t0, query.x_t1, is_vf, toi) < 0);
   }
 }
 
@@ -147,12 +144,9 @@ void CcdBench::summarize() {
     of_method.ns_mean = (of_method.ns_vf + of_method.ns_ee) / std::max(1.0, vf + ee);
     of_method.ns_vf /= std::max(1.0, vf);
     of_method.ns_ee /= std::max(1.0, ee);
-    std::vector<double>& early = early_[of_method.name];
-    std::sort(early.begin(), early.end());
-    of_method.toi_examined = static_cast<std::int64_t>(early.size());
-    of_method.toi.early_median = quantile(early, 0.5);
-    of_method.toi.early_p99 = quantile(early, 0.99);
-    of_method.toi.early_max = early.empty() ? 0 : early.back();
+    const ToiErrors& errors = toi_errors_[of_method.name];
+    of_method.toi_examined = errors.count();
+    of_method.toi = errors.summary();
   }
   const auto textbook = std::find_if(report_.methods.begin(), report_.methods.end(),
                                      [](const CcdMethodReport& method) { return method.name == "textbook"; });

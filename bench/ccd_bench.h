@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure.h"
 #include "bench/mesh_motion.h"
 #include "bench/pair_labels.h"
+#include "bench/toi_error.h"
 
 namespace selvage::bench {
 

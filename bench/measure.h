@@ -1,8 +1,7 @@
-// What the benchmarks share: the clock, quantiles, and the error of a time of impact.
+// What the benchmarks share: the clock and quantiles.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <ctime>
 #include <vector>
 
@@ -28,12 +27,5 @@ inline double quantile(const std::vector<double>& sorted, double share) {
   const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5);
   return sorted[rank];
 }
-
-/// Time of impact against the exact first touch, as fractions of the step, over the contacts that were found.
-struct ToiError {
-  std::int64_t late = 0;  ///< answers later than the exact first touch, decided exactly
-  double late_max = 0;
-  double early_median = 0, early_p99 = 0, early_max = 0;
-};
 
 }  // namespace selvage::bench

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/measure.h"
 #include "kernel/ccd_batch.h"
 #include "kernel/collisions.h"
 
@@ -87,7 +88,8 @@ SettingReport judge(const QuerySet& set, const std::vector<verify::MotionAnswer>
   report.method = contestant.method;
   report.setting = contestant.setting;
   report.ns = contestant.best_ns / static_cast<double>(std::max<std::size_t>(1, contestant.asked));
-  std::vector<double> early, off;
+  ToiErrors errors;
+  std::vector<double> off;
   for (std::size_t i = 0; i < set.queries.size(); ++i) {
     const MethodAnswer& answer = contestant.answers[i];
     report.misses += truth[i].touches && !answer.alarm;
@@ -96,20 +98,14 @@ SettingReport judge(const QuerySet& set, const std::vector<verify::MotionAnswer>
     if (!contestant.gives_toi || !truth[i].touches || !answer.alarm) continue;
     const MethodQuery& query = set.queries[i];
     const double first = truth[i].first.lower_approx;
-    early.push_back(std::max(0.0, first - answer.toi));
+    const bool is_vf = query.kind == PairKind::kVf;
+    errors.add(first, answer.toi, verify::compare_first_touch(query.point_t0, query.point_t1, is_vf, answer.toi) < 0);
     off.push_back(std::abs(first - answer.toi));
-    if (verify::compare_first_touch(query.point_t0, query.point_t1, query.kind == PairKind::kVf, answer.toi) < 0) {
-      ++report.toi.late;
-      report.toi.late_max = std::max(report.toi.late_max, answer.toi - first);
-    }
   }
-  std::sort(early.begin(), early.end());
   std::sort(off.begin(), off.end());
   report.toi_off_p99 = quantile(off, 0.99);
-  report.toi_examined = static_cast<std::int64_t>(early.size());
-  report.toi.early_median = quantile(early, 0.5);
-  report.toi.early_p99 = quantile(early, 0.99);
-  report.toi.early_max = early.empty() ? 0 : early.back();
+  report.toi_examined = errors.count();
+  report.toi = errors.summary();
   return report;
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure.h"
 #include "bench/mesh_motion.h"
 #include "bench/query_methods.h"
+#include "bench/toi_error.h"
 
 namespace selvage::bench {
 

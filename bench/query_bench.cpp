@@ -9,78 +9,45 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/measure.h"
+#include "bench/query_methods.h"
 #include "bench/textbook.h"
-#include "kernel/ccd.h"
-#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 namespace {
 
-struct BenchQuery {
-  PairKind kind = PairKind::kVf;
-  std::array<Vec3, 4> x_t0, x_t1;
-  std::array<verify::Point, 4> point_t0{}, point_t1{};
+struct FileQuery {
+  MethodQuery asked;
   std::optional<bool> truth;
   std::size_t file = 0, line = 0;  ///< of its first row
-  double tolerance = 0;
 };
 
-struct BenchAnswer {
-  bool positive = false, unresolved = false;
-  double toi = 0;
-};
-
-struct Method {
+struct TimedMethod {
   const char* name;
-  BenchAnswer (*ask)(const BenchQuery&);
+  MethodAnswer (*ask)(const MethodQuery&, double tolerance);
+  double tolerance;
   bool gives_toi;
 };
 
-BenchAnswer ask_kernel(const BenchQuery& query) {
-  CcdOptions options;
-  options.tolerance = query.tolerance;
-  const CcdResult result =
-      query.kind == PairKind::kVf ? vf_ccd(query.x_t0, query.x_t1, options) : ee_ccd(query.x_t0, query.x_t1, options);
-  return {result.verdict != CcdVerdict::kSeparated, result.verdict == CcdVerdict::kUnresolved, result.toi_lower};
+std::array<TimedMethod, 3> timed_methods(double kernel_tolerance) {
+  const auto exact = [](const MethodQuery& query, double) { return exact_decision(query); };
+  return {{{"kernel", kernel_within, kernel_tolerance, true},
+           {"textbook", textbook_within, kTextbookTolerance, true},
+           {"exact", exact, 0, false}}};
 }
 
-BenchAnswer ask_textbook(const BenchQuery& query) {
-  const TextbookAnswer answer =
-      query.kind == PairKind::kVf ? textbook_vf(query.x_t0, query.x_t1) : textbook_ee(query.x_t0, query.x_t1);
-  return {answer.collides, false, answer.toi};
-}
-
-verify::MotionAnswer exact_answer(const BenchQuery& query, verify::Detail detail) {
-  return query.kind == PairKind::kVf ? verify::exact_vf_motion(query.point_t0, query.point_t1, detail)
-                                     : verify::exact_ee_motion(query.point_t0, query.point_t1, detail);
-}
-
-BenchAnswer ask_exact(const BenchQuery& query) {
-  return {exact_answer(query, verify::Detail::kDecision).touches, false, 0};
-}
-
-constexpr std::array<Method, 3> kQueryMethods{
-    {{"kernel", ask_kernel, true}, {"textbook", ask_textbook, true}, {"exact", ask_exact, false}}};
-
-std::vector<BenchQuery> flatten(std::span<const QueryFile> files, double tolerance) {
-  std::vector<BenchQuery> queries;
+std::vector<FileQuery> flatten(std::span<const QueryFile> files) {
+  std::vector<FileQuery> queries;
   for (const QueryFile& file : files) {
     std::size_t line = 1;
     for (const io::CcdQuery& read : file.queries) {
-      BenchQuery query;
-      query.file = static_cast<std::size_t>(&file - files.data());
-      query.line = line;
-      line += io::kRowsPerQuery;
-      query.kind = file.kind;
-      query.truth = read.truth;
-      query.tolerance = tolerance;
+      std::array<Vec3, 4> x_t0, x_t1;
       for (std::size_t i = 0; i < 4; ++i) {
-        query.point_t0[i] = read.points[i];
-        query.point_t1[i] = read.points[i + 4];
-        query.x_t0[i] = Vec3(query.point_t0[i][0], query.point_t0[i][1], query.point_t0[i][2]);
-        query.x_t1[i] = Vec3(query.point_t1[i][0], query.point_t1[i][1], query.point_t1[i][2]);
+        x_t0[i] = Vec3(read.points[i].data());
+        x_t1[i] = Vec3(read.points[i + 4].data());
       }
-      queries.push_back(query);
+      const auto number = static_cast<std::size_t>(&file - files.data());
+      queries.push_back({method_query(file.kind, x_t0, x_t1), read.truth, number, line});
+      line += io::kRowsPerQuery;
     }
   }
   return queries;
@@ -99,12 +66,13 @@ double clock_cost() {
 }
 
 /// Answers in the order of the queries, and the times of `repeat` passes.
-std::vector<BenchAnswer> time_method(const Method& method, const std::vector<BenchQuery>& queries, int repeat,
-                                     QueryTimes& ns) {
+std::vector<MethodAnswer> time_method(const TimedMethod& method, const std::vector<FileQuery>& queries, int repeat,
+                                      QueryTimes& ns) {
+  const auto ask = [&](std::size_t i) { return method.ask(queries[i].asked, method.tolerance); };
   std::vector<std::size_t> order(queries.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<BenchAnswer> answers(queries.size());
-  for (const std::size_t i : order) answers[i] = method.ask(queries[i]);  // warms up, and gives the answers
+  std::vector<MethodAnswer> answers(queries.size());
+  for (const std::size_t i : order) answers[i] = ask(i);  // warms up, and gives the answers
 
   std::vector<double> single(queries.size(), std::numeric_limits<double>::infinity());
   double best_pass = std::numeric_limits<double>::infinity();
@@ -113,11 +81,11 @@ std::vector<BenchAnswer> time_method(const Method& method, const std::vector<Ben
   for (int pass = 0; pass < repeat; ++pass) {
     std::shuffle(order.begin(), order.end(), shuffler);
     const double pass_start = thread_nanoseconds();
-    for (const std::size_t i : order) answered &= method.ask(queries[i]).positive == answers[i].positive;
+    for (const std::size_t i : order) answered &= ask(i).alarm == answers[i].alarm;
     best_pass = std::min(best_pass, thread_nanoseconds() - pass_start);
     for (const std::size_t i : order) {
       const Clock::time_point start = Clock::now();
-      answered &= method.ask(queries[i]).positive == answers[i].positive;
+      answered &= ask(i).alarm == answers[i].alarm;
       single[i] = std::min(single[i], nanoseconds(Clock::now() - start));
     }
   }
@@ -127,25 +95,18 @@ std::vector<BenchAnswer> time_method(const Method& method, const std::vector<Ben
   return answers;
 }
 
-ToiError measure_toi(const std::vector<BenchQuery>& queries, const std::vector<BenchAnswer>& answers,
+ToiError measure_toi(const std::vector<FileQuery>& queries, const std::vector<MethodAnswer>& answers,
                      const std::vector<verify::MotionAnswer>& exact) {
-  ToiError error;
-  std::vector<double> early;
+  ToiErrors errors;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (!exact[i].touches || !answers[i].positive) continue;
+    if (!exact[i].touches || !answers[i].alarm) continue;
+    const MethodQuery& query = queries[i].asked;
     const double toi = answers[i].toi;
-    const bool is_vf = queries[i].kind == PairKind::kVf;
-    if (verify::compare_first_touch(queries[i].point_t0, queries[i].point_t1, is_vf, toi) < 0) {
-      ++error.late;
-      error.late_max = std::max(error.late_max, toi - exact[i].first.lower_approx);
-    }
-    early.push_back(std::max(0.0, exact[i].first.lower_approx - toi));
+    const bool is_vf = query.kind == PairKind::kVf;
+    errors.add(exact[i].first.lower_approx, toi,
+               verify::compare_first_touch(query.point_t0, query.point_t1, is_vf, toi) < 0);
   }
-  std::sort(early.begin(), early.end());
-  error.early_median = quantile(early, 0.5);
-  error.early_p99 = quantile(early, 0.99);
-  error.early_max = early.empty() ? 0 : early.back();
-  return error;
+  return errors.summary();
 }
 
 }  // namespace
@@ -164,12 +125,12 @@ std::optional<PairKind> kind_of_path(const std::filesystem::path& file) {
 QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBenchOptions& options) {
   QueryBenchReport report;
   for (const QueryFile& file : files) report.files.push_back(file.file.string());
-  const std::vector<BenchQuery> queries = flatten(files, options.tolerance);
+  const std::vector<FileQuery> queries = flatten(files);
   std::vector<verify::MotionAnswer> exact;
   exact.reserve(queries.size());
   std::vector<bool> truth;
-  for (const BenchQuery& query : queries) {
-    exact.push_back(exact_answer(query, verify::Detail::kFirstTime));
+  for (const FileQuery& query : queries) {
+    exact.push_back(exact_answer(query.asked, verify::Detail::kFirstTime));
     truth.push_back(query.truth.value_or(exact.back().touches));
     report.truth_in_files += query.truth.has_value();
     report.positives += truth.back();
@@ -179,14 +140,14 @@ QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBe
   }
   report.queries = static_cast<std::int64_t>(queries.size());
   report.clock_ns = clock_cost();
-  for (const Method& method : kQueryMethods) {
+  for (const TimedMethod& method : timed_methods(options.tolerance)) {
     MethodReport& of_method = report.methods.emplace_back();
     of_method.name = method.name;
-    const std::vector<BenchAnswer> answers = time_method(method, queries, options.repeat, of_method.ns);
+    const std::vector<MethodAnswer> answers = time_method(method, queries, options.repeat, of_method.ns);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      of_method.false_negatives += truth[i] && !answers[i].positive;
-      of_method.false_positives += !truth[i] && answers[i].positive;
-      of_method.unresolved += answers[i].unresolved;
+      of_method.false_negatives += truth[i] && !answers[i].alarm;
+      of_method.false_positives += !truth[i] && answers[i].alarm;
+      of_method.unresolved += answers[i].gave_up;
     }
     if (method.gives_toi) of_method.toi = measure_toi(queries, answers, exact);
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure.h"
+#include "bench/toi_error.h"
 #include "io/query_csv.h"
 #include "kernel/types.h"
 

@@ -10,20 +10,6 @@
 namespace selvage::bench {
 namespace {
 
-MethodAnswer textbook_within(const MethodQuery& query, double tolerance) {
-  const auto ask = query.kind == PairKind::kVf ? textbook_vf : textbook_ee;
-  const TextbookAnswer answer = ask(query.x_t0, query.x_t1, tolerance);
-  return {answer.collides, false, answer.toi};
-}
-
-MethodAnswer kernel_within(const MethodQuery& query, double tolerance) {
-  CcdOptions options;
-  options.tolerance = tolerance;
-  const auto ask = query.kind == PairKind::kVf ? vf_ccd : ee_ccd;
-  const CcdResult result = ask(query.x_t0, query.x_t1, options);
-  return {result.verdict != CcdVerdict::kSeparated, result.verdict == CcdVerdict::kUnresolved, result.toi_lower};
-}
-
 MethodAnswer additive_rescaled(const MethodQuery& query, double rescaling) {
   AdditiveOptions options;
   options.rescaling = rescaling;
@@ -51,6 +37,24 @@ MethodQuery method_query(PairKind kind, const std::array<Vec3, 4>& x_t0, const s
   return query;
 }
 
+MethodAnswer textbook_within(const MethodQuery& query, double tolerance) {
+  const auto ask = query.kind == PairKind::kVf ? textbook_vf : textbook_ee;
+  const TextbookAnswer answer = ask(query.x_t0, query.x_t1, tolerance);
+  return {answer.collides, false, answer.toi};
+}
+
+MethodAnswer kernel_within(const MethodQuery& query, double tolerance) {
+  CcdOptions options;
+  options.tolerance = tolerance;
+  const auto ask = query.kind == PairKind::kVf ? vf_ccd : ee_ccd;
+  const CcdResult result = ask(query.x_t0, query.x_t1, options);
+  return {result.verdict != CcdVerdict::kSeparated, result.verdict == CcdVerdict::kUnresolved, result.toi_lower};
+}
+
+MethodAnswer exact_decision(const MethodQuery& query) {
+  return {exact_answer(query, verify::Detail::kDecision).touches};
+}
+
 verify::MotionAnswer exact_answer(const MethodQuery& query, verify::Detail detail) {
   return query.kind == PairKind::kVf ? verify::exact_vf_motion(query.point_t0, query.point_t1, detail)
                                      : verify::exact_ee_motion(query.point_t0, query.point_t1, detail);
@@ -68,9 +72,7 @@ std::vector<MethodSetting> method_settings() {
   add("kernel", " m", kernel_within, {1e-3, 1e-6, 0.0});
   add("additive", "", additive_rescaled, {0.5, 0.9, 0.99, 0.999});
   add("inclusion", " of size", inclusion_within, {1e-2, 1e-4, 1e-6});
-  settings.push_back(
-      {"exact", "",
-       [](const MethodQuery& q) { return MethodAnswer{exact_answer(q, verify::Detail::kDecision).touches}; }, false});
+  settings.push_back({"exact", "", exact_decision, false});
   return settings;
 }
 

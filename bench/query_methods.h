@@ -1,4 +1,4 @@
-// The methods that answer one query, each at several settings: what `bench methods` compares.
+// The methods that answer one query: what `bench methods` compares, each at several settings, and `bench queries`.
 #pragma once
 
 #include <array>
@@ -25,6 +25,13 @@ struct MethodAnswer {
   double toi = 1;
 };
 
+[[nodiscard]] MethodAnswer textbook_within(const MethodQuery& query, double tolerance);
+[[nodiscard]] MethodAnswer kernel_within(const MethodQuery& query, double tolerance);
+/// The checker's bare decision, without a time.
+[[nodiscard]] MethodAnswer exact_decision(const MethodQuery& query);
+
+[[nodiscard]] verify::MotionAnswer exact_answer(const MethodQuery& query, verify::Detail detail);
+
 struct MethodSetting {
   std::string method, setting;
   std::function<MethodAnswer(const MethodQuery&)> ask;
@@ -36,9 +43,7 @@ inline constexpr const char* kBaselineMethod = "textbook";
 inline constexpr const char* kBaselineSetting = "1e-06 m";
 
 /// textbook and kernel by tolerance (lengths), additive by rescaling, inclusion by tolerance (share of the query's
-/// size), exact: the checker's bare decision.
+/// size), exact_decision.
 [[nodiscard]] std::vector<MethodSetting> method_settings();
-
-[[nodiscard]] verify::MotionAnswer exact_answer(const MethodQuery& query, verify::Detail detail);
 
 }  // namespace selvage::bench
