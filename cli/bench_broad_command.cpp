@@ -89,7 +89,7 @@ ExitCode bench_broad(const BroadArguments& arguments) {
 
 }  // namespace
 
-void add_broad_command(CLI::App& bench, Job& job) {
+void add_bench_broad_command(CLI::App& bench, Job& job) {
   CLI::App& broad =
       add_command(bench, "broad",
                   "The broad phase, by position and from connectivity, against CGAL's box_intersection_d and Embree's "

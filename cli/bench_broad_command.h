@@ -8,6 +8,6 @@
 namespace selvage::cli {
 
 /// Adds the subcommand; when it is chosen, parsing sets `job`.
-void add_broad_command(CLI::App& bench, Job& job);
+void add_bench_broad_command(CLI::App& bench, Job& job);
 
 }  // namespace selvage::cli

@@ -1,208 +1,21 @@
 #include "cli/bench_command.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-#include <span>
-#include <vector>
-
-#include <fmt/format.h>
-
-#include "bench/ccd_bench.h"
-#include "bench/query_bench.h"
-#include "cli/arguments/number_check.h"
-#include "cli/arguments/output_check.h"
 #include "cli/bench_broad_command.h"
+#include "cli/bench_ccd_command.h"
 #include "cli/bench_methods_command.h"
+#include "cli/bench_queries_command.h"
 #include "cli/bench_sim_command.h"
 #include "cli/bench_stability_command.h"
 #include "cli/bench_verify_command.h"
 #include "cli/command.h"
-#include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
-namespace {
-
-struct BenchArguments {
-  std::vector<std::string> files;
-  std::string kind, json;
-  bench::QueryBenchOptions options;
-};
-
-PairKind kind_of(const std::string& file, const std::string& named) {
-  if (named == "vf") return PairKind::kVf;
-  if (named == "ee") return PairKind::kEe;
-  if (const auto kind = bench::kind_of_path(file)) return *kind;
-  throw UsageError(file + ": vertex-face or edge-edge queries? No name says it: " +
-                   "FILE_vf.csv, FILE_ee.csv, or a folder vertex-face or edge-edge; use --kind");
-}
-
-std::string table(const bench::QueryBenchReport& report) {
-  std::string text =
-      fmt::format("{} queries, {} with a contact; truth from the files for {}, from the exact checker for {}\n",
-                  report.queries, report.positives, report.truth_in_files, report.queries - report.truth_in_files);
-  text +=
-      fmt::format("{:<9} {:>7} {:>7} {:>10} {:>8} {:>10} {:>9} {:>10} {:>11}  {}\n", "method", "missed", "false",
-                  "unresolved", "late toi", "mean ns", "median ns", "p99 ns", "max ns", "toi early: median, p99, max");
-  for (const bench::MethodReport& method : report.methods) {
-    text += fmt::format("{:<9} {:>7} {:>7} {:>10} {:>8} {:>10.0f} {:>9.0f} {:>10.0f} {:>11.0f}", method.name,
-                        method.false_negatives, method.false_positives, method.unresolved, method.toi.late,
-                        method.ns.mean, method.ns.median, method.ns.p99, method.ns.max);
-    if (method.name != "exact") {
-      text +=
-          fmt::format("  {:.1e}, {:.1e}, {:.1e}", method.toi.early_median, method.toi.early_p99, method.toi.early_max);
-    }
-    text += '\n';
-  }
-  return text + fmt::format(
-                    "one thread; mean: processor time of the best whole pass; the others: wall time of single queries, "
-                    "best of the "
-                    "passes, {:.0f} ns of clock included\n",
-                    report.clock_ns);
-}
-
-/// A truth that is wrong makes misses and false alarms of right answers.
-void print_contradicted(const std::vector<std::string>& places) {
-  constexpr std::size_t kMost = 10;
-  for (const std::string& place : std::span(places).first(std::min(kMost, places.size()))) {
-    say("selvage: {}: the truth is contradicted by the exact checker; correct the seventh column\n", place);
-  }
-  if (places.size() > kMost) say("selvage: ... and {} more\n", places.size() - kMost);
-}
-
-ExitCode bench_queries(const BenchArguments& arguments) {
-  require_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
-  std::vector<bench::QueryFile> files;
-  std::size_t count = 0;
-  for (const std::string& name : arguments.files) {
-    files.push_back({name, kind_of(name, arguments.kind), io::read_query_csv(name)});
-    count += files.back().queries.size();
-  }
-  if (count == 0) throw io::Error(io::ErrorKind::kBadInput, arguments.files.front() + ": no queries to measure");
-  const bench::QueryBenchReport report = bench::run_query_bench(files, arguments.options);
-  fmt::print("{}", table(report));
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(report));
-  print_contradicted(report.contradicted);
-  const bench::MethodReport& kernel = report.methods.front();
-  const bool is_right = kernel.false_negatives == 0 && kernel.toi.late == 0 && report.contradicted.empty();
-  return is_right ? ExitCode::kClean : ExitCode::kViolation;
-}
-
-struct CcdArguments {
-  std::string frame_t0, frame_t1, json;
-  std::vector<std::vector<std::string>> truth;
-  int sheet = 160;
-  bench::CcdBenchOptions options;
-};
-
-std::string table(const bench::CcdBenchReport& report) {
-  std::string text =
-      fmt::format("{}: {} vertices, {} faces; candidates {} vf + {} ee in {:.0f} ms; contacts {} vf + {} ee\n",
-                  report.motion, report.vertices, report.faces, report.vf_candidates, report.ee_candidates,
-                  report.broad_phase_ns * 1e-6, report.vf_contacts, report.ee_contacts);
-  if (report.labels > 0) {
-    text += fmt::format("{} published verdicts, {} of them contradicted by the exact checker\n", report.labels,
-                        report.labels_contradicted);
-  }
-  text += fmt::format("{:<13} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n", "method", "alarms",
-                      "missed", "false", "beyond gap", "unresolved", "late toi", "mean ns", "vf ns", "ee ns",
-                      "/textbook", "toi early: median, p99, max");
-  for (const bench::CcdMethodReport& method : report.methods) {
-    text +=
-        fmt::format("{:<13} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8.1f} {:>8.1f} {:>8.1f} {:>9.3f}", method.name,
-                    method.alarms, method.false_negatives, method.false_positives, method.false_positives_beyond_gap,
-                    method.unresolved, method.toi.late, method.ns_mean, method.ns_vf, method.ns_ee, method.ratio);
-    if (method.toi_examined > 0) {
-      text +=
-          fmt::format("  {:.1e}, {:.1e}, {:.1e}", method.toi.early_median, method.toi.early_p99, method.toi.early_max);
-    }
-    text += '\n';
-  }
-  const bench::CcdMethodReport& kernel = report.methods.front();
-  text += fmt::format("the kernel's lanes left {} pairs to single queries: {:.2f} %\n", kernel.searched,
-                      100 * static_cast<double>(kernel.searched) /
-                          static_cast<double>(std::max<std::int64_t>(1, report.vf_candidates + report.ee_candidates)));
-  return text +
-         "one thread; processor time of the best whole pass over all candidates; the exact checker says the truth\n";
-}
-
-ExitCode bench_ccd(const CcdArguments& arguments) {
-  const bool from_files = !arguments.frame_t0.empty();
-  if (from_files && arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
-  if (!from_files && !arguments.truth.empty()) throw UsageError("--truth belongs to frames from files: name two");
-  std::vector<std::filesystem::path> inputs = {arguments.frame_t0, arguments.frame_t1};
-  for (const std::vector<std::string>& files : arguments.truth) inputs.insert(inputs.end(), files.begin(), files.end());
-  require_outputs(inputs, {arguments.json});
-  const bench::MeshMotion motion = from_files ? bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1)
-                                              : bench::crumpled_sheet(arguments.sheet);
-  std::vector<bench::LabelledPair> labels;
-  for (const std::vector<std::string>& files : arguments.truth) {
-    const auto read = bench::read_pair_labels(files.at(0), files.at(1), motion.mesh);
-    labels.insert(labels.end(), read.begin(), read.end());
-  }
-  bench::CcdBenchReport report = bench::run_ccd_bench(motion, labels, arguments.options);
-  report.motion = from_files ? arguments.frame_t0 + " -> " + arguments.frame_t1 : "crumpled sheet";
-  fmt::print("{}", table(report));
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(report));
-  const auto is_wrong = [](const bench::CcdMethodReport& method) {
-    return method.name.starts_with("kernel") && (method.false_negatives > 0 || method.toi.late > 0);
-  };
-  const bool wrong = std::any_of(report.methods.begin(), report.methods.end(), is_wrong);
-  return wrong || report.labels_contradicted > 0 ? ExitCode::kViolation : ExitCode::kClean;
-}
-
-void add_ccd_command(CLI::App& bench, Job& job) {
-  CLI::App& ccd =
-      add_command(bench, "ccd",
-                  "The kernel, the textbook method and the exact checker on all candidate pairs of a motion: of a mesh "
-                  "between two files, or of a crumpled sheet. Exit code 1 if the kernel missed a contact or answered "
-                  "late, or if published verdicts are contradicted.",
-                  "selvage bench ccd cloth_ball92.ply cloth_ball93.ply --json out.json");
-  const auto arguments = std::make_shared<CcdArguments>();
-  ccd.add_option("FRAME_T0", arguments->frame_t0, "Mesh at t = 0 (.obj, .ply)");
-  ccd.add_option("FRAME_T1", arguments->frame_t1, "The same mesh at t = 1");
-  ccd.add_option("--truth", arguments->truth, "BOXES VERDICTS: published pairs and which of them touch (JSON lists)")
-      ->type_size(2)
-      ->expected(1, 64);
-  ccd.add_option("--sheet", arguments->sheet, "Vertices along one side of the crumpled sheet")
-      ->check(CLI::Range(2, 2000))
-      ->capture_default_str();
-  ccd.add_option("--json", arguments->json, "Also write the report to this file");
-  ccd.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  ccd.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
-      ->check(number_from(0))
-      ->capture_default_str();
-  ccd.callback([arguments, &job] { job = [arguments] { return bench_ccd(*arguments); }; });
-}
-
-}  // namespace
 
 void add_bench_command(CLI::App& program, Job& job) {
   CLI::App& bench = add_command(program, "bench", "Speed against error", "selvage bench queries data_vf.csv");
-  CLI::App& queries = add_command(
-      bench, "queries",
-      "The kernel, the textbook method and the exact checker on files of queries (CSV of the "
-      "public sets). Exit code 1 if the kernel missed a contact or answered late, or if the exact checker contradicts "
-      "the truth of a file.",
-      "selvage bench queries vertex-face/data_0_0.csv edge-edge/data_0_0.csv --json out.json");
-  const auto arguments = std::make_shared<BenchArguments>();
-  queries.add_option("FILE", arguments->files, "CSV files: eight rows a query, three rationals a row, truth optional")
-      ->required();
-  queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")
-      ->check(CLI::IsMember({"vf", "ee"}));
-  queries.add_option("--json", arguments->json, "Also write the report to this file");
-  queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  queries.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
-      ->check(number_from(0))
-      ->capture_default_str();
-  queries.callback([arguments, &job] { job = [arguments] { return bench_queries(*arguments); }; });
-  add_ccd_command(bench, job);
-  add_broad_command(bench, job);
+  add_bench_queries_command(bench, job);
+  add_bench_ccd_command(bench, job);
+  add_bench_broad_command(bench, job);
   add_bench_verify_command(bench, job);
   add_bench_methods_command(bench, job);
   add_bench_stability_command(bench, job);

@@ -1,4 +1,4 @@
-// selvage bench: speed against error on files of queries (queries) and on the candidates of a motion (ccd).
+// `selvage bench`: speed against error. Each benchmark is a subcommand with a file of its own.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,0 +1,13 @@
+// `selvage bench ccd`: speed against error on the candidates of a motion.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/process/exit_code.h"
+
+namespace selvage::cli {
+
+/// Adds the subcommand; when it is chosen, parsing sets `job`.
+void add_bench_ccd_command(CLI::App& bench, Job& job);
+
+}  // namespace selvage::cli

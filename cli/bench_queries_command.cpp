@@ -1,0 +1,109 @@
+#include "cli/bench_queries_command.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/query_bench.h"
+#include "cli/arguments/number_check.h"
+#include "cli/arguments/output_check.h"
+#include "cli/command.h"
+#include "cli/process/terminal.h"
+#include "io/atomic_file.h"
+
+namespace selvage::cli {
+namespace {
+
+struct QueriesArguments {
+  std::vector<std::string> files;
+  std::string kind, json;
+  bench::QueryBenchOptions options;
+};
+
+PairKind kind_of(const std::string& file, const std::string& named) {
+  if (named == "vf") return PairKind::kVf;
+  if (named == "ee") return PairKind::kEe;
+  if (const auto kind = bench::kind_of_path(file)) return *kind;
+  throw UsageError(file + ": vertex-face or edge-edge queries? No name says it: " +
+                   "FILE_vf.csv, FILE_ee.csv, or a folder vertex-face or edge-edge; use --kind");
+}
+
+std::string table(const bench::QueryBenchReport& report) {
+  std::string text =
+      fmt::format("{} queries, {} with a contact; truth from the files for {}, from the exact checker for {}\n",
+                  report.queries, report.positives, report.truth_in_files, report.queries - report.truth_in_files);
+  text +=
+      fmt::format("{:<9} {:>7} {:>7} {:>10} {:>8} {:>10} {:>9} {:>10} {:>11}  {}\n", "method", "missed", "false",
+                  "unresolved", "late toi", "mean ns", "median ns", "p99 ns", "max ns", "toi early: median, p99, max");
+  for (const bench::MethodReport& method : report.methods) {
+    text += fmt::format("{:<9} {:>7} {:>7} {:>10} {:>8} {:>10.0f} {:>9.0f} {:>10.0f} {:>11.0f}", method.name,
+                        method.false_negatives, method.false_positives, method.unresolved, method.toi.late,
+                        method.ns.mean, method.ns.median, method.ns.p99, method.ns.max);
+    if (method.name != "exact") {
+      text +=
+          fmt::format("  {:.1e}, {:.1e}, {:.1e}", method.toi.early_median, method.toi.early_p99, method.toi.early_max);
+    }
+    text += '\n';
+  }
+  return text + fmt::format(
+                    "one thread; mean: processor time of the best whole pass; the others: wall time of single queries, "
+                    "best of the "
+                    "passes, {:.0f} ns of clock included\n",
+                    report.clock_ns);
+}
+
+/// A truth that is wrong makes misses and false alarms of right answers.
+void print_contradicted(const std::vector<std::string>& places) {
+  constexpr std::size_t kMost = 10;
+  for (const std::string& place : std::span(places).first(std::min(kMost, places.size()))) {
+    say("selvage: {}: the truth is contradicted by the exact checker; correct the seventh column\n", place);
+  }
+  if (places.size() > kMost) say("selvage: ... and {} more\n", places.size() - kMost);
+}
+
+ExitCode bench_queries(const QueriesArguments& arguments) {
+  require_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
+  std::vector<bench::QueryFile> files;
+  std::size_t count = 0;
+  for (const std::string& name : arguments.files) {
+    files.push_back({name, kind_of(name, arguments.kind), io::read_query_csv(name)});
+    count += files.back().queries.size();
+  }
+  if (count == 0) throw io::Error(io::ErrorKind::kBadInput, arguments.files.front() + ": no queries to measure");
+  const bench::QueryBenchReport report = bench::run_query_bench(files, arguments.options);
+  fmt::print("{}", table(report));
+  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(report));
+  print_contradicted(report.contradicted);
+  const bench::MethodReport& kernel = report.methods.front();
+  const bool is_right = kernel.false_negatives == 0 && kernel.toi.late == 0 && report.contradicted.empty();
+  return is_right ? ExitCode::kClean : ExitCode::kViolation;
+}
+
+}  // namespace
+
+void add_bench_queries_command(CLI::App& bench, Job& job) {
+  CLI::App& queries = add_command(
+      bench, "queries",
+      "The kernel, the textbook method and the exact checker on files of queries (CSV of the "
+      "public sets). Exit code 1 if the kernel missed a contact or answered late, or if the exact checker contradicts "
+      "the truth of a file.",
+      "selvage bench queries vertex-face/data_0_0.csv edge-edge/data_0_0.csv --json out.json");
+  const auto arguments = std::make_shared<QueriesArguments>();
+  queries.add_option("FILE", arguments->files, "CSV files: eight rows a query, three rationals a row, truth optional")
+      ->required();
+  queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")
+      ->check(CLI::IsMember({"vf", "ee"}));
+  queries.add_option("--json", arguments->json, "Also write the report to this file");
+  queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  queries.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
+      ->check(number_from(0))
+      ->capture_default_str();
+  queries.callback([arguments, &job] { job = [arguments] { return bench_queries(*arguments); }; });
+}
+
+}  // namespace selvage::cli

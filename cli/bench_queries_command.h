@@ -1,0 +1,13 @@
+// `selvage bench queries`: speed against error on files of queries.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cli/process/exit_code.h"
+
+namespace selvage::cli {
+
+/// Adds the subcommand; when it is chosen, parsing sets `job`.
+void add_bench_queries_command(CLI::App& bench, Job& job);
+
+}  // namespace selvage::cli
