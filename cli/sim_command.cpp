@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/part_name.h"
 #include "cli/answer/waiting_summary.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/output_check.h"

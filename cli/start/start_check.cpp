@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/part_name.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
 #include "cli/start/start_remedy.h"
 #include "io/error.h"
-#include "io/text.h"
 #include "sim/base/points.h"
 #include "sim/repair/start_repair.h"
 #include "verify/check.h"
@@ -21,13 +21,6 @@ constexpr std::size_t kNamedPairs = 10;  // the rest is counted
 /// That are kept of one state. A mesh whose vertices are in another order has many times as many: 6,962 faces at random
 /// take 313 MiB and 8 s of the processor with this, more than 4.4 GB and 71 s with all of their 5 million pairs.
 constexpr std::size_t kMostPairs = 200'000;
-
-std::string part_of_face(const sim::World& world, FaceId face) {
-  for (const io::Group& group : world.groups) {
-    if (face >= group.face_begin && face < group.face_end) return io::printable(group.name);
-  }
-  return "?";
-}
 
 /// Exact; pairs of bodies are left out. The first kMostPairs; ends with verify::Stopped at a signal.
 sim::FindIntersections exact_judge(const sim::World& world) {
@@ -82,10 +75,6 @@ bool has_edge_without_length(const sim::World& world) {
 }
 
 }  // namespace
-
-std::string part_of_vertex(const sim::World& world, VertexId vertex) {
-  return part_of_face(world, world.mesh.vertex_owner[static_cast<std::size_t>(vertex)]);
-}
 
 sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   const sim::FindIntersections judge = exact_judge(simulation.world());

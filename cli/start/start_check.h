@@ -5,9 +5,6 @@
 
 namespace selvage::cli {
 
-/// Name of the part that holds the vertex.
-[[nodiscard]] std::string part_of_vertex(const sim::World& world, VertexId vertex);
-
 /// S1 begins with an intersection-free state. Where the start intersects, says on stderr which faces do. With `repair`
 /// the cloth is moved apart (sim/repair/untangle.h) and what was done is said; throws io::Error where pairs remain, and
 /// without `repair`.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/part_name.h"
+
 namespace selvage::cli {
 namespace {
 
@@ -32,7 +34,7 @@ class Faults {
   /// Corners of both, if of one part, that lie, to the bit, where one of the other face lies.
   [[nodiscard]] std::set<VertexId> coincident(const sim::FacePair& pair) const {
     std::set<VertexId> found;
-    if (part(pair[0]) != part(pair[1])) return found;
+    if (part_with_face(world_, pair[0]) != part_with_face(world_, pair[1])) return found;
     for (const VertexId a : corners(pair[0])) {
       for (const VertexId b : corners(pair[1])) {
         if (a != b && x_.row(a) == x_.row(b)) found.insert({a, b});
@@ -41,15 +43,11 @@ class Faults {
     return found;
   }
 
-  [[nodiscard]] std::string name_of_part(FaceId face) const { return part(face)->name; }
+  [[nodiscard]] std::string name_of_part(FaceId face) const { return part_of_face(world_, face); }
 
  private:
   [[nodiscard]] std::array<VertexId, 3> corners(FaceId face) const {
     return world_.triangles[static_cast<std::size_t>(face)];
-  }
-  [[nodiscard]] std::vector<io::Group>::const_iterator part(FaceId face) const {
-    return std::ranges::find_if(
-        world_.groups, [face](const io::Group& group) { return face >= group.face_begin && face < group.face_end; });
   }
 
   const sim::World& world_;
