@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t kSceneByteLimit = std::size_t{1} << 24;  // a scene of 16 MB is a mesh in the wrong format
 constexpr std::int64_t kMaxCopies = 10'000;                    // a million vertices of the smallest useful sheet
-constexpr std::int64_t kMaxFrames = 1'000'000;                 // the six digits of frame_000000.npy
 constexpr Range kDegrees{-1e6, 1e6};
 
 constexpr std::int64_t kMaxRepeats = 100'000;  // more steps of a walk than a run has frames for
@@ -252,10 +251,10 @@ TimeSpec read_time(TomlTable table) {
   if (table.has("frames") && table.has("duration_s")) table.fail("give frames or duration_s, and not both");
   if (!table.has("frames") && !table.has("duration_s")) table.fail("nothing says how long; add frames or duration_s");
   if (table.has("frames")) {
-    time.frame_count = table.integer("frames", 1, kMaxFrames - 1);
+    time.frame_count = table.integer("frames", 1, kMostFrames);
   } else {
     const double frames = table.number("duration_s", kPositive) * time.frames_per_s;
-    if (frames > kMaxFrames - 1) table.fail("duration_s", "duration_s is more than 999,999 frames; shorten it");
+    if (frames > kMostFrames) table.fail("duration_s", "duration_s is more than 999,999 frames; shorten it");
     time.frame_count = std::max<std::int64_t>(1, std::llround(frames));
   }
   const double frame_s = 1 / time.frames_per_s;

@@ -1,6 +1,7 @@
 // Scene files: TOML in the schema of docs/scenes.md, checked before anything is built.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 #include "sim/scene/scene.h"
 
 namespace selvage::sim {
+
+/// Of a run: the six digits of frame_000000.npy hold one more, the start.
+inline constexpr std::int64_t kMostFrames = 999'999;
 
 /// Throws io::Error "FILE:LINE: what is wrong; what to do" on syntax errors, unknown keys, wrong types and bad values.
 /// Mesh files are named relative to the scene file; they are read when the world is built.
