@@ -90,7 +90,7 @@ void StageSetup::pin(const std::vector<VertexId>& vertices, const std::vector<si
 Stage::Stage(Trial& trial, StageSetup setup)
     : trial_(trial),
       offset_(trial.offset(setup.length_m)),
-      setup_(moved(std::move(setup), trial.offset(setup.length_m))),
+      setup_(moved(std::move(setup), offset_)),
       mesh_(make_mesh(static_cast<std::int32_t>(setup_.x.rows()), setup_.triangles)),
       springs_(setup_.springs, mesh_.vertex_count),
       collision_step_(mesh_, setup_.collision),

@@ -100,7 +100,7 @@ class Stage {
   void commit(const sim::CollisionStepResult& result);
 
   Trial& trial_;
-  Vec3 offset_;
+  Vec3 offset_;  // before setup_, which is moved by it
   StageSetup setup_;
   Mesh mesh_;
   sim::SpringSystem springs_;
