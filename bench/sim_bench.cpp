@@ -34,9 +34,10 @@ void set_ratios(std::vector<AccuracyRow>& rows) {
 }
 
 void study_time_steps(const SimBenchOptions& options, SimBenchReport& report) {
-  const SimRun reference = run_simulation(swing_scene("explicit", kBaselineNodes, 4 * kFinestSubsteps));
-  for (const std::string& solver : options.solvers) {
-    for (int substeps = solver == "explicit" ? kFirstExplicitSubsteps : 1; substeps <= kFinestSubsteps; substeps *= 2) {
+  const SimRun reference = run_simulation(swing_scene(sim::Solver::kExplicit, kBaselineNodes, 4 * kFinestSubsteps));
+  for (const sim::Solver solver : options.solvers) {
+    for (int substeps = solver == sim::Solver::kExplicit ? kFirstExplicitSubsteps : 1; substeps <= kFinestSubsteps;
+         substeps *= 2) {
       AccuracyRow row{solver,   kBaselineNodes,
                       substeps, 0,
                       0,        fastest(swing_scene(solver, kBaselineNodes, substeps), options.repeat)};
@@ -51,8 +52,8 @@ void study_time_steps(const SimBenchOptions& options, SimBenchReport& report) {
 void study_meshes(const SimBenchOptions& options, SimBenchReport& report) {
   const auto substeps_of = [](int nodes) { return kBaselineSubsteps * (nodes - 1) / (kBaselineNodes - 1); };
   const int fine_nodes = 4 * (options.finest_mesh - 1) + 1;
-  const SimRun reference = run_simulation(swing_scene("explicit", fine_nodes, substeps_of(fine_nodes)));
-  for (const std::string& solver : options.solvers) {
+  const SimRun reference = run_simulation(swing_scene(sim::Solver::kExplicit, fine_nodes, substeps_of(fine_nodes)));
+  for (const sim::Solver solver : options.solvers) {
     for (int nodes = 9; nodes <= options.finest_mesh; nodes = 2 * nodes - 1) {
       AccuracyRow row{solver, nodes, substeps_of(nodes),
                       0,      0,     fastest(swing_scene(solver, nodes, substeps_of(nodes)), options.repeat)};
@@ -64,7 +65,7 @@ void study_meshes(const SimBenchOptions& options, SimBenchReport& report) {
 }
 
 void study_growth(const SimBenchOptions& options, SimBenchReport& report) {
-  for (const std::string& solver : options.solvers) {
+  for (const sim::Solver solver : options.solvers) {
     for (const int nodes : options.growth_nodes) {
       const sim::Scene scene = drape_scene(solver, nodes);
       for (const int threads : options.thread_counts) {
@@ -105,7 +106,7 @@ SimBenchReport run_sim_bench(const SimBenchOptions& options) {
   with_threads(1, [&] {
     study_time_steps(options, report);
     study_meshes(options, report);
-    for (const std::string& solver : options.solvers) {
+    for (const sim::Solver solver : options.solvers) {
       report.conservation.push_back({solver, "meeting", fastest(meeting_scene(solver), options.repeat)});
       report.conservation.push_back({solver, "stretch", fastest(stretch_scene(solver), options.repeat)});
     }

@@ -9,7 +9,8 @@
 namespace selvage::bench {
 
 struct SimBenchOptions {
-  std::vector<std::string> solvers{"explicit"};  ///< the first is the baseline; the reference is always explicit
+  /// The first is the baseline; the reference is always explicit.
+  std::vector<sim::Solver> solvers{sim::Solver::kExplicit};
   std::vector<int> growth_nodes{30, 60, 120, 240, 400};
   std::vector<int> thread_counts{1, 2};
   int growth_steps = 3;   ///< collision steps of each size
@@ -22,7 +23,7 @@ struct SimBenchOptions {
 /// cells along a side of the finest): root mean square over the vertices that both have, as a share of the sheet's
 /// side.
 struct AccuracyRow {
-  std::string solver;
+  sim::Solver solver = sim::Solver::kExplicit;
   int nodes = 0, substeps = 0;  ///< of the dynamics in a frame of 1/30 s
   double distance = 0;
   double ratio = 0;  ///< processor time a frame, to the first solver's at `kBaselineSubsteps` on the same mesh study
@@ -31,12 +32,13 @@ struct AccuracyRow {
 inline constexpr int kBaselineNodes = 17, kBaselineSubsteps = 64;
 
 struct ConservationRow {
-  std::string solver, scene;  ///< meeting: momentum, energy; stretch: strain beyond the limit of 10 %
+  sim::Solver solver = sim::Solver::kExplicit;
+  std::string scene;  ///< meeting: momentum, energy; stretch: strain beyond the limit of 10 %
   SimRun run;
 };
 
 struct GrowthRow {
-  std::string solver;
+  sim::Solver solver = sim::Solver::kExplicit;
   int nodes = 0, thread_count = 1;
   SimRun run;
 };

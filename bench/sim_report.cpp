@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/sim_bench.h"
+#include "bench/sim_scenes.h"
 
 namespace selvage::bench {
 namespace {
@@ -34,7 +35,7 @@ Json with_run(Json row, const SimRun& run) {
 Json json_of(const std::vector<AccuracyRow>& rows) {
   Json list = Json::array();
   for (const AccuracyRow& row : rows) {
-    list.push_back(with_run({{"solver", row.solver},
+    list.push_back(with_run({{"solver", solver_name(row.solver)},
                              {"nodes", row.nodes},
                              {"substeps", row.substeps},
                              {"distance", row.distance},
@@ -49,10 +50,11 @@ Json json_of(const std::vector<AccuracyRow>& rows) {
 std::string to_json(const SimBenchReport& report) {
   Json conservation = Json::array(), growth = Json::array(), modules = Json::array();
   for (const ConservationRow& row : report.conservation) {
-    conservation.push_back(with_run({{"solver", row.solver}, {"scene", row.scene}}, row.run));
+    conservation.push_back(with_run({{"solver", solver_name(row.solver)}, {"scene", row.scene}}, row.run));
   }
   for (const GrowthRow& row : report.growth) {
-    growth.push_back(with_run({{"solver", row.solver}, {"nodes", row.nodes}, {"threads", row.thread_count}}, row.run));
+    growth.push_back(
+        with_run({{"solver", solver_name(row.solver)}, {"nodes", row.nodes}, {"threads", row.thread_count}}, row.run));
   }
   for (const ModuleRow& row : report.modules) {
     modules.push_back(with_run({{"added", row.added}, {"ratio", row.ratio}}, row.run));

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kFramesPerSecond = 30;
 
-sim::Scene parse(const SolverName& solver, const std::string& rest) {
-  return sim::parse_scene(fmt::format("solver = \"{}\"\n{}", solver, rest), "bench sim");
+sim::Scene parse(sim::Solver solver, const std::string& rest) {
+  return sim::parse_scene(fmt::format("solver = \"{}\"\n{}", solver_name(solver), rest), "bench sim");
 }
 
 /// The two tables that all sheets share; keys of a table may follow.
@@ -36,15 +36,18 @@ std::string falling() {
 
 }  // namespace
 
-sim::Scene swing_scene(const SolverName& solver, int nodes, int substeps) {
+const char* solver_name(sim::Solver solver) { return solver == sim::Solver::kExplicit ? "explicit" : "implicit"; }
+
+sim::Scene swing_scene(sim::Solver solver, int nodes, int substeps) {
   const double step_s = 1 / kFramesPerSecond / substeps;
-  return parse(solver,
-               std::string(kGravity) + "strain_limit = 0\n" + (solver == "explicit" ? "strain_rate_limit = 0\n" : "") +
-                   time_table(8, fmt::format("dynamics_step_s = {}\n", step_s)) + "[collision]\nrepulsion = false\n" +
-                   sheet(nodes, 0.5, 60) + "[[cloth.pin]]\nedge = \"top\"\n");
+  return parse(solver, std::string(kGravity) + "strain_limit = 0\n" +
+                           (solver == sim::Solver::kExplicit ? "strain_rate_limit = 0\n" : "") +
+                           time_table(8, fmt::format("dynamics_step_s = {}\n", step_s)) +
+                           "[collision]\nrepulsion = false\n" + sheet(nodes, 0.5, 60) +
+                           "[[cloth.pin]]\nedge = \"top\"\n");
 }
 
-sim::Scene meeting_scene(const SolverName& solver) {
+sim::Scene meeting_scene(sim::Solver solver) {
   const auto one = [](const char* name, double z, double velocity, double turn_deg) {
     return sheet(17, 0.5, 60) + fmt::format(
                                     "name = \"{}\"\nposition_m = [0.03, 0.02, {}]\nvelocity_m_s = [0.3, 0, {}]\n"
@@ -56,12 +59,12 @@ sim::Scene meeting_scene(const SolverName& solver) {
                            one("lower", -0.01, 1, 0));
 }
 
-sim::Scene stretch_scene(const SolverName& solver) {
+sim::Scene stretch_scene(sim::Solver solver) {
   return parse(solver, std::string(kGravity) + time_table(20, "") + sheet(17, 0.5, 4) +
                            "damping_ratio = 0.1\n[[cloth.pin]]\nedge = \"top\"\n[[cloth.pin]]\nedge = \"bottom\"\n");
 }
 
-sim::Scene drape_scene(const SolverName& solver, int nodes) {
+sim::Scene drape_scene(sim::Solver solver, int nodes) {
   return parse(solver, std::string(kGravity) + "drag_1_s = 0.3\n" + time_table(3, "max_step_s = 0.0167\n") +
                            "[collision]\nthickness_m = 0.002\nfriction_static = 0.4\n" + sheet(nodes, kDrapeSide, 60) +
                            "bend_n_m = 0.6\ndamping_ratio = 0.1\n" + falling() + kBall);
@@ -76,7 +79,7 @@ std::vector<ModuleScene> module_scenes(int nodes) {
   const auto add = [&](const char* name) {
     const std::string text = kGravity + parts.top + time_table(12, parts.time) + "[collision]\nthickness_m = 0.002\n" +
                              parts.collision + sheet(nodes, kDrapeSide, 60) + falling() + parts.cloth + parts.bodies;
-    scenes.push_back({name, parse("explicit", text), 0});
+    scenes.push_back({name, parse(sim::Solver::kExplicit, text), 0});
   };
   add("springs alone");
   add("nothing: the same again");

@@ -8,23 +8,23 @@
 
 namespace selvage::bench {
 
-/// "explicit" or "implicit", as scene files name them.
-using SolverName = std::string;
+/// As scene files name it.
+[[nodiscard]] const char* solver_name(sim::Solver solver);
 
 /// A square sheet, held along one edge, swings down from level for 8 frames. No damping, no drag, no limits on strain,
 /// no repulsions, no contact: energy is constant, and positions have a limit as the step goes to zero. `substeps` of
 /// the dynamics in a frame.
-[[nodiscard]] sim::Scene swing_scene(const SolverName& solver, int nodes, int substeps);
+[[nodiscard]] sim::Scene swing_scene(sim::Solver solver, int nodes, int substeps);
 
 /// Two sheets meet in weightless space with friction and touch for most of 15 frames: momentum is constant, and energy
 /// may only fall.
-[[nodiscard]] sim::Scene meeting_scene(const SolverName& solver);
+[[nodiscard]] sim::Scene meeting_scene(sim::Solver solver);
 
 /// A sheet of soft springs falls into its two held edges and stretches beyond the strain limit if nothing stops it.
-[[nodiscard]] sim::Scene stretch_scene(const SolverName& solver);
+[[nodiscard]] sim::Scene stretch_scene(sim::Solver solver);
 
 /// A sheet of nodes x nodes that has just met a ball, for growth: every phase has work to do from the first step on.
-[[nodiscard]] sim::Scene drape_scene(const SolverName& solver, int nodes);
+[[nodiscard]] sim::Scene drape_scene(sim::Solver solver, int nodes);
 
 /// The sheet of drape_scene with one module more each time: the first has springs alone.
 struct ModuleScene {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "bench/sim_bench.h"
+#include "bench/sim_scenes.h"
+#include "cli/arguments/choice.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "io/atomic_file.h"
@@ -25,8 +27,9 @@ std::string table(const char* title, const std::vector<bench::AccuracyRow>& rows
   std::string text = fmt::format("{}\n  {:<10} {:>6} {:>9} {:>10} {:>13} {:>10} {:>8}\n", title, "solver", "nodes",
                                  "substeps", "distance", "energy drift", "ms/frame", "ratio");
   for (const bench::AccuracyRow& row : rows) {
-    text += fmt::format("  {:<10} {:>6} {:>9} {:>10.2e} {:>13.2e} {:>10.2f} {:>8.2f}\n", row.solver, row.nodes,
-                        row.substeps, row.distance, row.run.energy_drift, ms_a(row.run, row.run.frames), row.ratio);
+    text += fmt::format("  {:<10} {:>6} {:>9} {:>10.2e} {:>13.2e} {:>10.2f} {:>8.2f}\n", bench::solver_name(row.solver),
+                        row.nodes, row.substeps, row.distance, row.run.energy_drift, ms_a(row.run, row.run.frames),
+                        row.ratio);
   }
   return text;
 }
@@ -37,9 +40,10 @@ std::string tables(const bench::SimBenchReport& report) {
   text += fmt::format("conservation\n  {:<10} {:<8} {:>9} {:>9} {:>12} {:>9} {:>9} {:>10}\n", "solver", "scene",
                       "contacts", "momentum", "angular m.", "energy+", "strain", "ms/frame");
   for (const bench::ConservationRow& row : report.conservation) {
-    text += fmt::format("  {:<10} {:<8} {:>9} {:>9.1e} {:>12.1e} {:>9.1e} {:>9.4f} {:>10.2f}\n", row.solver, row.scene,
-                        row.run.contacts, row.run.momentum_drift, row.run.angular_momentum_drift, row.run.energy_gain,
-                        row.run.strain, ms_a(row.run, row.run.frames));
+    text +=
+        fmt::format("  {:<10} {:<8} {:>9} {:>9.1e} {:>12.1e} {:>9.1e} {:>9.4f} {:>10.2f}\n",
+                    bench::solver_name(row.solver), row.scene, row.run.contacts, row.run.momentum_drift,
+                    row.run.angular_momentum_drift, row.run.energy_gain, row.run.strain, ms_a(row.run, row.run.frames));
   }
   text +=
       fmt::format("modules, one added after another\n  {:<32} {:>10} {:>8} {:>7}\n", "", "ms/frame", "ratio", "steps");
@@ -51,8 +55,8 @@ std::string tables(const bench::SimBenchReport& report) {
                       "cpu ms/step", "wall ms/step", "dynamics", "collision", "velocity");
   for (const bench::GrowthRow& row : report.growth) {
     const double wall_s = row.run.wall_ns * 1e-9;
-    text += fmt::format("  {:<10} {:>6} {:>8} {:>12.1f} {:>13.1f} {:>8.0f}% {:>9.0f}% {:>8.0f}%\n", row.solver,
-                        row.nodes, row.thread_count, ms_a(row.run, row.run.steps),
+    text += fmt::format("  {:<10} {:>6} {:>8} {:>12.1f} {:>13.1f} {:>8.0f}% {:>9.0f}% {:>8.0f}%\n",
+                        bench::solver_name(row.solver), row.nodes, row.thread_count, ms_a(row.run, row.run.steps),
                         row.run.wall_ns * 1e-6 / static_cast<double>(row.run.steps),
                         100 * row.run.phases.dynamics.wall_s / wall_s, 100 * row.run.phases.collision.wall_s / wall_s,
                         100 * row.run.phases.velocity.wall_s / wall_s);
@@ -79,9 +83,10 @@ void add_bench_sim_command(CLI::App& bench, Job& job) {
       "selvage bench sim --growth 30,60,120 --json out.json");
   const auto arguments = std::make_shared<SimBenchArguments>();
   bench::SimBenchOptions& options = arguments->options;
-  sim.add_option("--solvers", options.solvers, "As scene files name them; the first is the baseline")
-      ->delimiter(',')
-      ->capture_default_str();
+  add_choices(sim, "--solvers", options.solvers,
+              {{bench::solver_name(sim::Solver::kExplicit), sim::Solver::kExplicit},
+               {bench::solver_name(sim::Solver::kImplicit), sim::Solver::kImplicit}},
+              "explicit (default), implicit, or a list of them; the first is the baseline");
   sim.add_option("--growth", options.growth_nodes, "Nodes along a side of the sheets that grow")
       ->delimiter(',')
       ->check(CLI::Range(2, 2000))

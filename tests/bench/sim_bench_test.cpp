@@ -9,8 +9,8 @@ namespace selvage::bench {
 namespace {
 
 TEST(SimRun, ASwingWithoutDampingKeepsItsEnergyAndFinerStepsKeepItBetter) {
-  const SimRun coarse = run_simulation(swing_scene("explicit", 9, 32)),
-               fine = run_simulation(swing_scene("explicit", 9, 64));
+  const SimRun coarse = run_simulation(swing_scene(sim::Solver::kExplicit, 9, 32)),
+               fine = run_simulation(swing_scene(sim::Solver::kExplicit, 9, 64));
   EXPECT_EQ(coarse.frames, 8);
   EXPECT_EQ(coarse.contacts, 0);
   EXPECT_GT(coarse.energy_drift, 0);
@@ -21,7 +21,7 @@ TEST(SimRun, ASwingWithoutDampingKeepsItsEnergyAndFinerStepsKeepItBetter) {
 // Undamped sheets in contact, the collision step four internal steps long: where the average velocity of a step took
 // the place of the cloth's own, this gained 1.68 of the kinetic energy, and angular momentum drifted by 5e-4.
 TEST(SimRun, ContactPutsNoEnergyIn) {
-  sim::Scene scene = meeting_scene("explicit");
+  sim::Scene scene = meeting_scene(sim::Solver::kExplicit);
   scene.time.max_step_s = 0.0042;
   const SimRun run = run_simulation(scene);
   EXPECT_GT(run.contacts, 1000);
@@ -31,7 +31,7 @@ TEST(SimRun, ContactPutsNoEnergyIn) {
 }
 
 TEST(SimRun, StopsAfterAsManyStepsAsAsked) {
-  EXPECT_EQ(run_simulation(drape_scene("explicit", 12), {.most_steps = 2}).steps, 2);
+  EXPECT_EQ(run_simulation(drape_scene(sim::Solver::kExplicit, 12), {.most_steps = 2}).steps, 2);
 }
 
 // Four times the faces of the sheet alone are 2 (n - 1) + 1 vertices along each side.
@@ -53,9 +53,10 @@ TEST(SimBench, SheetDistanceIsBetweenTheSamePlaces) {
 
 TEST(SimBench, JsonCarriesItsSchema) {
   SimBenchReport report;
-  report.growth.push_back({"explicit", 10, 1, {}});
+  report.growth.push_back({sim::Solver::kImplicit, 10, 1, {}});
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json.at("schema"), "selvage.bench.sim/1");
+  EXPECT_EQ(json.at("growth").at(0).at("solver"), "implicit");
   EXPECT_EQ(json.at("growth").at(0).at("nodes"), 10);
 }
 

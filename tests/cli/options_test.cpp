@@ -65,6 +65,15 @@ TEST(Options, TheRangeIsSaidInShort) {
   });
 }
 
+TEST(Options, AWordIsOneOfAFew) {
+  expect_usage_errors({
+      {{"bench", "sim", "--solvers", "soup"}, "--solvers", "'soup' is not explicit|implicit"},
+      {{"bench", "sim", "--solvers", "explicit,soup"}, "--solvers", "'soup' is not explicit|implicit"},
+      {{"bench", "sim", "--solvers", "0"}, "--solvers", "'0' is not explicit|implicit"},
+      {{"sim", "none.toml", "-o", "none", "--quality", "soup"}, "--quality", "'soup' is not draft|full"},
+  });
+}
+
 // campaign.json could not be read back, and beyond 2^63 the numbers of cases and shards would overflow.
 TEST(Options, ACampaignIsNoLargerThanItsCounts) {
   for (const std::string cases : {"1000000000000001", "9007199254740993", "9223372036854775807"}) {
