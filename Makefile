@@ -85,7 +85,7 @@ afl: setup  ## the same with AFL++
 
 mutants: build  ## plant a hundred defects, one at a time: a property must find each of them (docs/mutants.md)
 	cmake --build --preset release --target selvage_mutants
-	build/release/tests/mutants/selvage_mutants tests/mutants/lists --classes 400 \
+	build/release/tests/mutants/selvage_mutants tests/mutants/lists --classes 1000 \
 	  --json build/mutants.json --markdown build/mutants.md
 
 names: setup  ## compile each folder as one unit: names that two of its sources keep to themselves clash
