@@ -38,6 +38,17 @@ bool had_room(const CollisionStepReport& report) {
   return report.waiting_bodies.empty() && report.zone_rounds + report.fail_safe_rounds == 0;
 }
 
+/// #V: 1 where the collision step has changed the motion of the vertex' part. The dynamics' own velocity holds for the
+/// others, whatever it did elsewhere.
+std::vector<std::uint8_t> changed_parts(const SurfaceParts& parts, const Positions& x_t0, const Positions& candidate,
+                                        const CollisionStepResult& safe, double dt_s) {
+  std::vector<std::uint8_t> is_changed(static_cast<std::size_t>(x_t0.rows()));
+  for (Eigen::Index i = 0; i < x_t0.rows(); ++i) {
+    is_changed[static_cast<std::size_t>(i)] = safe.velocity.row(i) != (candidate.row(i) - x_t0.row(i)) / dt_s;
+  }
+  return parts.spread(is_changed);
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
@@ -203,22 +214,17 @@ bool Simulation::energizes(const Try& tried) const {
          allowance_.energizes(tried.end, tried.safe.x, script_.inverse_mass(), clock_.dt_s());
 }
 
-// The dynamics' own velocity holds for cloth that the collision step has not changed, whatever it did elsewhere.
 void Simulation::commit(Try& tried) {
   const Eigen::Index cloth = world_.cloth_vertex_count;
   const CollisionStepResult& safe = tried.safe;
   const double dt_s = clock_.dt_s();
-  std::vector<std::uint8_t> is_changed(static_cast<std::size_t>(x_.rows()));
-  for (Eigen::Index i = 0; i < x_.rows(); ++i) {
-    is_changed[static_cast<std::size_t>(i)] = safe.velocity.row(i) != (tried.candidate.row(i) - x_.row(i)) / dt_s;
-  }
+  const std::vector<std::uint8_t> is_changed = changed_parts(parts_, x_, tried.candidate, safe, dt_s);
   v_ = (safe.x - x_) / dt_s;
   x_ = safe.x;
   v_.topRows(cloth) = tried.end.v;
   if (safe.report.touched()) {
     Motion end = {x_.topRows(cloth), safe.velocity.topRows(cloth)};
     dynamics_->final_velocity(end, script_.inverse_mass(), dt_s);
-    is_changed = parts_.spread(is_changed);
     for (Eigen::Index i = 0; i < cloth; ++i) {
       if (is_changed[static_cast<std::size_t>(i)] != 0) v_.row(i) = end.v.row(i);
     }

@@ -59,7 +59,7 @@ class CentralDifferences : public Dynamics {
   }
   [[nodiscard]] int step_count_in_contact(double dt_s, const PositionsRef& x) const;
   /// Leaves the impulses of B at the new velocity in impulses_.
-  void implicit_half_kick(double h);
+  void implicit_half_kick(double h, double residual);
   void march(const VelocitySystem& system, double time_s);
   /// To which the velocity is found, for the shares that the springs have.
   [[nodiscard]] double velocity_residual() const;
@@ -72,7 +72,6 @@ class CentralDifferences : public Dynamics {
   LaneVectors force_;     ///< elastic, at x_
   LaneVectors impulses_;  ///< of damping over half a step, at the last velocity
   LaneVectors rhs_, x_t1_;
-  double velocity_residual_ = kVelocityResidual;
   double internal_step_s_ = 0;  ///< of the last advance(); 0: there was none
   LaneVectors last_midstep_v_;  ///< of its last internal step
   Positions average_v_;         ///< over all of it

@@ -25,10 +25,9 @@ struct RowDrag {
 };
 
 /// Advances v by M steps u(m+1) = u(m) + k (a(u(m+1)) - drag(u(m+1)) u(m+1)), M k = time_s, each solved by fixed-point
-/// iteration from u(m), in which 1 + k drag(u) is divided by: none is too strong for it, since |k dr u / (1 + k dr u)|
-/// <
-/// 1. `rate_upper_1_s` bounds |lambda_max| of all of this on the way; M = ceil(time_s rate_upper_1_s /
-/// kMarchContraction), at least 1. First order in time_s / M.
+/// iteration from u(m). That divides by 1 + k drag(u), so no drag is too strong for it: of drag alone it contracts by
+/// k |d drag/du u| / (1 + k drag) < 1. `rate_upper_1_s` bounds |lambda_max| of all of this on the way; M is
+/// time_s rate_upper_1_s / kMarchContraction, rounded up, and at least 1. First order in time_s / M.
 void march_velocity(const AccelerationOfVelocity& acceleration, const RowDrag& drag, double rate_upper_1_s,
                     double time_s, Positions& v);
 
