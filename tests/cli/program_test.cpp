@@ -186,26 +186,28 @@ TEST(Program, AReportThatWasCutIsNamedInOneLine) {
   }
 }
 
-// Each of these would else compute, and print, or come upon what it cannot read.
+// Each of these would else compute a little, and print, or come upon what it cannot read.
 TEST(Program, ReportsThatCannotBeWrittenAreFoundBeforeTheWork) {
   const TemporaryFolder folder;
-  const auto none = folder.path() / "no" / "x.png", junk = folder.path() / "junk.obj", part = folder.path() / "part.json";
+  const auto none = folder.path() / "no" / "x.png", junk = folder.path() / "junk.obj",
+             part = folder.path() / "part.json";
   spit(junk, "v 0 0 zero\n");
   spit(part, "{}");
-  for (const std::vector<std::string>& command :
-       std::vector<std::vector<std::string>>{{"bench", "queries", junk, "--kind", "vf", "--json"},
-                                             {"bench", "ccd", "--json"},
-                                             {"bench", "broad", "--json"},
-                                             {"bench", "methods", "--json"},
-                                             {"bench", "sim", "--json"},
-                                             {"bench", "verify", "--json"},
-                                             {"bench", "stability", "--json"},
-                                             {"doctor", "--json"},
-                                             {"merge", part, "-o"},
-                                             {"merge", part, "-o", folder.path() / "all.json", "--html"},
-                                             {"render", junk, "-o"},
-                                             {"replay", junk, "--json"},
-                                             {"view", junk, "-o"}}) {
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"bench", "queries", junk, "--kind", "vf", "--json"},
+           {"bench", "ccd", "--sheet", "2", "--repeat", "1", "--json"},
+           {"bench", "broad", "--largest", "1000", "--sample", "10", "--repeat", "1", "--json"},
+           {"bench", "methods", "--sheet", "4", "--most", "10", "--hard", "1", "--repeat", "1", "--json"},
+           {"bench", "sim", "--growth", "4", "--steps", "1", "--finest-mesh", "17", "--module-nodes", "8", "--repeat",
+            "1", "--json"},
+           {"bench", "verify", "--faces", "100", "--layers", "2", "--repeat", "1", "--json"},
+           {"bench", "stability", "--quick", "--case", "knot", "--json"},
+           {"doctor", "--json"},
+           {"merge", part, "-o"},
+           {"merge", part, "-o", folder.path() / "all.json", "--html"},
+           {"render", junk, "-o"},
+           {"replay", junk, "--json"},
+           {"view", junk, "-o"}}) {
     std::vector<std::string> arguments = command;
     arguments.push_back(none);
     const auto result = run_program(folder, arguments);

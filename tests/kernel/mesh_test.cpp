@@ -63,9 +63,9 @@ TEST(Requirements, AreAskedBeforeAnythingIsProved) {
 }
 
 TEST(InputErrorText, EveryErrorSaysWhatToDo) {
-  for (int i = 0; i <= static_cast<int>(InputError::kBadSurfaces); ++i) {
-    EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error");
-  }
+  constexpr int kLast = static_cast<int>(InputError::kBadContact);
+  for (int i = 0; i <= kLast; ++i) EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error") << i;
+  EXPECT_STREQ(describe(static_cast<InputError>(kLast + 1)), "unknown error") << "an error after the last";
   EXPECT_STREQ(describe(static_cast<InputError>(255)), "unknown error");
 }
 
