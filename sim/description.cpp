@@ -49,6 +49,9 @@ std::string describe(const Scene& scene, const World& world) {
   if (count(SpringKind::kShear) > 0) line("", fmt::format("{} shear", count(SpringKind::kShear)));
   if (count(SpringKind::kBending) > 0) line("", fmt::format("{} bending", count(SpringKind::kBending)));
   if (!world.stabilizers.empty()) line("", fmt::format("{} stabilising", world.stabilizers.stabilizers().size()));
+  for (const ClothSpec& cloth : scene.cloths) {
+    if (cloth.damping_ratio > 0) line("damping", fmt::format("{}: {:g} of critical", cloth.name, cloth.damping_ratio));
+  }
   if (scene.strain.strain > 0) line("limits", fmt::format("strain {:g}", scene.strain.strain));
   if (scene.strain.strain_rate > 0) line("limits", fmt::format("strain rate {:g} a step", scene.strain.strain_rate));
   if (scene.gravity_m_s2 != Vec3::Zero()) {
@@ -66,6 +69,7 @@ std::string describe(const Scene& scene, const World& world) {
       line("pin", fmt::format("{}, {} vertices{}", pin.name(), pin.vertices().size(), carrier));
     }
   }
+  if (scene.squeeze == SqueezePolicy::kYield) line("squeezed", "bodies wait for the cloth");
   const char* what = "contact";
   for (const std::string& part : describe(contact_of(scene.collision), scene.collision.repulsion)) {
     line(what, part);

@@ -31,8 +31,11 @@ TEST(World, PartsAreInOrderAndPinsAreColliders) {
 TEST(World, DescriptionNamesOnlyWhatIsModelled) {
   Scene full = parse_scene(small_scene_text(1), "small.toml");
   full.contact_sweeps = 4;
+  full.cloths[0].damping_ratio = 0.25;
+  full.squeeze = SqueezePolicy::kYield;
   const std::string all = describe(full, build_world(full));
-  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "ball", "4 sweeps"}) {
+  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "ball", "4 sweeps",
+                           "sheet: 0.25 of critical", "bodies wait"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part;
   }
   const Scene bare = parse_scene(R"(
@@ -47,7 +50,8 @@ stretch_n_m = 40
 )",
                                  "bare.toml");
   const std::string least = describe(bare, build_world(bare));
-  for (const char* part : {"gravity", "friction", "bending", "shear", "strain", "body", "pin", "drag", "sweeps"}) {
+  for (const char* part :
+       {"gravity", "friction", "bending", "shear", "strain", "body", "pin", "drag", "sweeps", "critical", "wait"}) {
     EXPECT_EQ(least.find(part), std::string::npos) << part;
   }
 }
