@@ -6,17 +6,19 @@
 
 #include "io/atomic_file.h"
 #include "io/fail.h"
+#include "io/json_values.h"
 
 namespace selvage::bench {
 namespace {
 
 template <typename List>
 List read_list(const std::filesystem::path& file, const char* what) {
+  const std::string text = io::read_file(file);
   try {
-    return nlohmann::json::parse(io::read_file(file)).get<List>();
-  } catch (const nlohmann::json::exception&) {
-    io::bad_input(file.string(), std::string("not a JSON list of ") + what + "; correct it");
+    if (io::find_zero_byte(text) == text.npos) return nlohmann::json::parse(text).get<List>();
+  } catch (const nlohmann::json::exception&) {  // said below
   }
+  io::bad_input(file.string(), std::string("not a JSON list of ") + what + "; correct it");
 }
 
 LabelledPair pair_of(std::int64_t id, std::int64_t other, const Mesh& mesh, const std::string& name) {

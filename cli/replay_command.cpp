@@ -56,7 +56,9 @@ ExitCode run(const ReplayArguments& arguments) {
       continue;
     }
     const std::vector<std::filesystem::path> found = fuzz::case_files(named);
-    if (found.empty()) throw io::Error(io::ErrorKind::kBadInput, named.string() + ": holds no case (*.case)");
+    if (found.empty())
+      throw io::Error(io::ErrorKind::kBadInput,
+                      named.string() + ": holds no case (*.case); name one, or a folder of cases");
     files.insert(files.end(), found.begin(), found.end());
   }
   std::vector<std::filesystem::path> inputs = files;

@@ -13,6 +13,11 @@ namespace {
 
 using AnyJson = nlohmann::json;
 
+std::size_t lines_before(std::string_view text, std::size_t position) {
+  const std::string_view before = text.substr(0, position);
+  return static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
 /// What the parser calls for every value. Nothing opens that has no place, so `open_` is no deeper than the places.
 class Handler final : public nlohmann::json_sax<AnyJson> {
  public:
@@ -55,9 +60,7 @@ class Handler final : public nlohmann::json_sax<AnyJson> {
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
     if (dynamic_cast<const AnyJson::out_of_range*>(&error) != nullptr)
       reading_.fail("a number is outside the range of double; correct it");
-    const std::string_view before = text_.substr(0, position);
-    reading_.fail_at(static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')),
-                     "not valid JSON; correct it");
+    reading_.fail_at(lines_before(text_, position), "not valid JSON; correct it");
     return false;
   }
 
@@ -117,6 +120,9 @@ class Handler final : public nlohmann::json_sax<AnyJson> {
 std::string_view last_key(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 JsonValues read_json(std::string_view text, const JsonReading& reading) {
+  if (const std::size_t at = find_zero_byte(text); at != text.npos) {
+    reading.fail_at(lines_before(text, at), "a zero byte, as damage leaves it; restore the file");
+  }
   Handler handler(text, reading);
   AnyJson::sax_parse(text, &handler);
   return handler.take();

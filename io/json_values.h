@@ -38,6 +38,11 @@ struct JsonReading {
 /// values and for what the parser needs for the longest text between quotes.
 [[nodiscard]] JsonValues read_json(std::string_view text, const JsonReading& reading);
 
+/// Where JSON that nlohmann-json is to read has a zero byte, which no JSON holds; npos: nowhere. It takes one for the
+/// end of the text, without a word of what stands behind: a frame whose line break had become zero was not in the
+/// sequence.
+[[nodiscard]] inline std::size_t find_zero_byte(std::string_view json) { return json.find('\0'); }
+
 /// The last key on a path, for messages.
 [[nodiscard]] std::string_view last_key(std::string_view path);
 

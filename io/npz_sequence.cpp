@@ -92,7 +92,7 @@ class NpzSequence final : public SequenceReader {
       bad_input(name, "in Fortran order, where a frame is scattered over the file; save numpy.ascontiguousarray(V)");
     }
     const std::uint64_t rows = shape[shape.size() - 2];
-    if (rows == 0 || rows > kMostElements) bad_input(name, "no vertices, or more than 2^31; correct the shape");
+    if (rows == 0 || rows > kMostElements) bad_input(name, "no vertices, or more than 2^31 - 1; correct the shape");
     vertex_count_ = rows;
     frame_count_ = is_one_frame ? 1 : shape[0];
   }

@@ -120,7 +120,7 @@ class ObjParser {
       lines_.fail("a vertex has " + std::to_string(count) + " numbers" + weight + "; give three");
     }
     if (has_no_end_ && ends_in_number_) lines_.fail(kMayBeCut);
-    if (mesh_.points.size() == kMostElements) lines_.fail("more than 2^31 vertices; split the mesh");
+    if (mesh_.points.size() == kMostElements) lines_.fail("more than 2^31 - 1 vertices; split the mesh");
     mesh_.points.push_back({numbers[0], numbers[1], numbers[2]});
   }
 

@@ -21,7 +21,7 @@ class Pc2Output final : public SequenceOutput {
     constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
     const auto& [sequence, vertex_count, frame_count] = header();
     if (frame_count > kMost || vertex_count > kMost) {
-      bad_input(target().string(), "more than 2^31 frames or vertices; split the sequence");
+      bad_input(target().string(), "more than 2^31 - 1 frames or vertices; split the sequence");
     }
     written_.claim(target());
     require_absent(base_);

@@ -58,7 +58,7 @@ PlyElement parse_element(const LineReader& lines, std::string_view rest) {
   if (element.name.empty() || !count || *count < 0 || !next_token(rest).empty()) {
     lines.fail("an element needs a name and a count, at most 2^31; correct the header");
   }
-  if (*count > static_cast<std::int64_t>(kMostElements)) lines.fail("more than 2^31 elements; split the mesh");
+  if (*count > static_cast<std::int64_t>(kMostElements)) lines.fail("more than 2^31 - 1 elements; split the mesh");
   element.count = static_cast<std::uint64_t>(*count);
   return element;
 }

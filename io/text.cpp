@@ -34,13 +34,17 @@ NumberFault parse_real(std::string_view token, Real& value) {
 std::optional<std::string_view> LineReader::next() {
   if (rest_.empty()) return std::nullopt;
   ++next_line_;
-  const std::size_t length = rest_.substr(0, kLongestLine + 1).find('\n');
-  if (length == std::string_view::npos && rest_.size() > kLongestLine) {
+  std::string_view line = rest_.substr(0, kLongestLine + 1);
+  const std::size_t length = line.find('\n');
+  line = line.substr(0, length);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  if (line.find('\r') != line.npos) {  // in a comment it would take the statement behind it along
+    fail("a CR without LF, which some programs take for the end of a line; save the file with LF line ends");
+  }
+  if (length == line.npos && rest_.size() > kLongestLine) {
     fail("line longer than " + std::to_string(kLongestLine) + " bytes; is this a text file?");
   }
-  std::string_view line = rest_.substr(0, length);
-  rest_.remove_prefix(length == std::string_view::npos ? rest_.size() : length + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  rest_.remove_prefix(length == line.npos ? rest_.size() : length + 1);
   return line;
 }
 

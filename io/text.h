@@ -20,14 +20,14 @@ inline constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 }
 
 /// Walks through `bytes` line by line; LF and CRLF end a line, the last may have no end. A byte order mark at the start
-/// of the text is no part of it.
+/// of the text is no part of it; a CR anywhere else is refused.
 class LineReader {
  public:
   /// `bytes` must outlive the reader. `name` appears in errors.
   LineReader(std::string_view bytes, std::string_view name, std::size_t first_line = 1)
       : rest_(without_byte_order_mark(bytes)), name_(name), next_line_(first_line) {}
 
-  /// The next line without its end; nothing behind the last. Throws Error above kLongestLine.
+  /// The next line without its end; nothing behind the last. Throws Error above kLongestLine, and at a CR within.
   std::optional<std::string_view> next();
   /// Number of the line that next() gave last.
   [[nodiscard]] std::size_t line() const { return next_line_ - 1; }

@@ -1,4 +1,5 @@
-// What a long check has done so far, on disk: a run that is killed loses a second of work.
+// What a long check has done so far, on disk: a run that is killed loses a second of work, or
+// ten times what it takes to keep what there is.
 #pragma once
 
 #include <chrono>
@@ -19,7 +20,8 @@ class VerifyProgress {
   /// The report to continue from: progress, or a finished report; nothing where there is neither. Throws UsageError
   /// where it was made by another program or with other options.
   [[nodiscard]] std::optional<verify::SequenceReport> load() const;
-  /// Keeps the report; writes it at most once a second.
+  /// Keeps the report, and writes it at most once a second. Where a report is so long that either takes more than a
+  /// tenth of the time since, it waits.
   void note(const verify::SequenceReport& report);
   /// Writes what was noted last. Whether anything was noted in this run, and is on disk: where it cannot be written the
   /// check goes on, and a note on stderr says so once.
@@ -29,11 +31,13 @@ class VerifyProgress {
   void remove() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   std::filesystem::path report_file_, file_;
   const verify::ReportContext& context_;
   std::optional<verify::SequenceReport> unwritten_;
   bool has_noted_ = false, has_failed_ = false;
-  std::chrono::steady_clock::time_point written_;
+  Clock::time_point next_copy_, next_write_;
 };
 
 }  // namespace selvage::cli

@@ -100,7 +100,7 @@ double CaseLines::number(std::string_view word) const {
   const auto format = is_hex ? std::chars_format::hex : std::chars_format::general;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x, format);
   if (error != std::errc() || end != digits.data() + digits.size() || digits.starts_with('-') || !std::isfinite(x)) {
-    fail("'" + std::string(word) + "' is not a finite number");
+    fail("'" + std::string(word) + "' is not a finite number; correct it");
   }
   return negative ? -x : x;
 }

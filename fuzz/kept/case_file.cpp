@@ -28,7 +28,7 @@ std::string format_point(const Vec3& point) { return hex(point.x()) + " " + hex(
 std::string_view option_value(CaseLines& lines, std::string_view key) {
   const std::string_view word = lines.word();
   if (!word.starts_with(key) || word.size() <= key.size() || word[key.size()] != '=') {
-    lines.fail("expected '" + std::string(key) + "=...'");
+    lines.fail("expected '" + std::string(key) + "=...'; copy the case again");
   }
   return word.substr(key.size() + 1);
 }
@@ -37,7 +37,7 @@ std::int32_t parse_count(CaseLines& lines, std::string_view word) {
   std::int32_t count = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
   if (error != std::errc() || end != word.data() + word.size() || count < 1) {
-    lines.fail("'" + std::string(word) + "' is not a positive count");
+    lines.fail("'" + std::string(word) + "' is not a positive count; correct it");
   }
   return count;
 }
@@ -143,7 +143,8 @@ Case parse_case(std::string_view text, const std::string& name) {
       lines.advance();
       word = lines.word();
     }
-    if (word != names.substr(i, 1)) lines.fail("expected '" + std::string(names.substr(i, 1)) + "'");
+    if (word != names.substr(i, 1))
+      lines.fail("expected '" + std::string(names.substr(i, 1)) + "'; copy the case again");
     kept.query.x_t0[i] = parse_point(lines);
     kept.query.x_t1[i] = parse_point(lines);
     lines.expect_end_of_line();

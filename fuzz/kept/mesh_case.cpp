@@ -65,7 +65,8 @@ std::array<std::int32_t, 3> parse_face(const MeshCase& kept, CaseLines& lines) {
   for (std::int32_t& corner : face) {
     corner = static_cast<std::int32_t>(lines.integer(lines.word(), 0, last, "vertex of a face"));
   }
-  if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) lines.fail("a face names a vertex twice");
+  if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0])
+    lines.fail("a face names a vertex twice; correct it");
   lines.expect_end_of_line();
   return face;
 }

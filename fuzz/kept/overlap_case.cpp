@@ -14,7 +14,7 @@ std::int32_t parse_vertex(const CaseLines& lines, std::string_view word) {
   std::int32_t vertex = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), vertex);
   if (error != std::errc() || end != word.data() + word.size() || vertex < 0) {
-    lines.fail("'" + std::string(word) + "' is not the number of a vertex");
+    lines.fail("'" + std::string(word) + "' is not the number of a vertex; correct it");
   }
   return vertex;
 }
@@ -24,8 +24,8 @@ void require_mesh(const CaseLines& lines, const OverlapCase& kept) {
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (kept.faces[i / 3][i % 3] != kept.faces[j / 3][j % 3]) continue;
-      if (i / 3 == j / 3) lines.fail("a face names a vertex twice");
-      if (kept.x[i / 3][i % 3] != kept.x[j / 3][j % 3]) lines.fail("a vertex has two positions");
+      if (i / 3 == j / 3) lines.fail("a face names a vertex twice; correct it");
+      if (kept.x[i / 3][i % 3] != kept.x[j / 3][j % 3]) lines.fail("a vertex has two positions; correct one");
     }
   }
 }

@@ -183,6 +183,10 @@ TEST(Program, AReportThatWasCutIsNamedInOneLine) {
     EXPECT_NE(result.err.find(file.string() + ": "), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("not valid JSON at byte 12; is it whole?\n"), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
+    testing::spit(file, std::string("{\"schema\":0}\0[]", 15));  // nlohmann-json takes a zero for the end
+    const auto damaged = run_program(folder, {"merge", part, "-o", folder.path() / "out"});
+    EXPECT_EQ(damaged.exit_code, 3) << damaged.err;
+    EXPECT_NE(damaged.err.find("a zero byte at byte 13; is it whole?\n"), std::string::npos) << damaged.err;
   }
 }
 

@@ -99,7 +99,7 @@ TEST(Parts, WhatIsNoReportIsRefused) {
         with("selvage.verify/1", "selvage.verify/2"), with("\"violated\"", "\"fine\""),
         with("\"end_frame\": 7", "\"end_frame\": 8"), with("\"first_frame\": 0", "\"first_frame\": -1"),
         with("\"frames\"", "\"frame\""), with("\"frame\": 2", "\"frame\": 7"),
-        with("\"vertices\": [", "\"vertices\": [7,"), with("\"checked\": 7", "\"checked\": 7e300"),
+        with("\"vertices\": [", "\"vertices\": [7,"), good + '\0' + "{}", with("\"checked\": 7", "\"checked\": 7e300"),
         with("\"checked\": 7", "\"checked\": -7"), with("\"features\": [", "\"features\": [4294967296,")}) {
     EXPECT_THROW((void)parse_report(bad, "a"), io::Error) << bad.substr(0, 80);
   }

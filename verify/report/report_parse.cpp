@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/error.h"
+#include "io/json_values.h"
 #include "verify/report/report.h"
 
 namespace selvage::verify {
@@ -241,6 +242,9 @@ ParsedReport parse_report(const std::string& text, const std::string& name) {
   const auto fail = [&name](const std::string& what) -> ParsedReport {
     throw io::Error(io::ErrorKind::kBadInput, name + ": not a report of selvage verify: " + what);
   };
+  if (const std::size_t at = io::find_zero_byte(text); at != text.npos) {
+    return fail("a zero byte at byte " + std::to_string(at + 1) + "; is it whole?");
+  }
   try {
     return parse(Json::parse(text));
   } catch (const Fault& fault) {

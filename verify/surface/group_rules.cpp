@@ -49,7 +49,7 @@ Groups by_name(const GroupRules& rules, std::span<const io::Group> groups, std::
         static_cast<std::size_t>(group.face_end) > face_count) {
       throw GroupRuleError("group \"" + group.name + "\": faces " + std::to_string(group.face_begin) + ":" +
                            std::to_string(group.face_end) + " are no range of the mesh's " +
-                           std::to_string(face_count) + " faces");
+                           std::to_string(face_count) + " faces; give BEGIN:END within them");
     }
     result[group.name].push_back({group.face_begin, group.face_end});
   }
