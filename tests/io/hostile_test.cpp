@@ -204,7 +204,7 @@ std::vector<Hostile> hostile_files() {
       {"csv_decimal", "query_csv", rows(8, "0.5,1,1,1,1,1"), "in:1: '0.5' / '1' is no integer over"},
       {"csv_incomplete", "query_csv", rows(15, "1,1,1,1,1,1"), "in:15: the last query has 7 of its 8 rows"},
       {"csv_truth", "query_csv", rows(8, "1,1,1,1,1,1,yes"), "in:1: the truth is 'yes'"},
-      {"csv_cr_alone", "query_csv", rows(8, "1,1,1,1,1,1\r"), "in:1: a CR without LF"},
+      {"csv_cr_alone", "query_csv", "1,1,1,1,1,1\r1,1,1,1,1,1\r", "in:1: a CR without LF"},
       {"csv_huge_line", "query_csv", longest, "in:1: line longer than"},
       // sequence.json and frames.jsonl
       {"json_empty", "sequence_json", "", "in:1: not valid JSON"},
