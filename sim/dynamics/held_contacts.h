@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -121,7 +122,11 @@ class HeldContacts {
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const ContactLoads& loads);
   [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
-  [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact, const ContactLoads& loads) const;
+  using LoadPlace = std::size_t;  ///< in the list of vf, and behind it in that of ee
+  static constexpr LoadPlace kNoLoad = std::numeric_limits<LoadPlace>::max();
+  [[nodiscard]] LoadPlace own_load(const RepulsionContact& contact, const ContactLoads& loads) const;
+  [[nodiscard]] LoadPlace load_beside(const RepulsionContact& contact, const ContactLoads& loads,
+                                      std::span<const std::int32_t> takers) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;

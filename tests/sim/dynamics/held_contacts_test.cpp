@@ -165,6 +165,28 @@ TEST(HeldContacts, AColumnRestsOnItsLoads) {
   }
 }
 
+// With all of it in each, what a vertex had borne on one face of many around a corner threw it off.
+TEST(HeldContacts, BeginWithALoadOnce) {
+  const Column column;
+  std::vector<RepulsionContact> contacts(3, column.contacts[0]);  // faces 0 to 2, all beside one another
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].second = static_cast<std::int32_t>(i);
+  const auto begun = [&](const std::vector<ContactLoad>& loads) {
+    const HeldContacts held(contacts, {loads, {}}, column.ground.surface(Column::kCount), column.V, column.V, kHeldStep,
+                            1);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      result.push_back(held.load(i).along_m_s2);
+      EXPECT_DOUBLE_EQ(held.load(i).friction_m_s2.x(), 0.1 * result.back());
+    }
+    return result;
+  };
+  const ContactLoad on_1{0, 1, 30, {3, 0, 0}}, on_7{0, 7, 60, {6, 0, 0}};
+  EXPECT_EQ(begun({on_1}), (std::vector<double>{0, 30, 0})) << "to its own pair, where that is held";
+  EXPECT_EQ(begun({on_7}), (std::vector<double>{20, 20, 20})) << "else in equal parts to those beside";
+  EXPECT_EQ(begun({on_1, on_7}), (std::vector<double>{30, 30, 30}));
+  EXPECT_EQ(begun({{3, 7, 60}}), (std::vector<double>{0, 0, 0})) << "of another vertex";
+}
+
 TEST(HeldContacts, KeepTheLimitOfALever) {
   // The only free corner of a face, 32 times as far from the body's vertex below it as the corners that are held. The
   // vertex rises.
