@@ -74,6 +74,21 @@ Lanes NewlyPressed(const ContactPack& pack, const PackMotion& motion, Lanes aske
   return result & asked;
 }
 
+double ApproachLeft(const ContactPack& pack, const PackMotion& motion, Lanes asked) {
+  double sum = 0;
+  for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
+    const Value pressed = Read(pack.pressed, first);
+    const Truth bears = hn::And(TruthOf(asked, first), hn::Gt(pressed, hn::Zero(Real())));
+    const Values weights = ReadFour(pack.weights, first);
+    const Value effective = EffectiveMobility(weights, ReadFour(pack.mobility, first));
+    const Value moved = DotOf(Relative(weights, ReadFour(motion.displacement, first)), Read(pack.normal, first));
+    HWY_ALIGN double each[kLanes];
+    hn::Store(hn::IfThenElseZero(bears, hn::Mul(hn::Div(pressed, effective), hn::Neg(moved))), Real(), each);
+    for (std::size_t lane = 0; lane < VectorLanes(); ++lane) sum += each[lane];
+  }
+  return sum;
+}
+
 template <PairKind kKind>
 void FindNearestOf(const PackMotion& motion, PackNearest& result) {
   result.on_border = 0;
@@ -341,6 +356,7 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
 }
 
 HWY_EXPORT(NewlyPressed);
+HWY_EXPORT(ApproachLeft);
 HWY_EXPORT(FindNearest);
 HWY_EXPORT(TakeNearest);
 HWY_EXPORT(BearLoads);
@@ -349,6 +365,9 @@ HWY_EXPORT(LearnLoads);
 
 Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
   return HWY_DYNAMIC_DISPATCH(NewlyPressed)(pack, motion, lanes);
+}
+double approach_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
+  return HWY_DYNAMIC_DISPATCH(ApproachLeft)(pack, motion, lanes);
 }
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   HWY_DYNAMIC_DISPATCH(FindNearest)(kind, motion, result);

@@ -72,6 +72,9 @@ void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
 /// Their loads with their friction.
 void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion);
 
+/// How much they approach yet, times the impulse by which they have pressed, kg m^2: below zero where they part.
+[[nodiscard]] double approach_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
+
 /// One sweep; `relaxation` is the factor on what is missing. The last one rubs.
 void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,
            const ContactMotion& motion);

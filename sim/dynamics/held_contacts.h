@@ -122,13 +122,24 @@ class HeldContacts {
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const ContactLoads& loads);
   [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
-  using LoadPlace = std::size_t;  ///< in the list of vf, and behind it in that of ee
+  using LoadPlace = std::size_t;  ///< in the list of the contact's kind
   static constexpr LoadPlace kNoLoad = std::numeric_limits<LoadPlace>::max();
   [[nodiscard]] LoadPlace own_load(const RepulsionContact& contact, const ContactLoads& loads) const;
-  [[nodiscard]] LoadPlace load_beside(const RepulsionContact& contact, const ContactLoads& loads,
-                                      std::span<const std::int32_t> takers) const;
+  [[nodiscard]] LoadPlace load_beside(const RepulsionContact& contact, const ContactLoads& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
+  /// Sums over the cloth: mass, and mass times the change of v^2 and times the square of that of v by what they bore.
+  struct VelocityChange {
+    double mass = 0, energy = 0, squared = 0;
+    VelocityChange& operator+=(const VelocityChange& other) {
+      mass += other.mass;
+      energy += other.energy;
+      squared += other.squared;
+      return *this;
+    }
+  };
+  [[nodiscard]] double bearable_share(const MidstepMotion& step);
+  void bear_only(double share, const MidstepMotion& step);
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
@@ -161,6 +172,8 @@ class HeldContacts {
   std::vector<ContactPack> packs_;          ///< of vf, then ee; a place is a lane of one
   std::vector<std::size_t> place_of_;       ///< of each contact
   std::vector<std::size_t> contact_at_;     ///< of each place
+  LaneVectors v_unborne_;                   ///< before bear()
+  std::vector<VelocityChange> partial_changes_;
   bool backwards_ = false;
 };
 
