@@ -113,8 +113,9 @@ TEST(Shapes, SheetFacesUpAndHasItsArea) {
 }
 
 TEST(Cloth, SheetHasThePapersSprings) {
-  ClothSpec spec;
-  spec.surface = SheetSpec{4, 3, 3, 2};
+  ClothSpec spec{
+      // at once: of an assignment GCC 12 may say that the surface was not initialized
+      .name = {}, .surface = SheetSpec{4, 3, 3, 2}, .placement = {}, .stiffest_key = {}, .pins = {}, .contact = {}};
   spec.density_kg_m2 = 0.2;
   spec.stretch_n_m = 10;
   spec.shear_n_m = 5;
