@@ -85,6 +85,11 @@ BodySequence::Frame BodySequence::kept(std::size_t frame) const {
   return kept.x;
 }
 
+std::vector<double> BodySequence::frames_between(double t0_s, double t1_s) const {
+  const auto first = std::ranges::upper_bound(times_s_, t0_s);
+  return {first, std::ranges::lower_bound(first, times_s_.end(), t1_s)};
+}
+
 Positions BodySequence::at(double time_s) const {
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(times_s_, time_s) - times_s_.begin());
   if (next == 0) return first_.x;

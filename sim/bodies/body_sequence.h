@@ -31,6 +31,8 @@ class BodySequence {
   /// In the scene's time.
   [[nodiscard]] double begin_s() const { return times_s_.front(); }
   [[nodiscard]] double end_s() const { return times_s_.back(); }
+  /// The times of the frames between two times, these left out; in order.
+  [[nodiscard]] std::vector<double> frames_between(double t0_s, double t1_s) const;
   /// Of all times and positions: two sequences that differ have another one, but for chance.
   [[nodiscard]] std::uint32_t checksum() const { return checksum_; }
 

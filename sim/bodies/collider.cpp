@@ -61,11 +61,16 @@ Collider::Bend Collider::bend(double t0_s, double t1_s) const {
   const auto* rigid = std::get_if<Rigid>(&motion_);
   const Linkage& linkage = rigid != nullptr ? rigid->linkage : std::get<Animated>(motion_).linkage;
   const auto placed = [this](double time_s) { return placed_at(time_s, false, {}); };
-  const Positions from = placed(t0_s), to = placed(t1_s);
+  const Positions to = placed(t1_s), from = placed(t0_s);  // the first last: a sequence keeps two frames
   bend.within = box_of(from).merged(box_of(to));
   const double size_m = bend.within.min().cwiseAbs().cwiseMax(bend.within.max().cwiseAbs()).maxCoeff();
   std::vector<double> times = linkage.keys_between(t0_s, t1_s);
+  if (const BodySequence* frames = sequence(); frames != nullptr) {
+    const std::vector<double> own = frames->frames_between(t0_s, t1_s);
+    times.insert(times.end(), own.begin(), own.end());
+  }
   for (const double share : {0.25, 0.5, 0.75}) times.push_back(t0_s + share * (t1_s - t0_s));
+  std::ranges::sort(times);  // so each frame is read once
   for (const double time_s : times) {
     const Positions between = placed(time_s);
     bend.within.extend(box_of(between));

@@ -49,8 +49,10 @@ class Collider {
     double leaves_line_by_m = 0;  ///< how far they leave the straight lines from where they are first to where at last
     Eigen::AlignedBox3d within;   ///< where they are meanwhile; not of one that goes straight
   };
-  /// At its keys and at quarters of the time between. Infinite where it turns by more than 90 degrees, of which the
-  /// ends say little. 0 of an attachment, whose body tells.
+  /// At its keys, at the frames of its sequence and at quarters of the time between. Infinite where it turns by more
+  /// than 90 degrees, of which the ends say little. 0 of an attachment, whose body tells. Reads every frame between
+  /// once: the steps of a run read what lies within them, and what lies within steps that they then halve or double,
+  /// some four times in all, where the start has read all frames already.
   [[nodiscard]] Bend bend(double t0_s, double t1_s) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;

@@ -118,6 +118,47 @@ TEST_F(BodySequenceTest, EveryStepOnItIsExactlyFree) {
   }
 }
 
+// There and back, at 18 m/s, between two frames of the scene and before the first quarter of a step that meets both.
+TEST_F(BodySequenceTest, FramesWithinAStepAreMet) {
+  for (int i = 0; i < 4; ++i) {
+    Positions x = make_sphere(0.1, 2).x;
+    x.col(2).array() += i == 1 ? 0.1 : -0.2;
+    spit("ball_" + std::to_string(i) + ".obj", obj(x));
+  }
+  spit("scene.toml", R"([time]
+frames_per_s = 6
+frames = 1
+[collision]
+thickness_m = 0.005
+[[cloth]]
+sheet = {nx = 10, ny = 10, width_m = 0.4, height_m = 0.4}
+density_kg_m2 = 0.2
+stretch_n_m = 200
+shear_n_m = 20
+damping_ratio = 0.1
+[[cloth.pin]]
+edge = "left"
+[[cloth.pin]]
+edge = "right"
+[[body]]
+sequence = {file = "ball_*.obj", frames_per_s = 60}
+)");
+  Simulation simulation(read_scene(scene_file()));
+  const Collider& body = simulation.world().colliders.front();
+  EXPECT_NEAR(body.bend(0, 1 / 6.0).leaves_line_by_m, 0.3, 1e-15);
+  EXPECT_LE(body.bend(0, 1 / 6.0).within.min().z(), -0.3);
+  EXPECT_GE(body.bend(0, 1 / 6.0).within.max().z(), 0.2);
+  EXPECT_EQ(body.bend(1 / 60.0, 2 / 60.0).leaves_line_by_m, 0) << "straight from frame to frame";
+  EXPECT_EQ(body.bend(2 / 60.0, 1 / 6.0).leaves_line_by_m, 0) << "stands still";
+  std::int64_t contacts = 0, bent_steps = 0;
+  testing::run_exactly_free(simulation, 1, [&](const StepResult& step) {
+    contacts += step.report.repulsions + step.report.first_collisions;
+    bent_steps += step.is_bent ? 1 : 0;
+  });
+  EXPECT_GT(contacts, 0);
+  EXPECT_EQ(bent_steps, 0);
+}
+
 TEST_F(BodySequenceTest, CarriesWhatIsPinnedToIt) {
   write_frames();
   Scene hung = scene("name = \"ball\"\n");
