@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -55,6 +56,21 @@ double median_edge_m(const Mesh& mesh, const Positions& x) {
   const auto middle = lengths_m.begin() + std::ssize(lengths_m) / 2;
   std::ranges::nth_element(lengths_m, middle);
   return *middle;
+}
+
+/// The rows that faces hold, or nothing where all are. Exporters leave vertices far away for "none", where no surface
+/// is that cloth could meet.
+std::optional<std::vector<Eigen::Index>> rows_in_faces(const Shape& shape) {
+  std::vector<std::uint8_t> is_held(static_cast<std::size_t>(shape.x.rows()));
+  for (const auto& triangle : shape.triangles) {
+    for (const VertexId vertex : triangle) is_held[static_cast<std::size_t>(vertex)] = 1;
+  }
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < shape.x.rows(); ++i) {
+    if (is_held[static_cast<std::size_t>(i)] != 0) rows.push_back(i);
+  }
+  if (std::ssize(rows) == shape.x.rows()) return std::nullopt;
+  return rows;
 }
 
 // Collects parts into one vertex and one face list.
@@ -199,7 +215,8 @@ class WorldBuilder {
   void add_collider(const BodySpec& spec, const Shape& shape, Collider::Motion motion) {
     std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
     std::iota(vertices.begin(), vertices.end(), vertex_count());
-    bodies_.emplace_back(spec.name, std::move(vertices), std::move(motion));
+    bodies_.emplace_back(spec.name, std::move(vertices), std::move(motion), Collider::kNeverReleased_s,
+                         rows_in_faces(shape));
     add_part(spec.name, io::Group::Role::kBody, shape, bodies_.back().placed_at(0, false, x_));
     add_contact(spec.contact);
     inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);

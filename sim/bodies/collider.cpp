@@ -37,8 +37,13 @@ Eigen::AlignedBox3d box_of(const Positions& x) {
 
 }  // namespace
 
-Collider::Collider(std::string name, std::vector<VertexId> vertices, Motion motion, double release_s)
-    : name_(std::move(name)), vertices_(std::move(vertices)), motion_(std::move(motion)), release_s_(release_s) {
+Collider::Collider(std::string name, std::vector<VertexId> vertices, Motion motion, double release_s,
+                   std::optional<std::vector<Eigen::Index>> met)
+    : name_(std::move(name)),
+      vertices_(std::move(vertices)),
+      motion_(std::move(motion)),
+      release_s_(release_s),
+      met_(std::move(met)) {
   SELVAGE_ASSERT(std::ssize(vertices_) == std::visit(CountRows{}, motion_));
 }
 
@@ -57,10 +62,13 @@ Collider::Bend Collider::bend(double t0_s, double t1_s) const {
   constexpr double kMostTurn_deg = 90;
   constexpr double kRounding = 0x1p-40;  // of places, however far out; thousands of times more than there is
   Bend bend;
-  if (vertices_.empty() || std::holds_alternative<Attachment>(motion_)) return bend;
+  if ((met_ ? met_->empty() : vertices_.empty()) || std::holds_alternative<Attachment>(motion_)) return bend;
   const auto* rigid = std::get_if<Rigid>(&motion_);
   const Linkage& linkage = rigid != nullptr ? rigid->linkage : std::get<Animated>(motion_).linkage;
-  const auto placed = [this](double time_s) { return placed_at(time_s, false, {}); };
+  const auto placed = [this](double time_s) {
+    Positions all = placed_at(time_s, false, {});
+    return met_ ? Positions(all(*met_, Eigen::all)) : all;
+  };
   const Positions to = placed(t1_s), from = placed(t0_s);  // the first last: a sequence keeps two frames
   bend.within = box_of(from).merged(box_of(to));
   const double size_m = bend.within.min().cwiseAbs().cwiseMax(bend.within.max().cwiseAbs()).maxCoeff();

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,9 +30,12 @@ class Collider {
   };
   using Motion = std::variant<Rigid, Animated, Attachment>;
 
-  /// Vertex vertices[i] is at row i of the motion, until release_s.
-  Collider(std::string name, std::vector<VertexId> vertices, Motion motion,
-           double release_s = std::numeric_limits<double>::infinity());
+  static constexpr double kNeverReleased_s = std::numeric_limits<double>::infinity();
+
+  /// Vertex vertices[i] is at row i of the motion, until release_s. `met`: the rows that cloth can meet; all, if none
+  /// are given.
+  Collider(std::string name, std::vector<VertexId> vertices, Motion motion, double release_s = kNeverReleased_s,
+           std::optional<std::vector<Eigen::Index>> met = {});
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
@@ -44,7 +48,7 @@ class Collider {
   /// vertices, of which an attachment looks where its body is. Throws io::Error where a frame of the sequence cannot be
   /// read any more.
   [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32, const Positions& x) const;
-  /// Of its vertices between two times.
+  /// Of its vertices that cloth can meet, between two times.
   struct Bend {
     double leaves_line_by_m = 0;  ///< how far they leave the straight lines from where they are first to where at last
     Eigen::AlignedBox3d within;   ///< where they are meanwhile; not of one that goes straight
@@ -62,6 +66,7 @@ class Collider {
   std::vector<VertexId> vertices_;
   Motion motion_;
   double release_s_;
+  std::optional<std::vector<Eigen::Index>> met_;
 };
 
 }  // namespace selvage::sim

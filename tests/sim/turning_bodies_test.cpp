@@ -9,6 +9,7 @@
 #include "sim/scene/rigid_path.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
+#include "tests/temporary_folder.h"
 
 namespace selvage::sim {
 namespace {
@@ -75,6 +76,45 @@ TEST(TurningBodies, KeepToTheirWayWithinTheThicknessOfTheirOwnContacts) {
   EXPECT_LT(3 * thin_s, thick_s);
   EXPECT_EQ(first_step_s("0.016", "thickness_m = 0.001\n"), thin_s);
   EXPECT_EQ(first_step_s("0.001", "thickness_m = 0.016\n"), thick_s);
+}
+
+// One far away, as exporters write them for "none", goes far with every turn, where no surface is.
+TEST(TurningBodies, AVertexThatNoFaceHoldsShortensNoStep) {
+  const testing::TemporaryFolder folder;
+  const auto step_beside = [&](const std::string& stray_vertices) {
+    testing::spit(folder / "rod.obj", stray_vertices +
+                                          "v 0 0.03 0\nv 0 -0.03 0\nv 1 0 0\nv 0 0 0.02\n"
+                                          "f -4 -3 -2\nf -4 -1 -3\nf -3 -1 -2\nf -2 -1 -4\n");
+    Simulation simulation(
+        parse_scene("[time]\nframes = 1\n[collision]\nthickness_m = 0.004\n[[cloth]]\n"
+                    "sheet = {nx = 4, ny = 4, width_m = 0.1, height_m = 0.1}\nposition_m = [0.5, 0, 0.03]\n" +
+                        std::string(kMaterial) +
+                        "[[body]]\nmesh = {file = \"rod.obj\"}\n"
+                        "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 600]}]\n",
+                    folder / "scene.toml"));
+    const Eigen::AlignedBox3d within = simulation.world().colliders.front().bend(0, 0.1).within;
+    EXPECT_LT(within.max().cwiseAbs().maxCoeff(), 1.5) << stray_vertices;
+    EXPECT_LT(within.min().cwiseAbs().maxCoeff(), 1.5) << stray_vertices;
+    return simulation.step();
+  };
+  const StepResult alone = step_beside("");
+  EXPECT_LT(alone.dt_s, 0.03) << "the rod itself turns too far in a frame";
+  for (const char* strays : {"v 20 0 0\n", "v 900000000 0 0\n", "v -20 3 1\nv 0 900000000 0\n"}) {
+    const StepResult step = step_beside(strays);
+    EXPECT_EQ(step.dt_s, alone.dt_s) << strays;
+    EXPECT_FALSE(step.is_bent) << strays;
+  }
+}
+
+// A pin holds vertices, whatever faces do.
+TEST(TurningBodies, APinThatTurnsShortensSteps) {
+  const Simulation simulation =
+      make("explicit", "frames = 1",
+           "[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.2, height_m = 0.2}\n" + std::string(kMaterial) +
+               "[[cloth.pin]]\nedge = \"top\"\n"
+               "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 60]}]\n");
+  const Collider& pin = simulation.world().colliders.front();
+  EXPECT_NEAR(pin.bend(0, 1).leaves_line_by_m, 0.1 * (1 - std::sqrt(0.75)), 1e-12);
 }
 
 TEST(TurningBodies, ABoxThatComesAndGoesWithinAStepThrowsTheCloth) {
