@@ -68,7 +68,7 @@ struct CheckResult {
   std::int64_t block_pairs = 0;
 };
 
-/// Asked between blocks of pairs, from several threads: whether to give the check up.
+/// Asked between blocks of pairs and within large ones, from several threads: whether to give the check up.
 using Stop = std::function<bool()>;
 /// What a check throws that was given up.
 struct Stopped {};

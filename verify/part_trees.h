@@ -73,14 +73,20 @@ class PartTrees {
   template <class Work, class... Options>
   static void within(const Tree& tree, std::size_t limit, Tally& tally, const Work& work, Options... options) {
     tally_in_parallel(tree.group_count(), limit, tally, [&](std::size_t group, Tally& chunk) {
-      chunk.block_pairs += tree.visit_pairs_within(group, options..., [&](auto... found) { work(chunk, found...); });
+      chunk.block_pairs += tree.visit_pairs_within(group, options..., [&](auto... found) {
+        chunk.count_visit();
+        work(chunk, found...);
+      });
     });
   }
   template <class Work, class... Options>
   static void between(const Tree& a, const Tree& b, std::size_t limit, Tally& tally, const Work& work,
                       Options... options) {
     tally_in_parallel(a.group_count(), limit, tally, [&](std::size_t group, Tally& chunk) {
-      chunk.block_pairs += a.visit_pairs_between(group, b, options..., [&](auto... found) { work(chunk, found...); });
+      chunk.block_pairs += a.visit_pairs_between(group, b, options..., [&](auto... found) {
+        chunk.count_visit();
+        work(chunk, found...);
+      });
     });
   }
 

@@ -45,6 +45,13 @@ class Tally {
     if (*stop_ && (*stop_)()) throw Stopped();
   }
 
+  /// To be called for every few pairs: asks whether to stop now and then, so that one block of work may meet all
+  /// others.
+  void count_visit() {
+    constexpr std::uint32_t kVisitsAsked = 1024;  // each up to some 10 us, where exact arithmetic decides
+    if (++visits_ % kVisitsAsked == 0) throw_if_stopped();
+  }
+
   void add(const Hit& hit);
   void add(const Tally& other);
   /// Counts a pair of elements with these labels if an exemption covers it: then it is not to be checked.
@@ -77,6 +84,7 @@ class Tally {
 
   std::size_t limit_;
   const Stop* stop_;
+  std::uint32_t visits_ = 0;
   ViolationCounts violations_;
   std::vector<Hit> hits_;
   std::vector<Hit> disagreements_;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -181,6 +183,20 @@ TEST(FrameCheck, ListIsSortedCappedAndTheSameForAnyNumberOfThreads) {
       for (std::size_t i = 0; i < limit; ++i) EXPECT_EQ(text(capped.violations[i]), text(all.violations[i]));
     }
   }
+}
+
+// The cloth is one block, which meets all faces of the body: 111,104 pairs.
+TEST(FrameCheck, IsStoppedWithinABlockOfFacesThatMeetAll) {
+  constexpr std::int64_t kMany = 80;  // more than there are blocks, and faces of the cloth
+  io::MeshData mesh = sheet(30);
+  std::ranges::fill(mesh.points, Point{1, 1, 1});
+  std::vector<std::uint8_t> is_body(mesh.triangles.size(), 1);
+  std::fill_n(is_body.begin(), 64, 0);
+  std::atomic<std::int64_t> asked = 0;
+  CheckOptions options;
+  options.stop = [&] { return ++asked > kMany; };
+  EXPECT_THROW((void)check_frame({mesh.triangles, is_body}, mesh.points, options), Stopped);
+  EXPECT_LT(asked, 2 * kMany);
 }
 
 TEST(FrameCheck, BodiesAreCheckedAgainstClothAlwaysAndAgainstBodiesOnRequest) {
