@@ -4,6 +4,7 @@
 #include "verify/check.h"
 #include "verify/decision/exact_overlap.h"
 #include "verify/distance_check.h"
+#include "verify/first_violations.h"
 #include "verify/part_trees.h"
 #include "verify/search/face_tree.h"
 #include "verify/violation.h"
@@ -15,8 +16,8 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 class FrameCheck {
  public:
-  FrameCheck(const Topology& topology, std::span<const Point> V, const CheckOptions& options)
-      : topology_(topology), V_(V), options_(options), tally_(options.max_violations, options.stop) {}
+  FrameCheck(const Topology& topology, std::span<const Point> V, const CheckOptions& options, const Tally& tally)
+      : topology_(topology), V_(V), options_(options), tally_(tally) {}
 
   CheckResult run() {
     const FloatFrame frame = FloatFrame::over(bulk_box(topology_, V_));
@@ -116,11 +117,19 @@ class FrameCheck {
 CheckResult check_frame(const Topology& topology, std::span<const Point> V, const CheckOptions& options) {
   const FpGuard guard;
   require_positions(topology, V);
-  return FrameCheck(topology, V, options).run();
+  return FrameCheck(topology, V, options, Tally(options.max_violations, options.stop)).run();
 }
 
 CheckResult check_frame(const Surface& surface, std::span<const Point> V, const CheckOptions& options) {
   return check_frame(make_topology(surface, V.size()), V, options);
+}
+
+std::vector<Violation> first_violations(const Topology& topology, std::span<const Point> V, std::size_t enough,
+                                        CheckOptions options) {
+  const FpGuard guard;
+  require_positions(topology, V);
+  options.max_violations = enough;
+  return FrameCheck(topology, V, options, Tally::of_first(enough, options.stop)).run().violations;
 }
 
 }  // namespace selvage::verify

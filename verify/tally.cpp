@@ -18,6 +18,7 @@ void Tally::add(const Hit& hit) {
       break;
   }
   keep(hit);
+  if (together_ != nullptr) together_->throw_if_reached(part_, static_cast<std::size_t>(violations_.total()));
 }
 
 void Tally::keep(const Hit& hit) {
@@ -32,8 +33,12 @@ void Tally::keep(const Hit& hit) {
 void Tally::add(const Tally& other) {
   pairs += other.pairs;
   block_pairs += other.block_pairs;
-  violations_ += other.violations_;
-  for (const Hit& hit : other.hits_) keep(hit);
+  if (other.together_ != nullptr) {  // its hits are all there, in the order in which they were found
+    for (auto hit = other.hits_.begin(); hit != other.hits_.end() && !has_enough(); ++hit) add(*hit);
+  } else {
+    violations_ += other.violations_;
+    for (const Hit& hit : other.hits_) keep(hit);
+  }
   for (const Hit& hit : other.disagreements_) {
     if (disagreements_.size() < limit_) disagreements_.push_back(hit);
   }

@@ -13,32 +13,49 @@
 #include "sim/base/points.h"
 #include "sim/repair/start_repair.h"
 #include "verify/check.h"
+#include "verify/first_violations.h"
 
 namespace selvage::cli {
 namespace {
 
 constexpr std::size_t kNamedPairs = 10;  // the rest is counted
-/// That are kept of one state. A mesh whose vertices are in another order has many times as many: 6,962 faces at random
-/// take 313 MiB and 8 s of the processor with this, more than 4.4 GB and 71 s with all of their 5 million pairs.
+/// That are looked for in a start, and kept of what a repair makes of it. Copies at one place, and a mesh whose
+/// vertices are in another order, have many times as many: 300 sheets of 162 faces at one place take 1.6 s of the
+/// processor and 214 MiB with this; 100 were not through after 24 s where all pairs were examined, and 6,962 faces at
+/// random took more than 4.4 GB where their 5 million pairs were kept.
 constexpr std::size_t kMostPairs = 200'000;
 
-/// Exact; pairs of bodies are left out. The first kMostPairs; ends with verify::Stopped at a signal.
-sim::FindIntersections exact_judge(const sim::World& world) {
-  const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
-  const auto vertex_count = static_cast<std::size_t>(world.x_t0.rows());
-  return [topology = verify::make_topology({world.triangles, is_body}, vertex_count)](const Positions& x) {
-    verify::CheckOptions options;
-    options.max_violations = kMostPairs;
-    options.stop = interrupted;
+/// Exact, of one state; pairs of bodies are left out. Both end with verify::Stopped at a signal.
+class Judge {
+ public:
+  explicit Judge(const sim::World& world)
+      : topology_(verify::make_topology({world.triangles, io::body_faces(world.triangles.size(), world.groups)},
+                                        static_cast<std::size_t>(world.x_t0.rows()))) {
+    options_.max_violations = kMostPairs;
+    options_.stop = interrupted;
+  }
+
+  /// All, or kMostPairs where there are more, and then it looks no further.
+  [[nodiscard]] std::vector<sim::FacePair> find_most(const Positions& x) const {
+    return pairs_of(verify::first_violations(topology_, sim::points_of(x), kMostPairs, options_));
+  }
+  /// The first kMostPairs of all.
+  [[nodiscard]] std::vector<sim::FacePair> operator()(const Positions& x) const {
+    return pairs_of(verify::check_frame(topology_, sim::points_of(x), options_).violations);
+  }
+
+ private:
+  static std::vector<sim::FacePair> pairs_of(const std::vector<verify::Violation>& violations) {
     std::vector<sim::FacePair> pairs;
-    for (const verify::Violation& found : verify::check_frame(topology, sim::points_of(x), options).violations) {
-      pairs.push_back(verify::faces_of(found));
-    }
+    for (const verify::Violation& found : violations) pairs.push_back(verify::faces_of(found));
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
-  };
-}
+  }
+
+  verify::Topology topology_;
+  verify::CheckOptions options_;
+};
 
 const char* at_least(const std::vector<sim::FacePair>& pairs) { return pairs.size() < kMostPairs ? "" : "at least "; }
 
@@ -77,8 +94,8 @@ bool has_edge_without_length(const sim::World& world) {
 }  // namespace
 
 sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
-  const sim::FindIntersections judge = exact_judge(simulation.world());
-  const std::vector<sim::FacePair> pairs = judge(simulation.x());
+  const Judge judge(simulation.world());
+  const std::vector<sim::FacePair> pairs = judge.find_most(simulation.x());
   if (pairs.empty()) return {};
   if (!repair) {
     const bool is_rounded = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;

@@ -149,6 +149,28 @@ TEST_F(SimCommand, TwoClothsThatTouchAtTheirVerticesAreNoSplitMesh) {
       << run.err;
 }
 
+// Twelve cloths at one place.
+TEST_F(SimCommand, OfAStartWithMorePairsThanAreLookedForItIsSaid) {
+  std::string text = "[time]\nframes = 1\n";
+  for (int i = 0; i < 12; ++i) {
+    text += fmt::format(
+        "[[cloth]]\nname = \"cloth {}\"\nsheet = {{nx = 13, ny = 13, width_m = 1, height_m = 1}}\n"
+        "density_kg_m2 = 0.2\nstretch_n_m = 40\n",
+        i);
+  }
+  for (const bool repairs : {false, true}) {
+    const auto run = sim(text, repairs ? std::vector<std::string>{"--repair"} : std::vector<std::string>{});
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_NE(run.err.find("the start has at least 200000 intersecting pairs, the first of \"cloth "),
+              std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find("  and at least 199990 pairs more\n"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("move them apart, or let --repair do it"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("that is more than --repair looks at") != std::string::npos, repairs) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
+  }
+}
+
 TEST_F(SimCommand, TheCheckOfAStartCanBeInterrupted) {
   std::string text;  // all faces meet all others
   constexpr int kSide = 60;

@@ -16,6 +16,7 @@
 #include "verify/check.h"
 #include "verify/decision/exact_distance.h"
 #include "verify/decision/exact_overlap.h"
+#include "verify/first_violations.h"
 
 namespace selvage::verify {
 namespace {
@@ -197,6 +198,58 @@ TEST(FrameCheck, IsStoppedWithinABlockOfFacesThatMeetAll) {
   options.stop = [&] { return ++asked > kMany; };
   EXPECT_THROW((void)check_frame({mesh.triangles, is_body}, mesh.points, options), Stopped);
   EXPECT_LT(asked, 2 * kMany);
+}
+
+// Six sheets at one place.
+TEST(FrameCheck, TheFirstViolationsAreTheSameForAnyNumberOfThreadsAndNoMoreIsLookedAt) {
+  constexpr std::int32_t kSide = 16, kLayers = 6, kVertices = (kSide + 1) * (kSide + 1);
+  const io::MeshData layer = sheet(kSide);
+  io::MeshData mesh;
+  for (std::int32_t i = 0; i < kLayers; ++i) {
+    mesh.points.insert(mesh.points.end(), layer.points.begin(), layer.points.end());
+    for (const auto& [a, b, c] : layer.triangles) {
+      mesh.triangles.push_back({a + i * kVertices, b + i * kVertices, c + i * kVertices});
+    }
+  }
+  const std::int32_t a = add_vertex(mesh, {20, 0, 0}), b = add_vertex(mesh, {21, 0, 0});
+  mesh.triangles.push_back({a, b, add_vertex(mesh, {22, 0, 0})});  // without area, which is looked at last
+  const Topology topology = make_topology(surface(mesh), mesh.points.size());
+  static std::atomic<std::size_t> looked_at = 0;  // of those that no filter decides, as all that touch
+  CheckOptions options;
+  options.max_violations = 1'000'000;
+  options.second_opinion = SecondOpinionScope::kUndecided;
+  using Face = std::array<std::int32_t, 3>;
+  using Corners = std::array<Point, 3>;
+  options.second_deciders.overlap = [](const Face&, const Corners&, const Face&, const Corners&) {
+    return ++looked_at > 0;
+  };
+  const CheckResult all = check_frame(topology, mesh.points, options);
+  ASSERT_GT(all.violations.size(), 90'000U);
+  const auto first = [&](std::size_t enough) {
+    std::vector<std::string> found;
+    for (const Violation& v : first_violations(topology, mesh.points, enough, options)) found.push_back(text(v));
+    return found;
+  };
+  const std::set<std::string> known = texts(all);
+  for (const std::size_t enough : std::initializer_list<std::size_t>{1, 10, 63, 64, 65, 5000, 20'000}) {
+    std::vector<std::string> alone;
+    for (const std::size_t threads : std::initializer_list<std::size_t>{1, 2, 3, 8}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+      looked_at = 0;
+      const std::vector<std::string> found = first(enough);
+      if (threads == 1) {
+        EXPECT_LT(looked_at, enough + 1000);
+        alone = found;
+      }
+      ASSERT_EQ(found.size(), enough) << threads;
+      EXPECT_EQ(found, alone) << threads;
+    }
+    for (const std::string& name : alone) EXPECT_TRUE(known.contains(name)) << name;
+  }
+  std::vector<std::string> names;
+  for (const Violation& v : all.violations) names.push_back(text(v));
+  EXPECT_EQ(first(names.size() + 1), names) << "where there are less, it is all of them, in their order";
+  EXPECT_EQ(first(names.size()), names);
 }
 
 TEST(FrameCheck, BodiesAreCheckedAgainstClothAlwaysAndAgainstBodiesOnRequest) {
