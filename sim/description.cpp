@@ -45,6 +45,13 @@ std::string describe(const Scene& scene, const World& world) {
     line("", fmt::format("{}: {} frames of a sequence, from {:g} to {:g} s", collider.name(), sequence->frame_count(),
                          sequence->begin_s(), sequence->end_s()));
   }
+  for (std::size_t body = 0; body < world.joined.size(); ++body) {
+    const auto& [vertices, faces] = world.joined[body];
+    std::vector<std::string> parts;
+    if (vertices > 0) parts.push_back(fmt::format("{} vertices joined to others at their place", vertices));
+    if (faces > 0) parts.push_back(fmt::format("{} faces without area resolved", faces));
+    if (!parts.empty()) line("", fmt::format("{}: {}", world.colliders[body].name(), fmt::join(parts, ", ")));
+  }
   line("springs", fmt::format("{} structural", count(SpringKind::kStructural)));
   if (count(SpringKind::kShear) > 0) line("", fmt::format("{} shear", count(SpringKind::kShear)));
   if (count(SpringKind::kBending) > 0) line("", fmt::format("{} bending", count(SpringKind::kBending)));

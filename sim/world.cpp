@@ -11,7 +11,10 @@
 #include "io/mesh_reader.h"
 #include "kernel/fp_env.h"
 #include "sim/bodies/body_sequence.h"
+#include "sim/bodies/collinear_faces.h"
+#include "sim/bodies/joined_faces.h"
 #include "sim/bodies/mesh_shape.h"
+#include "sim/bodies/one_place.h"
 #include "sim/cloth.h"
 #include "sim/scene/scene_ranges.h"
 #include "sim/step_clock.h"
@@ -103,11 +106,20 @@ class WorldBuilder {
     RigidPath path(spec.script.keys, spec.script.interpolation);
     linkages_.push_back(spec.parent ? Linkage(spec.script.placement, std::move(path), linkages_.at(*spec.parent))
                                     : Linkage(spec.script.placement, std::move(path)));
+    joined_.emplace_back();
     if (const auto* animated = std::get_if<SequenceSpec>(&spec.surface)) {
       const auto sequence = std::make_shared<const BodySequence>(*animated, scene_.file);
-      add_collider(spec, sequence->first(), Collider::Animated{sequence, linkages_.back()});
+      Shape shape = sequence->first();
+      join(shape, sequence->one_place(), true);
+      add_collider(spec, shape, Collider::Animated{sequence, linkages_.back()});
     } else {
-      const Shape shape = shape_of(std::get<Surface>(spec.surface));
+      const auto& surface = std::get<Surface>(spec.surface);
+      Shape shape = shape_of(surface);
+      if (std::holds_alternative<MeshSpec>(surface)) {
+        OnePlace place;
+        place.narrow(shape.x);
+        join(shape, place, false);
+      }
       add_collider(spec, shape, Collider::Rigid{shape.x, linkages_.back()});
     }
   }
@@ -130,6 +142,7 @@ class WorldBuilder {
     world.stabilizers = StabilizerSystem(std::move(stabilizers_), cloth_vertex_count);
     world.colliders = std::move(bodies_);
     world.contacts = take_contacts();
+    world.joined = std::move(joined_);
     world.body_count = static_cast<std::int32_t>(world.colliders.size());
     std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
     for (const Collider& collider : world.colliders) world.deforms.push_back(collider.deforms() ? 1 : 0);
@@ -212,6 +225,18 @@ class WorldBuilder {
     edge_begin_ += static_cast<EdgeId>(mesh.edges.size());
   }
 
+  // The faces of the body that is added: of a file, which may hold its surface in pieces. What lies on a line does not
+  // stay there where vertices move against each other.
+  void join(Shape& shape, const OnePlace& place, bool deforms) {
+    JoinedFaces joined = join_faces(shape.triangles, place.first());
+    joined_.back() = {joined.joined_vertices, joined.left_out};
+    shape.triangles = std::move(joined.triangles);
+    if (deforms) return;
+    SplitFaces split = split_at_collinear_corners(std::move(shape.triangles), shape.x);
+    joined_.back().faces_without_area += split.resolved;
+    shape.triangles = std::move(split.triangles);
+  }
+
   void add_collider(const BodySpec& spec, const Shape& shape, Collider::Motion motion) {
     std::vector<VertexId> vertices(static_cast<std::size_t>(shape.x.rows()));
     std::iota(vertices.begin(), vertices.end(), vertex_count());
@@ -263,7 +288,8 @@ class WorldBuilder {
   std::vector<Stabilizer> stabilizers_;
   std::vector<ClothRows> cloths_;
   std::vector<Collider> bodies_, pins_;
-  std::vector<Linkage> linkages_;  ///< of the bodies
+  std::vector<Linkage> linkages_;   ///< of the bodies
+  std::vector<JoinedBody> joined_;  ///< likewise
   ContactSurfaces contacts_;
   std::vector<RestPair> rest_pairs_;
   EdgeId edge_begin_ = 0;  ///< of the next cloth

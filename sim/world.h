@@ -13,6 +13,12 @@
 
 namespace selvage::sim {
 
+/// What was done to the faces of a body, so that contact sees one surface.
+struct JoinedBody {
+  std::int32_t vertices = 0;            ///< joined to the first one at their place: they have no face any more
+  std::int32_t faces_without_area = 0;  ///< left out, or resolved (collinear_faces.h)
+};
+
 /// Vertices and faces: all cloths in the order of the scene, then all bodies.
 struct World {
   io::Triangles triangles;
@@ -24,6 +30,7 @@ struct World {
   StabilizerSystem stabilizers;       ///< of the cloth vertices
   std::vector<Collider> colliders;    ///< the bodies, then the pins; the index is the collision step's body id
   std::int32_t body_count = 0;        ///< of the colliders
+  std::vector<JoinedBody> joined;     ///< by body
   std::vector<std::uint8_t> deforms;  ///< by collider: 1 where it deforms (collider.h)
   ContactSurfaces contacts;           ///< empty where no part has properties of its own, and no rest pairs
   double stable_step_s = 0;           ///< of the springs

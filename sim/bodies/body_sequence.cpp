@@ -62,6 +62,7 @@ BodySequence::BodySequence(const SequenceSpec& spec, const std::filesystem::path
   for (std::size_t i = 0; i < times_s_.size(); ++i) {
     Positions x = read(i);
     checksum_ = checksum_of(x.data(), static_cast<std::size_t>(x.size()), checksum_);
+    one_place_.narrow(x);
     if (i == 0) first_.x = std::move(x);
   }
 }

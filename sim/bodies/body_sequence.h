@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/sequence.h"
+#include "sim/bodies/one_place.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/shapes.h"
 
@@ -24,6 +25,8 @@ class BodySequence {
 
   /// Of the first frame, m.
   [[nodiscard]] const Shape& first() const { return first_; }
+  /// Of all frames, whichever a run comes to: with more of them it is the same scene.
+  [[nodiscard]] const OnePlace& one_place() const { return one_place_; }
   /// #V by 3, m; the frame's own numbers, to the bit, at its time. Reads a frame where it is none of the last two that
   /// were needed, and throws io::Error where that fails. From several threads.
   [[nodiscard]] Positions at(double time_s) const;
@@ -47,6 +50,7 @@ class BodySequence {
   std::shared_ptr<const io::SequenceReader> reader_;
   std::vector<double> times_s_;
   Shape first_;
+  OnePlace one_place_;
   std::uint32_t checksum_ = 0;
 
   mutable std::mutex mutex_;

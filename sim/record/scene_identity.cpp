@@ -62,7 +62,8 @@ std::optional<std::string> first_difference(const SceneIdentity& before, const S
   }
   for (std::size_t part = 0; part < std::min(before.parts.size(), now.parts.size()); ++part) {
     if (before.parts[part] != now.parts[part]) {
-      return fmt::format("the file of \"{}\" is not what it was", world.groups[part].name);
+      return fmt::format("the file of \"{}\" is not what it was, or is read otherwise by this version",
+                         world.groups[part].name);
     }
   }
   if (before.parts == now.parts && before.whole == now.whole) return std::nullopt;
