@@ -34,8 +34,8 @@ endif()
 
 # Contraction to FMA changes bits between targets, and the error bounds assume that every operation is rounded, as it is written
 # and in its order (K7). These stand behind the flags of whoever builds it (CMAKE_CXX_FLAGS), and take back what breaks proofs and
-# has no macro in clang to refuse it by; kernel/types.h refuses the rest. The kernel alone passes them on to its users: inline
-# certified code compiles in their units.
+# has no macro in clang to refuse it by; sound_arithmetic.h of kernel and of verify refuses the rest. These two pass them on to their
+# users: inline certified code compiles in their units.
 set(SELVAGE_FP_OPTIONS
   -ffp-contract=off -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math -fsigned-zeros)
 add_library(selvage_fp_model INTERFACE)

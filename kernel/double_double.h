@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "kernel/sound_arithmetic.h"
+
 namespace selvage::detail {
 
 struct DoubleDouble {

@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include "kernel/sound_arithmetic.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace selvage::detail::HWY_NAMESPACE {
 

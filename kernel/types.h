@@ -5,14 +5,7 @@
 
 #include <Eigen/Core>
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
-    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
-#error "selvage: fast-math breaks every proven bound; compile without -ffast-math, -Ofast, -funsafe-math-optimizations, \
--fassociative-math, -freciprocal-math and -ffinite-math-only"
-#endif
-#if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ < 0 || __FLT_EVAL_METHOD__ == 2)
-#error "selvage: doubles must be computed as doubles; compile for SSE (-mfpmath=sse), not for the x87 unit"
-#endif
+#include "kernel/sound_arithmetic.h"
 
 // Eigen's matrices are allocated and aligned as the compiler's flags say (-march, -fsanitize): freed by code with other
 // flags they crash. The library's CMake target tells its users, and itself, how it is built.

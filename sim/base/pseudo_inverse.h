@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "kernel/sound_arithmetic.h"
+
 namespace selvage::sim {
 
 /// Eigenvalues at most this share of the largest count as 0. Inertia grows with the square of a lever arm, so arms

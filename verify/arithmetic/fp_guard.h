@@ -2,6 +2,8 @@
 // denormals-are-zero, no traps. The checker has its own guard because it shares nothing with the kernel (V2).
 #pragma once
 
+#include "verify/arithmetic/sound_arithmetic.h"
+
 namespace selvage::verify {
 
 /// Sets the environment of the calling thread for a scope and restores what it found, whatever was changed inside.

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "verify/arithmetic/sound_arithmetic.h"
+
 namespace selvage::verify {
 
 using Point = std::array<double, 3>;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "verify/arithmetic/sound_arithmetic.h"
+
 namespace selvage::verify {
 
 inline constexpr int kMaxDepth = 7;  ///< pieces of 1/128 of the step or longer; the error bounds count on it
