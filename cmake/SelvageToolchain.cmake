@@ -11,8 +11,21 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(SELVAGE_CCACHE ccache)
   if(SELVAGE_CCACHE)
-    # As its manual asks for precompiled headers: without, nothing that uses one is found again.
-    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros "${SELVAGE_CCACHE}")
+    # Where it may not write, as where packages are built without a home, it fails every compile: one is tried.
+    file(WRITE "${PROJECT_BINARY_DIR}/CMakeFiles/ccache_trial.cpp" "int main() {}\n")
+    execute_process(COMMAND "${SELVAGE_CCACHE}" "${CMAKE_CXX_COMPILER}" -c ccache_trial.cpp -o ccache_trial.o
+      WORKING_DIRECTORY "${PROJECT_BINARY_DIR}/CMakeFiles" RESULT_VARIABLE failed ERROR_VARIABLE words OUTPUT_QUIET)
+    if(failed)
+      message(STATUS "ccache is not used, it fails here: ${words}")
+      set(SELVAGE_CCACHE OFF)
+    endif()
+  endif()
+  if(SELVAGE_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${SELVAGE_CCACHE}")
+    if(NOT DEFINED ENV{CCACHE_SLOPPINESS})
+      # As its manual asks for precompiled headers: without, nothing that uses one is found again.
+      list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros)
+    endif()
     add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
 endif()
