@@ -1,6 +1,9 @@
 # Install and export: find_package(Selvage) gives selvage::kernel, selvage::io, and selvage::sim, selvage::verify if built.
 include(CMakePackageConfigHelpers)
 
+if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")  # CMake's list of the headers would have it behind the prefix
+  message(FATAL_ERROR "CMAKE_INSTALL_INCLUDEDIR is ${CMAKE_INSTALL_INCLUDEDIR}; it must be relative to the prefix, such as include")
+endif()
 get_property(rooms GLOBAL PROPERTY SELVAGE_ROOMS)
 list(REMOVE_ITEM rooms selvage_fuzz selvage_bench)  # used through the program
 install(TARGETS ${rooms} EXPORT SelvageTargets FILE_SET HEADERS)
