@@ -23,14 +23,14 @@ using Number = hn::Vec<Integer>;
 using Choice = hn::Mask<Wide>;
 
 /// The points of a pair at one instant, in query order.
-struct Instant {
+struct WideInstant {
   Value3<Wide> point[4];
 };
-struct PointMotion {
-  Instant t0, t1;
+struct WidePointMotion {
+  WideInstant t0, t1;
 };
 
-HWY_INLINE void Read(const LaneMotion& motion, const std::uint32_t* vertices, std::size_t k, PointMotion& x) {
+HWY_INLINE void Read(const LaneMotion& motion, const std::uint32_t* vertices, std::size_t k, WidePointMotion& x) {
   const Wide d;
   const double* rows = motion.rows.front().data();
   const Number places = hn::ShiftLeft<3>(
@@ -50,7 +50,7 @@ HWY_INLINE Number OrderKey(Value value) {
 /// The canonical order of the points in each lane (canonical_order.h), by sorting networks.
 class Sorter {
  public:
-  explicit HWY_INLINE Sorter(PointMotion& x) : x_(x) {}
+  explicit HWY_INLINE Sorter(WidePointMotion& x) : x_(x) {}
 
   /// Of pairs with a common point any order will do: they touch, which is nothing that doubles place.
   HWY_INLINE void Sort(PairKind kind) {
@@ -79,7 +79,7 @@ class Sorter {
       const Number a_key = OrderKey(a), b_key = OrderKey(b);
       before = hn::Or(hn::Lt(a_key, b_key), hn::And(hn::Eq(a_key, b_key), before));
     };
-    for (const Instant* x : {&x_.t1, &x_.t0}) {
+    for (const WideInstant* x : {&x_.t1, &x_.t0}) {
       precede(x->point[i].z, x->point[j].z);
       precede(x->point[i].y, x->point[j].y);
       precede(x->point[i].x, x->point[j].x);
@@ -88,18 +88,18 @@ class Sorter {
   }
   HWY_INLINE void SortPlaces(std::size_t i, std::size_t j) { Swap(IsBefore(j, i), i, j); }
   HWY_INLINE void Swap(Choice choice, std::size_t i, std::size_t j) {
-    for (Instant* x : {&x_.t0, &x_.t1}) {
+    for (WideInstant* x : {&x_.t0, &x_.t1}) {
       const Value3<Wide> a = x->point[i], b = x->point[j];
       x->point[i] = Choose<Wide>(choice, b, a);
       x->point[j] = Choose<Wide>(choice, a, b);
     }
   }
 
-  PointMotion& x_;
+  WidePointMotion& x_;
 };
 
 template <PairKind kKind>
-HWY_INLINE LanePolygon<Wide> Differences(const Instant& x) {
+HWY_INLINE LanePolygon<Wide> Differences(const WideInstant& x) {
   LanePolygon<Wide> polygon;
   const auto d = [&](std::size_t i, std::size_t j) HWY_ATTR { return Minus(x.point[i], x.point[j]); };
   if constexpr (kKind == PairKind::kVf) {
@@ -201,7 +201,7 @@ class ListPassage {
   HWY_INLINE void LookAt(const LanePairs& all, const PairNumbers& numbers, PairNumbers& split, PairNumbers& unclear) {
     const LanePairs pairs(all, numbers);
     for (std::size_t i = 0; i < numbers.count; i += hn::Lanes(Wide())) {
-      PointMotion x;
+      WidePointMotion x;
       for (std::size_t k = 0; k < 4; ++k) Read(motion_, pairs.vertices(k) + i, k, x);
       Sorter(x).Sort(kKind);
       LanePolygonMotion<Wide> polygons = {Differences<kKind>(x.t0), Differences<kKind>(x.t1), {}};
