@@ -1,4 +1,4 @@
-# Install and export: find_package(Selvage) gives selvage::kernel, selvage::io, and selvage::sim, selvage::verify if built.
+# Install and export: find_package(Selvage) gives selvage::kernel, and selvage::sim, selvage::verify if built, with selvage::io.
 include(CMakePackageConfigHelpers)
 
 if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")  # CMake's list of the headers would have it behind the prefix
