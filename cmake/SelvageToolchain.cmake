@@ -37,6 +37,9 @@ if(PROJECT_IS_TOP_LEVEL AND NOT (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 
+# What is said of an assertion that fails names the source from here on: what is built is the same wherever it was built.
+add_compile_options("-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+
 add_library(selvage_warnings INTERFACE)
 target_compile_options(selvage_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow $<$<BOOL:${SELVAGE_WERROR}>:-Werror>)
