@@ -13,4 +13,5 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/SelvageConfig.cmake.i
   INSTALL_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Selvage")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/SelvageConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/SelvageConfig.cmake" "${PROJECT_BINARY_DIR}/SelvageConfigVersion.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/SelvageExactNumbers.cmake"
   DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/Selvage")

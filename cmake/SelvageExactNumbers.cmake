@@ -1,0 +1,21 @@
+# selvage::exact_numbers: GMP, its C++ interface, MPFR and MPFI, which ship no CMake packages. Used again by those who find Selvage
+# installed: theirs may stand elsewhere. What is not there is named in SELVAGE_MISSING_NUMBERS, and then there is no such target.
+set(SELVAGE_MISSING_NUMBERS "")
+set(selvage_number_libraries "")
+set(selvage_number_headers "")
+foreach(name gmpxx mpfi mpfr gmp)
+  string(TOUPPER ${name} variable)
+  find_library(${variable}_LIBRARY ${name})
+  find_path(${variable}_HEADERS ${name}.h)
+  mark_as_advanced(${variable}_LIBRARY ${variable}_HEADERS)
+  if(NOT ${variable}_LIBRARY OR NOT ${variable}_HEADERS)
+    list(APPEND SELVAGE_MISSING_NUMBERS ${name})
+  endif()
+  list(APPEND selvage_number_libraries "${${variable}_LIBRARY}")
+  list(APPEND selvage_number_headers "${${variable}_HEADERS}")
+endforeach()
+if(NOT SELVAGE_MISSING_NUMBERS AND NOT TARGET selvage::exact_numbers)
+  add_library(selvage::exact_numbers INTERFACE IMPORTED)
+  set_target_properties(selvage::exact_numbers PROPERTIES
+    INTERFACE_LINK_LIBRARIES "${selvage_number_libraries}" INTERFACE_INCLUDE_DIRECTORIES "${selvage_number_headers}")
+endif()
