@@ -20,6 +20,10 @@ function(public_headers target name)
   target_sources(${target} PRIVATE "${stamp}" PUBLIC FILE_SET HEADERS BASE_DIRS "${public}" FILES ${written})
 endfunction()
 
+if(BUILD_SHARED_LIBS)
+  message(STATUS "Selvage's libraries are static: BUILD_SHARED_LIBS is not for them")
+endif()
+
 # selvage_room(NAME SOURCES ... [LANES ...] [HEADERS ...] PUBLIC ... PRIVATE ...)
 #   Makes the static library selvage_NAME with the alias selvage::NAME from the folder that calls it.
 #   LANES are sources that include themselves, once for each vector unit (Highway).
