@@ -189,6 +189,24 @@ TEST(HeldContacts, BeginWithALoadAtMostTwice) {
   EXPECT_EQ(begun({{3, 7, 60}}), (std::vector<double>{0, 0, 0})) << "of another vertex";
 }
 
+TEST(HeldContacts, BearLoadsAsFarAsTheyAddNoEnergy) {
+  Column column;
+  column.loads.vf = {{0, 0, 400 / Column::kShort}};
+  const auto rises_m_s = [&](double falls_m_s) {
+    column.v.row(0).z() = -falls_m_s;
+    column.x.row(0).z() = kHeldThickness - Column::kShort * falls_m_s;
+    HeldContacts held(column.contacts, column.loads, column.ground.surface(Column::kCount), column.V, column.V,
+                      Column::kShort, 1);
+    held.bear({Column::kShort, 1, column.x, column.v});
+    EXPECT_NEAR(column.x.row(0).z(), kHeldThickness + Column::kShort * column.v.row(0).z(), 1e-12);
+    return column.v.row(0).z();
+  };
+  EXPECT_NEAR(rises_m_s(0), 0, 1e-9);
+  EXPECT_NEAR(rises_m_s(10), 0, 1e-9) << "as much as leaves the least";
+  EXPECT_NEAR(rises_m_s(300), 100, 1e-9) << "less energy than without: what is too much it takes back";
+  EXPECT_NEAR(rises_m_s(500), -100, 1e-9);
+}
+
 TEST(HeldContacts, KeepTheLimitOfALever) {
   // The only free corner of a face, 32 times as far from the body's vertex below it as the corners that are held. The
   // vertex rises.
