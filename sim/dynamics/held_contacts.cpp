@@ -8,6 +8,7 @@
 #include "kernel/assert.h"
 #include "sim/base/parallel.h"
 #include "sim/dynamics/contact_sweeps.h"
+#include "sim/dynamics/first_loads.h"
 
 namespace selvage::sim {
 namespace {
@@ -108,7 +109,7 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const Contact
   set_sweeps(contact_sweeps(contacts_, surface.faces, sweeps));
   const auto is_placed = [](std::size_t place) { return place != ContactGroups::kNobody; };
   SELVAGE_ASSERT(std::ranges::all_of(place_of_, is_placed));
-  begin_with(loads);
+  begin_with(first_loads(contacts_, loads, surface.mesh.faces));
 }
 
 /// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on through all
@@ -167,56 +168,14 @@ void HeldContacts::set_sweeps(const std::vector<std::int32_t>& sweeps) {
   }
 }
 
-/// Each load goes whole to the contact of its pair, and once more, in equal parts, to those of its vertex on faces
-/// beside that have none. Over an edge or a corner of the surface a vertex lies on any of the faces there, and another
-/// may be found than the one that bore it; what is too much they take back. With all of it for each of them a fan of
-/// 150 faces around a vertex, folded over the tip of a needle, began a step with 150 times what the tip had borne, and
-/// flew off at 100 m/s. Without those beside where the pair itself is held sheets over a ball came to rest less often
-/// (docs/stability.md).
-void HeldContacts::begin_with(const ContactLoads& loads) {
-  std::vector<LoadPlace> own(contacts_.size()), beside(contacts_.size());
-  parallel_each(std::ssize(contacts_), [&](Eigen::Index at) {
+void HeldContacts::begin_with(const std::vector<ContactLoad>& loads) {
+  parallel_each(std::ssize(loads), [&](Eigen::Index at) {
     const auto i = static_cast<std::size_t>(at);
-    own[i] = own_load(contacts_[i], loads);
-    beside[i] = own[i] == kNoLoad ? load_beside(contacts_[i], loads) : kNoLoad;
-  });
-  std::vector<std::int32_t> takers(loads.vf.size());
-  for (const LoadPlace load : beside) {
-    if (load != kNoLoad) ++takers[load];
-  }
-  parallel_each(std::ssize(contacts_), [&](Eigen::Index at) {
-    const auto i = static_cast<std::size_t>(at);
-    const LoadPlace place = own[i] != kNoLoad ? own[i] : beside[i];
-    if (place == kNoLoad) return;
-    const ContactLoad& load = (contacts_[i].kind == PairKind::kVf ? loads.vf : loads.ee)[place];
-    const double share = own[i] != kNoLoad ? 1 : 1.0 / takers[place];
     const std::size_t lane = place_of_[i] % kLanes;
     ContactPack& pack = packs_[place_of_[i] / kLanes];
-    pack.load_m_s2[lane] = share * load.acceleration_m_s2;
-    for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = share * load.friction_m_s2[k];
+    pack.load_m_s2[lane] = loads[i].acceleration_m_s2;
+    for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = loads[i].friction_m_s2[k];
   });
-}
-
-HeldContacts::LoadPlace HeldContacts::own_load(const RepulsionContact& contact, const ContactLoads& loads) const {
-  const std::vector<ContactLoad>& of_kind = contact.kind == PairKind::kVf ? loads.vf : loads.ee;
-  const auto of_first = std::ranges::equal_range(of_kind, contact.first, {}, &ContactLoad::first);
-  const auto load = std::ranges::find(of_first, contact.second, &ContactLoad::second);
-  return load == of_first.end() ? kNoLoad : static_cast<LoadPlace>(&*load - of_kind.data());
-}
-
-/// The first of its vertex on a face beside.
-HeldContacts::LoadPlace HeldContacts::load_beside(const RepulsionContact& contact, const ContactLoads& loads) const {
-  if (contact.kind != PairKind::kVf) return kNoLoad;
-  const auto of_first = std::ranges::equal_range(loads.vf, contact.first, {}, &ContactLoad::first);
-  const auto is_beside = [&](const ContactLoad& load) { return touch(load.second, contact.second); };
-  const auto load = std::ranges::find_if(of_first, is_beside);
-  return load == of_first.end() ? kNoLoad : static_cast<LoadPlace>(&*load - loads.vf.data());
-}
-
-bool HeldContacts::touch(FaceId a, FaceId b) const {
-  const auto& of_a = surface_.mesh.faces[static_cast<std::size_t>(a)];
-  const auto& of_b = surface_.mesh.faces[static_cast<std::size_t>(b)];
-  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
 ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {

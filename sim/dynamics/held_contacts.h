@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -120,13 +119,8 @@ class HeldContacts {
   [[nodiscard]] const RepulsionContact& contact_at(std::size_t place) const { return contacts_[contact_at_[place]]; }
   void set_lane(std::size_t place);
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
-  void begin_with(const ContactLoads& loads);
+  void begin_with(const std::vector<ContactLoad>& loads);  ///< by contact
   [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
-  using LoadPlace = std::size_t;  ///< in the list of the contact's kind
-  static constexpr LoadPlace kNoLoad = std::numeric_limits<LoadPlace>::max();
-  [[nodiscard]] LoadPlace own_load(const RepulsionContact& contact, const ContactLoads& loads) const;
-  [[nodiscard]] LoadPlace load_beside(const RepulsionContact& contact, const ContactLoads& loads) const;
-  [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
   /// Sums over the cloth: mass, and mass times the change of v^2 and times the square of that of v by what they bore.
   struct VelocityChange {
