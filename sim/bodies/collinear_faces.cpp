@@ -35,7 +35,7 @@ bool is_collinear(const Face& face, const Positions& x) {
   return (middle - a).cross((b - a).stableNormalized()).stableNorm() <= kLeastHeight * (b - a).stableNorm();
 }
 
-bool holds(const Face& face, VertexId vertex) { return std::ranges::find(face, vertex) != face.end(); }
+bool has_corner(const Face& face, VertexId vertex) { return std::ranges::find(face, vertex) != face.end(); }
 
 class CollinearFaces {
  public:
@@ -84,7 +84,7 @@ class CollinearFaces {
   [[nodiscard]] std::vector<std::size_t> beyond(std::size_t f, VertexId a, VertexId b) const {
     std::vector<std::size_t> found;
     std::ranges::copy_if(around_.at(a), std::back_inserter(found),
-                         [&](std::size_t g) { return g != f && holds(faces_[g], b); });
+                         [&](std::size_t g) { return g != f && has_corner(faces_[g], b); });
     return found;
   }
 
@@ -92,7 +92,7 @@ class CollinearFaces {
   bool resolve(std::size_t f) {
     const auto [a, middle, b] = line_of(faces_[f], x_);
     const std::vector<std::size_t> others = beyond(f, a, b);
-    const auto is_twin = [&](std::size_t g) { return holds(faces_[g], middle); };
+    const auto is_twin = [&](std::size_t g) { return has_corner(faces_[g], middle); };
     const bool has_twin = std::ranges::any_of(others, is_twin);
     if (has_twin || (others.empty() && !beyond(f, a, middle).empty() && !beyond(f, middle, b).empty())) {
       resolve_to(f, kGone);

@@ -97,7 +97,7 @@ std::string start(const std::string& solver = "explicit") {
 }
 
 /// Edges of 33 mm; `place` says where, and how fast.
-std::string sheet(const std::string& place) {
+std::string sliding_sheet(const std::string& place) {
   return "[[cloth]]\nsheet = {nx = 10, ny = 10, width_m = 0.3, height_m = 0.3}\n" + place +
          "\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\ndamping_ratio = 0.1\n";
 }
@@ -109,12 +109,13 @@ class JoinedBodies : public ::testing::Test {
   }
   [[nodiscard]] World world_of(const Shape& body) const {
     testing::spit(folder_ / "body.obj", obj(body));
-    return build_world(scene(start() + sheet("position_m = [0, 0, 1]") + "[[body]]\nmesh = {file = \"body.obj\"}\n"));
+    return build_world(
+        scene(start() + sliding_sheet("position_m = [0, 0, 1]") + "[[body]]\nmesh = {file = \"body.obj\"}\n"));
   }
   void slides_without_a_bump(const Shape& body, const std::string& solver = "explicit") const {
     testing::spit(folder_ / "body.obj", obj(body));
     Simulation simulation(scene(start(solver) +
-                                sheet("position_m = [-0.6, 0.007, 0.0041]\nvelocity_m_s = [2, 0.3, 0]") +
+                                sliding_sheet("position_m = [-0.6, 0.007, 0.0041]\nvelocity_m_s = [2, 0.3, 0]") +
                                 "[[body]]\nmesh = {file = \"body.obj\"}\n"));
     while (simulation.clock().time_s() < 0.5 - 1e-9) simulation.step();
     const Positions x = simulation.x().topRows(100), v = simulation.state().v.topRows(100);
@@ -157,7 +158,7 @@ TEST_F(JoinedBodies, OfASequenceOnlyWhatNeverParts) {
   const Shape box = make_box(Vec3(0.2, 0.2, 0.2), 1);
   Shape soup = soup_of(box);
   const auto used_by_body = [&] {
-    const World world = build_world(scene(start() + sheet("position_m = [0, 0, 1]") +
+    const World world = build_world(scene(start() + sliding_sheet("position_m = [0, 0, 1]") +
                                           "[[body]]\nsequence = {file = \"frame_*.obj\", frames_per_s = 30}\n"));
     std::set<VertexId> of_a_face;
     for (const auto& face : world.triangles) {
@@ -182,14 +183,14 @@ TEST_F(JoinedBodies, OfASequenceOnlyWhatNeverParts) {
 TEST_F(JoinedBodies, ASegmentThatStandsAloneStopsCloth) {
   testing::spit(folder_ / "wire.obj", "v -1 0.003 0\nv 1 0.003 0\nv 1 0.003 -0\nf 1 2 3\n");
   Simulation simulation(
-      scene(start() + sheet("position_m = [0, 0, 0.05]") + "[[body]]\nmesh = {file = \"wire.obj\"}\n"));
+      scene(start() + sliding_sheet("position_m = [0, 0, 0.05]") + "[[body]]\nmesh = {file = \"wire.obj\"}\n"));
   testing::run_exactly_free(simulation, 15, [](const StepResult&) {});
   EXPECT_GT(simulation.x().middleRows(40, 20).col(2).minCoeff(), -0.05) << "the rows beside it, after 1.2 m of fall";
 }
 
 TEST_F(JoinedBodies, ARunSaysWhatWasJoined) {
   testing::spit(folder_ / "body.obj", obj(soup_of(ground())));
-  const std::string text = start() + sheet("position_m = [0, 0, 1]");
+  const std::string text = start() + sliding_sheet("position_m = [0, 0, 1]");
   const Scene soup = scene(text + "[[body]]\nname = \"soup\"\nmesh = {file = \"body.obj\"}\n");
   EXPECT_NE(describe(soup, build_world(soup)).find("soup: 303 vertices joined"), std::string::npos)
       << describe(soup, build_world(soup));

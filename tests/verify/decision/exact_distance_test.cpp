@@ -19,7 +19,6 @@ using reference::Vector;
 using reference::operator-;
 using reference::operator+;
 using reference::operator*;
-using reference::dot;
 
 /// Solves the square system by elimination; nothing where it is singular.
 std::optional<std::vector<Rational>> solve(std::vector<std::vector<Rational>> m, std::vector<Rational> right) {
@@ -50,8 +49,8 @@ std::optional<Rational> feet_inside(const std::vector<Vector>& p, const std::vec
   std::vector<std::vector<Rational>> gram(directions.size(), std::vector<Rational>(directions.size()));
   std::vector<Rational> right(directions.size());
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (std::size_t j = 0; j < directions.size(); ++j) gram[i][j] = dot(directions[i], directions[j]);
-    right[i] = -dot(directions[i], offset);
+    for (std::size_t j = 0; j < directions.size(); ++j) gram[i][j] = reference::dot(directions[i], directions[j]);
+    right[i] = -reference::dot(directions[i], offset);
   }
   const auto weights = solve(gram, right);
   if (!weights) return std::nullopt;
@@ -63,7 +62,7 @@ std::optional<Rational> feet_inside(const std::vector<Vector>& p, const std::vec
     gap = gap + (*weights)[i] * directions[i];
   }
   if (p_rest < 0 || q_rest < 0) return std::nullopt;
-  return dot(gap, gap);
+  return reference::dot(gap, gap);
 }
 
 /// By trying all faces of both simplices: the nearest points lie inside some pair of faces.
