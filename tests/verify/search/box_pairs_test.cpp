@@ -87,7 +87,7 @@ Pairs brute_force(const Many& a, const Many& b, bool same) {
   return pairs;
 }
 
-enum class Scene { kCloud, kTouchingGrid, kPoints, kFlat, kOneFarAway, kHuge, kSubnormal, kAllAlike };
+enum class Scene { kCloud, kTouchingGrid, kPoints, kFlat, kOneFarAway, kEnormous, kSubnormal, kAllAlike };
 
 std::vector<Box> draw(std::mt19937& random, Scene scene, std::size_t count) {
   std::uniform_real_distribution<double> place(0, 1), extent(0, 0.1);
@@ -99,7 +99,7 @@ std::vector<Box> draw(std::mt19937& random, Scene scene, std::size_t count) {
       if (scene == Scene::kTouchingGrid) low = cell(random), high = low + 1;
       if (scene == Scene::kPoints) low = high = cell(random);
       if (scene == Scene::kFlat && k == 2) low = high = 0;
-      if (scene == Scene::kHuge) low = (low - 0.5) * 0x1p1023, high = std::max(low, (high - 0.5) * 0x1p1023);
+      if (scene == Scene::kEnormous) low = (low - 0.5) * 0x1p1023, high = std::max(low, (high - 0.5) * 0x1p1023);
       if (scene == Scene::kSubnormal) low *= 0x1p-1070, high *= 0x1p-1070;
       if (scene == Scene::kAllAlike) low = high = 0.1;
       box.min[k] = low;
@@ -111,7 +111,7 @@ std::vector<Box> draw(std::mt19937& random, Scene scene, std::size_t count) {
 }
 
 constexpr Scene kScenes[] = {Scene::kCloud,      Scene::kTouchingGrid, Scene::kPoints,    Scene::kFlat,
-                             Scene::kOneFarAway, Scene::kHuge,         Scene::kSubnormal, Scene::kAllAlike};
+                             Scene::kOneFarAway, Scene::kEnormous,     Scene::kSubnormal, Scene::kAllAlike};
 
 /// At each instant others of the scene, so that boxes go anywhere.
 template <std::size_t kInstants>
