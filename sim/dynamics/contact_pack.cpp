@@ -81,9 +81,11 @@ double ApproachLeft(const ContactPack& pack, const PackMotion& motion, Lanes ask
     const Truth bears = hn::And(TruthOf(asked, first), hn::Gt(pressed, hn::Zero(Real())));
     const Values weights = ReadFour(pack.weights, first);
     const Value effective = EffectiveMobility(weights, ReadFour(pack.mobility, first));
-    const Value moved = DotOf(Relative(weights, ReadFour(motion.displacement, first)), Read(pack.normal, first));
+    const Vector along = Scaled(hn::Div(pressed, effective), Read(pack.normal, first));
+    const Vector impulse = Sum(along, Read(pack.rubbed, first));
+    const Value moved = DotOf(Relative(weights, ReadFour(motion.displacement, first)), impulse);
     HWY_ALIGN double each[kLanes];
-    hn::Store(hn::IfThenElseZero(bears, hn::Mul(hn::Div(pressed, effective), hn::Neg(moved))), Real(), each);
+    hn::Store(hn::IfThenElseZero(bears, hn::Neg(moved)), Real(), each);
     for (std::size_t lane = 0; lane < VectorLanes(); ++lane) sum += each[lane];
   }
   return sum;

@@ -72,7 +72,8 @@ void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
 /// Their loads with their friction.
 void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion);
 
-/// How much they approach yet, times the impulse by which they have pressed, kg m^2: below zero where they part.
+/// How much they approach and slip yet, times the impulses by which they have pressed and rubbed, kg m^2: below zero
+/// where these went too far.
 [[nodiscard]] double approach_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
 
 /// One sweep; `relaxation` is the factor on what is missing. The last one rubs.

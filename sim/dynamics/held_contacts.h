@@ -119,8 +119,10 @@ class HeldContacts {
   [[nodiscard]] const RepulsionContact& contact_at(std::size_t place) const { return contacts_[contact_at_[place]]; }
   void set_lane(std::size_t place);
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
-  void begin_with(const std::vector<ContactLoad>& loads);  ///< by contact
+  void begin_with(const ContactLoads& loads);
   [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
+  [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact, const ContactLoads& loads) const;
+  [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
   /// Sums over the cloth: mass, and mass times the change of v^2 and times the square of that of v by what they bore.
   struct VelocityChange {

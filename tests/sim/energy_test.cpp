@@ -1,6 +1,11 @@
 // The energy of cloth that meets something: contact may take from it, and adds nothing.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +13,7 @@
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "tests/sim/physics_support.h"
+#include "tests/sim/small_scene.h"
 
 namespace selvage {
 
@@ -195,6 +201,52 @@ TEST(Energy, SoftClothThatACornerStretchesGainsNoneInContact) {
             "box = {size_m = [0.07, 0.07, 0.7]}\nposition_m = [0, 0, 0.36]\n",
         1000, c.side * c.side, c.most_strain);
   }
+}
+
+/// A disc 1 m across, all of whose faces meet in the middle, and a cone that stands under it.
+void write_disc_and_needle(const std::filesystem::path& folder, int faces) {
+  const auto write = [](std::ofstream file, int count, double radius_m, double below_m) {
+    file << "v 0 0 0\n";
+    for (int i = 0; i < count; ++i) {
+      const double turn = 2 * std::numbers::pi * i / count;
+      file << "v " << radius_m * std::cos(turn) << " " << radius_m * std::sin(turn) << " " << -below_m << "\n";
+    }
+    for (int i = 0; i < count; ++i) file << "f 1 " << 2 + i << " " << 2 + (i + 1) % count << "\n";
+  };
+  write(std::ofstream(folder / "disc.obj"), faces, 0.5, 0);
+  write(std::ofstream(folder / "needle.obj"), 6, 0.004, 0.4);
+}
+
+// Each face around the middle began with all of what the tip had borne: 1,136 m/s of 150 faces, and 20,000 J/kg.
+TEST(Energy, ADiscOfManyFacesFoldedOverANeedleGainsNone) {
+  const testing::TemporaryFolder folder;
+  write_disc_and_needle(folder.path(), 150);
+  Simulation simulation(testing::write_and_read_scene(folder.path() / "disc.toml", R"(
+gravity_m_s2 = [0, 0, -9.81]
+[time]
+frames_per_s = 30
+duration_s = 0.5
+[collision]
+thickness_m = 0.001
+friction_static = 0.5
+[[cloth]]
+mesh = {file = "disc.obj"}
+position_m = [0, 0, 0.05]
+density_kg_m2 = 0.2
+stretch_n_m = 60
+bend_n_m = 0.3
+damping_ratio = 0.1
+[[body]]
+mesh = {file = "needle.obj"}
+)"));
+  const double start_j = energy_j(simulation);
+  std::int64_t contacts = 0;
+  while (simulation.clock().time_s() < 0.5 - 1e-9) {
+    contacts += simulation.step().report.repulsions;
+    ASSERT_LE(energy_j(simulation), start_j + 1e-12)
+        << simulation.clock().time_s() << " s";  // it falls freely at first
+  }
+  EXPECT_GT(contacts, 10'000);
 }
 
 TEST(Energy, NoLimitOnTheRateOfStrainHoldsSpringsBackFromRest) {
