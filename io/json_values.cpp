@@ -117,6 +117,11 @@ class Handler final : public nlohmann::json_sax<AnyJson> {
 
 }  // namespace
 
+std::string zero_byte_fault(std::string_view json) {
+  const std::size_t at = find_zero_byte(json);
+  return at == json.npos ? std::string() : "a zero byte at byte " + std::to_string(at + 1) + "; is it whole?";
+}
+
 std::string_view last_key(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 JsonValues read_json(std::string_view text, const JsonReading& reading) {

@@ -42,6 +42,8 @@ struct JsonReading {
 /// end of the text, without a word of what stands behind: a frame whose line break had become zero was not in the
 /// sequence.
 [[nodiscard]] inline std::size_t find_zero_byte(std::string_view json) { return json.find('\0'); }
+/// The same in words, for those who read a tree; empty: nowhere.
+[[nodiscard]] std::string zero_byte_fault(std::string_view json);
 
 /// The last key on a path, for messages.
 [[nodiscard]] std::string_view last_key(std::string_view path);

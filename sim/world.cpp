@@ -64,10 +64,8 @@ double median_edge_m(const Mesh& mesh, const Positions& x) {
 /// The rows that faces hold, or nothing where all are. Exporters leave vertices far away for "none", where no surface
 /// is that cloth could meet.
 std::optional<std::vector<Eigen::Index>> rows_in_faces(const Shape& shape) {
-  std::vector<std::uint8_t> is_held(static_cast<std::size_t>(shape.x.rows()));
-  for (const auto& triangle : shape.triangles) {
-    for (const VertexId vertex : triangle) is_held[static_cast<std::size_t>(vertex)] = 1;
-  }
+  const std::vector<std::uint8_t> is_held =
+      vertices_in_faces(shape.triangles, static_cast<std::size_t>(shape.x.rows()));
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < shape.x.rows(); ++i) {
     if (is_held[static_cast<std::size_t>(i)] != 0) rows.push_back(i);

@@ -155,9 +155,7 @@ std::string to_json(const Ledger& ledger) {
 
 Ledger parse_ledger(const std::string& text, const std::string& name) {
   try {
-    if (const std::size_t at = io::find_zero_byte(text); at != text.npos) {
-      throw std::invalid_argument("a zero byte at byte " + std::to_string(at + 1) + "; is it whole?");
-    }
+    if (const std::string fault = io::zero_byte_fault(text); !fault.empty()) throw std::invalid_argument(fault);
     const Json json = Json::parse(text);
     if (json.at("schema") != kSchema) throw std::invalid_argument("not a " + std::string(kSchema));
     Ledger ledger;

@@ -5,6 +5,8 @@
 #include <map>
 #include <vector>
 
+#include "sim/scene/shapes.h"
+
 namespace selvage::sim {
 namespace {
 
@@ -68,14 +70,6 @@ Face named_apart(const Face& face, std::span<const VertexId> first) {
   return result;
 }
 
-std::vector<std::uint8_t> named_by(const io::Triangles& triangles, std::size_t vertex_count) {
-  std::vector<std::uint8_t> named(vertex_count, 0);
-  for (const Face& face : triangles) {
-    for (const VertexId corner : face) named[static_cast<std::size_t>(corner)] = 1;
-  }
-  return named;
-}
-
 }  // namespace
 
 JoinedFaces join_faces(const io::Triangles& triangles, std::span<const VertexId> first) {
@@ -93,8 +87,8 @@ JoinedFaces join_faces(const io::Triangles& triangles, std::span<const VertexId>
     }
   }
   joined.left_out = static_cast<std::int32_t>(triangles.size() - joined.triangles.size());
-  const std::vector<std::uint8_t> before = named_by(triangles, first.size()),
-                                  now = named_by(joined.triangles, first.size());
+  const std::vector<std::uint8_t> before = vertices_in_faces(triangles, first.size()),
+                                  now = vertices_in_faces(joined.triangles, first.size());
   for (std::size_t v = 0; v < first.size(); ++v) joined.joined_vertices += before[v] != 0 && now[v] == 0 ? 1 : 0;
   return joined;
 }

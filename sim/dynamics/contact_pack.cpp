@@ -74,7 +74,7 @@ Lanes NewlyPressed(const ContactPack& pack, const PackMotion& motion, Lanes aske
   return result & asked;
 }
 
-double ApproachLeft(const ContactPack& pack, const PackMotion& motion, Lanes asked) {
+double WorkLeft(const ContactPack& pack, const PackMotion& motion, Lanes asked) {
   double sum = 0;
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const Value pressed = Read(pack.pressed, first);
@@ -358,7 +358,7 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
 }
 
 HWY_EXPORT(NewlyPressed);
-HWY_EXPORT(ApproachLeft);
+HWY_EXPORT(WorkLeft);
 HWY_EXPORT(FindNearest);
 HWY_EXPORT(TakeNearest);
 HWY_EXPORT(BearLoads);
@@ -368,8 +368,8 @@ HWY_EXPORT(LearnLoads);
 Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
   return HWY_DYNAMIC_DISPATCH(NewlyPressed)(pack, motion, lanes);
 }
-double approach_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
-  return HWY_DYNAMIC_DISPATCH(ApproachLeft)(pack, motion, lanes);
+double work_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
+  return HWY_DYNAMIC_DISPATCH(WorkLeft)(pack, motion, lanes);
 }
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   HWY_DYNAMIC_DISPATCH(FindNearest)(kind, motion, result);

@@ -74,7 +74,7 @@ void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const Co
 
 /// How much they approach and slip yet, times the impulses by which they have pressed and rubbed, kg m^2: below zero
 /// where these went too far.
-[[nodiscard]] double approach_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
+[[nodiscard]] double work_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
 
 /// One sweep; `relaxation` is the factor on what is missing. The last one rubs.
 void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,

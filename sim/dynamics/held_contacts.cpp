@@ -234,13 +234,13 @@ double HeldContacts::bearable_share(const MidstepMotion& step) {
       });
   const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
   const double settling = change.mass * fall_m_s * fall_m_s;
-  if (!(change.energy > settling)) return 1;
+  if (!(change.energy > settling)) return 1;  // spares a look at all contacts
   double left = 0;
   for (std::size_t id = 0; id < ee_.first_pack; ++id) {
     const Lanes lanes = above_zero(packs_[id].pressed);
     PackMotion read;
     read_motion(packs_[id], lanes, motion_of(step), read);
-    left += approach_left(packs_[id], read, lanes);
+    left += work_left(packs_[id], read, lanes);
   }
   const double c = change.squared, s = c + left / (step.h * step.h);
   return c - 2 * s > settling ? std::max(0.0, s / c) : 1;

@@ -50,6 +50,14 @@ class LatticeVertices {
 
 }  // namespace
 
+std::vector<std::uint8_t> vertices_in_faces(const io::Triangles& triangles, std::size_t vertex_count) {
+  std::vector<std::uint8_t> result(vertex_count, 0);
+  for (const auto& triangle : triangles) {
+    for (const VertexId vertex : triangle) result[static_cast<std::size_t>(vertex)] = 1;
+  }
+  return result;
+}
+
 Shape make_sheet(std::int32_t nx, std::int32_t ny, double width_m, double height_m) {
   SELVAGE_ASSERT(nx >= 2 && ny >= 2);
   Shape sheet;

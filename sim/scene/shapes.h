@@ -2,6 +2,10 @@
 // seen from outside (closed shapes) or from +z (sheets).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "io/mesh_data.h"
 #include "kernel/types.h"
 
@@ -11,6 +15,9 @@ struct Shape {
   Positions x;              ///< #V by 3, m
   io::Triangles triangles;  ///< #F by 3
 };
+
+/// #V: 1 where a face names the vertex.
+[[nodiscard]] std::vector<std::uint8_t> vertices_in_faces(const io::Triangles& triangles, std::size_t vertex_count);
 
 /// nx by ny vertices in the plane z = 0, centred at the origin; vertex (i, j) is number j * nx + i. Diagonals alternate
 /// like a chessboard, so that no diagonal direction is stiffer than the other. REQUIRES nx, ny >= 2.

@@ -242,9 +242,7 @@ ParsedReport parse_report(const std::string& text, const std::string& name) {
   const auto fail = [&name](const std::string& what) -> ParsedReport {
     throw io::Error(io::ErrorKind::kBadInput, name + ": not a report of selvage verify: " + what);
   };
-  if (const std::size_t at = io::find_zero_byte(text); at != text.npos) {
-    return fail("a zero byte at byte " + std::to_string(at + 1) + "; is it whole?");
-  }
+  if (const std::string fault = io::zero_byte_fault(text); !fault.empty()) return fail(fault);
   try {
     return parse(Json::parse(text));
   } catch (const Fault& fault) {
