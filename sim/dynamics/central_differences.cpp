@@ -118,10 +118,15 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     explicit_half_kick({h, options_.fields}, inverse_mass_, force_, impulses_, x_, v_, x_t1_);
     const LimitedMotion limited{x_, h, v_, x_t1_};
     const MidstepMotion held{h, double(step + 1) / count, x_t1_, v_};
-    if (contacts != nullptr) contacts->bear(held);
-    strain_.limit_strain(inverse_mass, limited);
-    strain_.limit_strain_rate(inverse_mass, limited);
-    if (contacts != nullptr) contacts->hold(held);
+    const auto limit = [&] {
+      strain_.limit_strain(inverse_mass, limited);
+      strain_.limit_strain_rate(inverse_mass, limited);
+    };
+    if (contacts != nullptr) {
+      contacts->hold(held, limit);
+    } else {
+      limit();
+    }
     std::swap(x_, x_t1_);
     if (step + 1 == count) last_midstep_v_ = v_;
     springs_.look(x_, force_);

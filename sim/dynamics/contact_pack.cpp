@@ -74,21 +74,20 @@ Lanes NewlyPressed(const ContactPack& pack, const PackMotion& motion, Lanes aske
   return result & asked;
 }
 
-double WorkLeft(const ContactPack& pack, const PackMotion& motion, Lanes asked) {
-  double sum = 0;
+void FindWorkFromOutside(const ContactPack& pack, const PackMotion& motion, LaneColumn<double>& result) {
+  const Value zero = hn::Zero(Real());
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
-    const Value pressed = Read(pack.pressed, first);
-    const Truth bears = hn::And(TruthOf(asked, first), hn::Gt(pressed, hn::Zero(Real())));
-    const Values weights = ReadFour(pack.weights, first);
-    const Value effective = EffectiveMobility(weights, ReadFour(pack.mobility, first));
-    const Vector along = Scaled(hn::Div(pressed, effective), Read(pack.normal, first));
-    const Vector impulse = Sum(along, Read(pack.rubbed, first));
-    const Value moved = DotOf(Relative(weights, ReadFour(motion.displacement, first)), impulse);
-    HWY_ALIGN double each[kLanes];
-    hn::Store(hn::IfThenElseZero(bears, hn::Neg(moved)), Real(), each);
-    for (std::size_t lane = 0; lane < VectorLanes(); ++lane) sum += each[lane];
+    const Values weights = ReadFour(pack.weights, first), mobility = ReadFour(pack.mobility, first);
+    const Vectors displacement = ReadFour(motion.displacement, first);
+    const Value along = hn::Div(Read(pack.pressed, first), EffectiveMobility(weights, mobility));
+    const Vector impulse = Sum(Scaled(along, Read(pack.normal, first)), Read(pack.rubbed, first));
+    Value work = zero;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Value taken = hn::Mul(weights[i], DotOf(displacement[i], impulse));
+      work = hn::Sub(work, hn::IfThenElseZero(hn::Eq(mobility[i], zero), taken));
+    }
+    Write(work, first, result);
   }
-  return sum;
 }
 
 template <PairKind kKind>
@@ -358,7 +357,7 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
 }
 
 HWY_EXPORT(NewlyPressed);
-HWY_EXPORT(WorkLeft);
+HWY_EXPORT(FindWorkFromOutside);
 HWY_EXPORT(FindNearest);
 HWY_EXPORT(TakeNearest);
 HWY_EXPORT(BearLoads);
@@ -368,8 +367,8 @@ HWY_EXPORT(LearnLoads);
 Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
   return HWY_DYNAMIC_DISPATCH(NewlyPressed)(pack, motion, lanes);
 }
-double work_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
-  return HWY_DYNAMIC_DISPATCH(WorkLeft)(pack, motion, lanes);
+void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, LaneColumn<double>& result) {
+  HWY_DYNAMIC_DISPATCH(FindWorkFromOutside)(pack, motion, result);
 }
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   HWY_DYNAMIC_DISPATCH(FindNearest)(kind, motion, result);

@@ -72,13 +72,13 @@ void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
 /// Their loads with their friction.
 void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion);
 
-/// How much they approach and slip yet, times the impulses by which they have pressed and rubbed, kg m^2: below zero
-/// where these went too far.
-[[nodiscard]] double work_left(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
-
 /// One sweep; `relaxation` is the factor on what is missing. The last one rubs.
 void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,
            const ContactMotion& motion);
+
+/// The work of what no impulse moves, by those that have pressed and rubbed: joules times the square of the step, and
+/// times Interaction::inverse_mass_scale.
+void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, LaneColumn<double>& result);
 
 /// From what they did, what they begin the next step with: `share` of what was missing or too much.
 void learn_loads(double share, double h, ContactPack& pack);

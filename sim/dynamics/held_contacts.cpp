@@ -31,11 +31,14 @@ constexpr double kOverRelaxation = 1.7;
 /// thirtieth, but what should slide begins to a tenth of a second late.
 constexpr double kCreepSteps = 4;
 
-/// Loads may add the energy of a fall of so many steps of the dynamics: while a column of twelve settles they go too
-/// far by more than thirty of its steps fall, and held back it swings for ever
-/// (tests/sim/dynamics/held_contacts_test.cpp). Those of the discs of docs/stability.md had 80 to 8,000 J/kg in a step,
-/// where this is 0.002 to 0.1.
+/// Contact may add the energy of a fall of so many steps of the dynamics, for a short time: columns of 12, 50 and 100
+/// that settle on their loads add that of 4, 11 and 27 at once (tests/sim/dynamics/held_contacts_test.cpp), and without
+/// those they swing for ever. The discs of docs/stability.md had 0.06 to 80,000 J/kg of it, where this is 0.002 to 0.1.
 constexpr double kSettlingSteps = 100;
+
+/// And so much of what there is: the rounding of sums. Cloth in free space adds up to 3e-14 J/kg by it, of 0.1 and
+/// more.
+constexpr double kEnergyRounding = 0x1p-36;
 
 /// As far as another face must be nearer to count: above rounding, which has a vertex over an edge go back and forth;
 /// on a flat surface it has slid over the border by 1.4e-3 of its distance then.
@@ -204,64 +207,32 @@ ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
   return {step.x_t1, step.v, scripted_t0_, scripted_way_, step.h, step.share - step_share, step_share, creep_m, bow};
 }
 
-void HeldContacts::bear(const MidstepMotion& step) {
+void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& limit) {
+  v_free_ = step.v;
+  x_free_ = step.x_t1;
+  forget_impulses();
+  vf_.groups.each(false,
+                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
+  limit();
+  sweep(step);
+  if (adds_energy(step)) {
+    step.v = v_free_;
+    step.x_t1 = x_free_;
+    forget_impulses();
+    limit();
+    sweep(step);
+  }
+  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) { learn_loads(kLearning, step.h, pack); });
+}
+
+void HeldContacts::forget_impulses() {
   each_pack(packs_, [](ContactPack& pack) {
     pack.pressed = {};
     pack.rubbed = {};
   });
-  v_unborne_ = step.v;
-  vf_.groups.each(false,
-                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
-  if (const double share = bearable_share(step); share < 1) bear_only(share, step);
 }
 
-/// 1, or where all that they bore adds kinetic energy, as much as leaves the least of it: that of the motion past
-/// bodies changes by s^2 C / 2 - s S under a share s, S what they approached before times their impulses. Several
-/// contacts may begin with one load, and where many share a vertex each learns what others have just pressed too far: a
-/// disc of 150 faces around a vertex, folded over a needle, began a step with 150 times what the tip had borne, and
-/// flew off at 1,136 m/s (docs/stability.md). What they remember stays as it is, and halves where it is not needed.
-double HeldContacts::bearable_share(const MidstepMotion& step) {
-  const VelocityChange change =
-      parallel_sum(surface_.cloth_count, partial_changes_, [&](Eigen::Index begin, Eigen::Index end) {
-        VelocityChange sum;
-        for (Eigen::Index i = begin; i < end; ++i) {
-          const double w = surface_.inverse_mass[static_cast<std::size_t>(i)];
-          if (!(w > 0)) continue;
-          sum += {1 / w, (step.v.row(i).squaredNorm() - v_unborne_.row(i).squaredNorm()) / w,
-                  (step.v.row(i) - v_unborne_.row(i)).squaredNorm() / w};
-        }
-        return sum;
-      });
-  const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
-  const double settling = change.mass * fall_m_s * fall_m_s;
-  if (!(change.energy > settling)) return 1;  // spares a look at all contacts
-  double left = 0;
-  for (std::size_t id = 0; id < ee_.first_pack; ++id) {
-    const Lanes lanes = above_zero(packs_[id].pressed);
-    PackMotion read;
-    read_motion(packs_[id], lanes, motion_of(step), read);
-    left += work_left(packs_[id], read, lanes);
-  }
-  const double c = change.squared, s = c + left / (step.h * step.h);
-  return c - 2 * s > settling ? std::max(0.0, s / c) : 1;
-}
-
-void HeldContacts::bear_only(double share, const MidstepMotion& step) {
-  parallel_each(surface_.cloth_count, [&](Eigen::Index i) {
-    const Eigen::RowVector3d too_much = (1 - share) * (step.v.row(i) - v_unborne_.row(i));
-    step.v.row(i) -= too_much;
-    step.x_t1.row(i) -= step.h * too_much;
-  });
-  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) {
-    const auto scale = [&](LaneColumn<double>& column) {
-      for (double& value : column) value *= share;
-    };
-    scale(pack.pressed);
-    std::ranges::for_each(pack.rubbed, scale);
-  });
-}
-
-void HeldContacts::hold(const MidstepMotion& step) {
+void HeldContacts::sweep(const MidstepMotion& step) {
   for (int left = most_sweeps_; left > 0; --left) {
     for (Kind* kind : {&vf_, &ee_}) {
       kind->groups.each(backwards_, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
@@ -271,7 +242,36 @@ void HeldContacts::hold(const MidstepMotion& step) {
     }
     backwards_ = !backwards_;
   }
-  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) { learn_loads(kLearning, step.h, pack); });
+}
+
+/// Beyond what bodies and pins do by their motion: only in motion past them does contact take energy away.
+bool HeldContacts::adds_energy(const MidstepMotion& step) {
+  const TwiceEnergy twice =
+      parallel_sum(surface_.cloth_count, partial_energies_, [&](Eigen::Index begin, Eigen::Index end) {
+        TwiceEnergy sum;
+        for (Eigen::Index i = begin; i < end; ++i) {
+          const double w = surface_.inverse_mass[static_cast<std::size_t>(i)];
+          if (!(w > 0)) continue;
+          const double before = v_free_.row(i).squaredNorm();
+          sum += {1 / w, before / w, (step.v.row(i).squaredNorm() - before) / w};
+        }
+        return sum;
+      });
+  const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
+  const double borne_j = twice.mass * fall_m_s * fall_m_s + kEnergyRounding * twice.before_j;
+  if (!(twice.gain_j > borne_j)) return false;  // spares a look at all contacts
+  double work = 0;
+  for (std::size_t id = 0; id < packs_.size(); ++id) {
+    const Lanes lanes = above_zero(packs_[id].pressed);
+    PackMotion read;
+    read_motion(packs_[id], lanes, motion_of(step), read);
+    LaneColumn<double> of_lane;
+    find_work_from_outside(packs_[id], read, of_lane);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if (has_lane(lanes, lane)) work += of_lane[lane] / contact_at(id * kLanes + lane).interaction.inverse_mass_scale;
+    }
+  }
+  return twice.gain_j - 2 * work / (step.h * step.h) > borne_j;
 }
 
 /// What they bore in the last step, before anything else, where they are now.

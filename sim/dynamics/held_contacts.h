@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -47,11 +48,12 @@ class HeldContacts {
   HeldContacts(std::vector<RepulsionContact> contacts, const ContactLoads& loads, const HeldSurface& surface,
                const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
-  /// The loads with their friction, where the contacts are now: before the limits on strain, which else see cloth fall
-  /// that is borne, and have it pull on what bears it (docs/numerics.md).
-  void bear(const MidstepMotion& step);
-
-  /// After bear(): sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike
+  /// First the loads with their friction, where the contacts are now; then `limit`, the limits on strain, which else
+  /// see cloth fall that is borne, and have it pull on what bears it (docs/numerics.md); then sweeps of inelastic
+  /// impulses, with friction in the last (paper, 7.2 and 7.3). Where energy came of it, which no motion of bodies
+  /// brought, once more without loads, and `limit` is called again: limits pass on what loads pushed too far, and what
+  /// is taken back then leaves that. Loads grow by it, and a disc of 150 faces round one vertex, folded over a needle,
+  /// flew off at 1,136 m/s (docs/stability.md). Contacts of unlike
   /// masses, and those beside them, take more than others, the first ones (contact_sweeps.h).
   /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
   /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
@@ -66,7 +68,7 @@ class HeldContacts {
   /// micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a sweep, eight at
   /// once and in parallel where contacts share no vertex (contact_groups.h); one that slides on to a vertex of another
   /// of its eight acts alone from then on. Same bits for any number of threads and any vector unit.
-  void hold(const MidstepMotion& step);
+  void hold(const MidstepMotion& step, const std::function<void()>& limit);
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
   /// contacts()), with the loads that they begin with; and what a contact bore in the last step, so that count() and
@@ -124,18 +126,19 @@ class HeldContacts {
   [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact, const ContactLoads& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
-  /// Sums over the cloth: mass, and mass times the change of v^2 and times the square of that of v by what they bore.
-  struct VelocityChange {
-    double mass = 0, energy = 0, squared = 0;
-    VelocityChange& operator+=(const VelocityChange& other) {
+  /// Of the cloth: mass, kg, and twice the kinetic energy that it had and that it has gained.
+  struct TwiceEnergy {
+    double mass = 0, before_j = 0, gain_j = 0;
+    TwiceEnergy& operator+=(const TwiceEnergy& other) {
       mass += other.mass;
-      energy += other.energy;
-      squared += other.squared;
+      before_j += other.before_j;
+      gain_j += other.gain_j;
       return *this;
     }
   };
-  [[nodiscard]] double bearable_share(const MidstepMotion& step);
-  void bear_only(double share, const MidstepMotion& step);
+  void forget_impulses();
+  void sweep(const MidstepMotion& step);
+  [[nodiscard]] bool adds_energy(const MidstepMotion& step);
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
@@ -168,8 +171,8 @@ class HeldContacts {
   std::vector<ContactPack> packs_;          ///< of vf, then ee; a place is a lane of one
   std::vector<std::size_t> place_of_;       ///< of each contact
   std::vector<std::size_t> contact_at_;     ///< of each place
-  LaneVectors v_unborne_;                   ///< before bear()
-  std::vector<VelocityChange> partial_changes_;
+  LaneVectors v_free_, x_free_;             ///< before anything acted
+  std::vector<TwiceEnergy> partial_energies_;
   bool backwards_ = false;
 };
 

@@ -33,8 +33,7 @@ struct Ground {
 };
 
 inline void act(HeldContacts& held, const MidstepMotion& step) {
-  held.bear(step);
-  held.hold(step);
+  held.hold(step, [] {});
 }
 
 /// The face of the contact alone.
