@@ -36,8 +36,7 @@ constexpr double kCreepSteps = 4;
 /// those they swing for ever. The discs of docs/stability.md had 0.06 to 80,000 J/kg of it, where this is 0.002 to 0.1.
 constexpr double kSettlingSteps = 100;
 
-/// And so much of what there is: the rounding of sums. Cloth in free space adds up to 3e-14 J/kg by it, of 0.1 and
-/// more.
+/// And so much of what there is, for the rounding of sums: without gravity that came to 3e-14 J/kg at most (tests/sim).
 constexpr double kEnergyRounding = 0x1p-36;
 
 /// As far as another face must be nearer to count: above rounding, which has a vertex over an edge go back and forth;
@@ -213,9 +212,15 @@ void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& 
   forget_impulses();
   vf_.groups.each(false,
                   [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
+  const TwiceEnergy by_loads = gained_since(v_free_, step);
+  const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
+  const double borne_j = by_loads.mass * fall_m_s * fall_m_s + kEnergyRounding * by_loads.before_j;
+  const bool may_be_too_much = by_loads.gain_j > borne_j;
   limit();
+  if (may_be_too_much) v_limited_ = step.v;
   sweep(step);
-  if (adds_energy(step)) {
+  if (may_be_too_much &&
+      by_loads.gain_j + gained_since(v_limited_, step).gain_j - 2 * work_from_outside_j(step) > borne_j) {
     step.v = v_free_;
     step.x_t1 = x_free_;
     forget_impulses();
@@ -244,34 +249,33 @@ void HeldContacts::sweep(const MidstepMotion& step) {
   }
 }
 
-/// Beyond what bodies and pins do by their motion: only in motion past them does contact take energy away.
-bool HeldContacts::adds_energy(const MidstepMotion& step) {
-  const TwiceEnergy twice =
-      parallel_sum(surface_.cloth_count, partial_energies_, [&](Eigen::Index begin, Eigen::Index end) {
-        TwiceEnergy sum;
-        for (Eigen::Index i = begin; i < end; ++i) {
-          const double w = surface_.inverse_mass[static_cast<std::size_t>(i)];
-          if (!(w > 0)) continue;
-          const double before = v_free_.row(i).squaredNorm();
-          sum += {1 / w, before / w, (step.v.row(i).squaredNorm() - before) / w};
-        }
-        return sum;
-      });
-  const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
-  const double borne_j = twice.mass * fall_m_s * fall_m_s + kEnergyRounding * twice.before_j;
-  if (!(twice.gain_j > borne_j)) return false;  // spares a look at all contacts
-  double work = 0;
+HeldContacts::TwiceEnergy HeldContacts::gained_since(const LaneVectors& v_before, const MidstepMotion& step) {
+  return parallel_sum(surface_.cloth_count, partial_energies_, [&](Eigen::Index begin, Eigen::Index end) {
+    TwiceEnergy sum;
+    for (Eigen::Index i = begin; i < end; ++i) {
+      const double w = surface_.inverse_mass[static_cast<std::size_t>(i)];
+      if (!(w > 0)) continue;
+      const double before = v_before.row(i).squaredNorm();
+      sum += {1 / w, before / w, (step.v.row(i).squaredNorm() - before) / w};
+    }
+    return sum;
+  });
+}
+
+/// What bodies and pins do by their motion to cloth that presses on them.
+double HeldContacts::work_from_outside_j(const MidstepMotion& step) const {
+  double sum = 0;
   for (std::size_t id = 0; id < packs_.size(); ++id) {
     const Lanes lanes = above_zero(packs_[id].pressed);
     PackMotion read;
     read_motion(packs_[id], lanes, motion_of(step), read);
-    LaneColumn<double> of_lane;
-    find_work_from_outside(packs_[id], read, of_lane);
+    LaneColumn<double> work;
+    find_work_from_outside(packs_[id], read, work);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (has_lane(lanes, lane)) work += of_lane[lane] / contact_at(id * kLanes + lane).interaction.inverse_mass_scale;
+      if (has_lane(lanes, lane)) sum += work[lane] / contact_at(id * kLanes + lane).interaction.inverse_mass_scale;
     }
   }
-  return twice.gain_j - 2 * work / (step.h * step.h) > borne_j;
+  return sum / (step.h * step.h);
 }
 
 /// What they bore in the last step, before anything else, where they are now.

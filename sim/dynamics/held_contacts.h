@@ -50,11 +50,11 @@ class HeldContacts {
 
   /// First the loads with their friction, where the contacts are now; then `limit`, the limits on strain, which else
   /// see cloth fall that is borne, and have it pull on what bears it (docs/numerics.md); then sweeps of inelastic
-  /// impulses, with friction in the last (paper, 7.2 and 7.3). Where energy came of it, which no motion of bodies
-  /// brought, once more without loads, and `limit` is called again: limits pass on what loads pushed too far, and what
-  /// is taken back then leaves that. Loads grow by it, and a disc of 150 faces round one vertex, folded over a needle,
-  /// flew off at 1,136 m/s (docs/stability.md). Contacts of unlike
-  /// masses, and those beside them, take more than others, the first ones (contact_sweeps.h).
+  /// impulses, with friction in the last (paper, 7.2 and 7.3). Where loads and sweeps have added energy, beyond what
+  /// bodies bring by their motion, all is done once more without loads, `limit` as well: limits pass on what loads
+  /// pushed too far, and leave it where the sweeps take that back. Loads grew by it, and a disc of 150 faces around one
+  /// vertex, folded over a needle, flew off at 1,136 m/s (docs/stability.md). Contacts of unlike masses, and those
+  /// beside them, take more sweeps than others, the first ones (contact_sweeps.h).
   /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
   /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
   /// friction that it began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it.
@@ -138,7 +138,8 @@ class HeldContacts {
   };
   void forget_impulses();
   void sweep(const MidstepMotion& step);
-  [[nodiscard]] bool adds_energy(const MidstepMotion& step);
+  [[nodiscard]] TwiceEnergy gained_since(const LaneVectors& v_before, const MidstepMotion& step);
+  [[nodiscard]] double work_from_outside_j(const MidstepMotion& step) const;
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
@@ -167,11 +168,11 @@ class HeldContacts {
   std::int32_t least_sweeps_, most_sweeps_;
   LaneVectors scripted_t0_, scripted_way_, scripted_bow_;  ///< of the vertices that are not cloth
   Kind vf_{PairKind::kVf, {}, {}}, ee_{PairKind::kEe, {}, {}};
-  std::vector<RepulsionContact> contacts_;  ///< as given; weights and normals that changed since are in packs_
-  std::vector<ContactPack> packs_;          ///< of vf, then ee; a place is a lane of one
-  std::vector<std::size_t> place_of_;       ///< of each contact
-  std::vector<std::size_t> contact_at_;     ///< of each place
-  LaneVectors v_free_, x_free_;             ///< before anything acted
+  std::vector<RepulsionContact> contacts_;   ///< as given; weights and normals that changed since are in packs_
+  std::vector<ContactPack> packs_;           ///< of vf, then ee; a place is a lane of one
+  std::vector<std::size_t> place_of_;        ///< of each contact
+  std::vector<std::size_t> contact_at_;      ///< of each place
+  LaneVectors v_free_, x_free_, v_limited_;  ///< before anything acted, and behind the limits
   std::vector<TwiceEnergy> partial_energies_;
   bool backwards_ = false;
 };

@@ -209,6 +209,25 @@ TEST(HeldContacts, KeepLoadsWhereTheEnergyIsWhatABodyBrings) {
   EXPECT_NEAR(column.v.row(Column::kCount - 1).z(), 200, 1e-9);
 }
 
+TEST(HeldContacts, KeepLoadsWhereTheEnergyIsWhatTheLimitsBring) {
+  // As those at pins do, that pull.
+  Column column;
+  column.contacts.resize(1);
+  column.loads.vf = {{0, 0, Column::kGravity}};
+  column.v.row(0).z() = -Column::kShort * Column::kGravity;
+  column.x.row(0).z() += Column::kShort * column.v.row(0).z();
+  HeldContacts held(column.contacts, column.loads, column.surface(), column.V, column.V, Column::kShort, 1);
+  int count = 0;
+  held.hold({Column::kShort, 1, column.x, column.v}, [&] {
+    ++count;
+    EXPECT_NEAR(column.v.row(0).z(), 0, 1e-12) << "it is borne";
+    column.v.row(0).x() = 100;
+    column.x.row(0).x() = Column::kShort * 100;
+  });
+  EXPECT_EQ(count, 1);
+  EXPECT_EQ(column.v.row(0).x(), 100);
+}
+
 TEST(HeldContacts, KeepTheLimitOfALever) {
   // The only free corner of a face, 32 times as far from the body's vertex below it as the corners that are held. The
   // vertex rises.
