@@ -154,6 +154,7 @@ const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<
   const PhaseTimer timer(result.phases.dynamics);
   const Eigen::Index cloth = world_.cloth_vertex_count;
   const HeldSurface surface{world_.mesh,
+                            parts_,
                             vertex_faces_,
                             collision_step_.contact_table(),
                             script_.inverse_mass(),

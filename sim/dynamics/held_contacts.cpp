@@ -36,9 +36,6 @@ constexpr double kCreepSteps = 4;
 /// those they swing for ever. The discs of docs/stability.md had 0.06 to 80,000 J/kg of it, where this is 0.002 to 0.1.
 constexpr double kSettlingSteps = 100;
 
-/// And so much of what there is, for the rounding of sums: without gravity that came to 3e-14 J/kg at most (tests/sim).
-constexpr double kEnergyRounding = 0x1p-36;
-
 /// As far as another face must be nearer to count: above rounding, which has a vertex over an edge go back and forth;
 /// on a flat surface it has slid over the border by 1.4e-3 of its distance then.
 constexpr double kNearer = 1 - 1e-6;
@@ -95,6 +92,7 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const Contact
       least_sweeps_(sweeps),
       most_sweeps_(sweeps),
       contacts_(std::move(contacts)),
+      gains_(surface.parts, contacts_, surface.inverse_mass, surface.cloth_count),
       place_of_(contacts_.size(), ContactGroups::kNobody) {
   if (contacts_.empty()) return;
   const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
@@ -207,25 +205,31 @@ ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
 }
 
 void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& limit) {
+  const bool backwards = backwards_;
   v_free_ = step.v;
   x_free_ = step.x_t1;
   forget_impulses();
   vf_.groups.each(false,
                   [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
-  const TwiceEnergy by_loads = gained_since(v_free_, step);
+  gains_.clear();
+  gains_.add_motion(v_free_, step.v);
   const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
-  const double borne_j = by_loads.mass * fall_m_s * fall_m_s + kEnergyRounding * by_loads.before_j;
-  const bool may_be_too_much = by_loads.gain_j > borne_j;
+  const double borne_j_kg = fall_m_s * fall_m_s / 2;
+  const bool may_be_too_much = gains_.exceed(borne_j_kg);
   limit();
   if (may_be_too_much) v_limited_ = step.v;
   sweep(step);
-  if (may_be_too_much &&
-      by_loads.gain_j + gained_since(v_limited_, step).gain_j - 2 * work_from_outside_j(step) > borne_j) {
-    step.v = v_free_;
-    step.x_t1 = x_free_;
-    forget_impulses();
-    limit();
-    sweep(step);
+  if (may_be_too_much) {
+    gains_.add_motion(v_limited_, step.v);
+    take_work_from_outside(step);
+    if (gains_.exceed(borne_j_kg)) {
+      step.v = v_free_;
+      step.x_t1 = x_free_;
+      forget_impulses();
+      limit();
+      backwards_ = backwards;
+      sweep(step);
+    }
   }
   each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) { learn_loads(kLearning, step.h, pack); });
 }
@@ -249,33 +253,23 @@ void HeldContacts::sweep(const MidstepMotion& step) {
   }
 }
 
-HeldContacts::TwiceEnergy HeldContacts::gained_since(const LaneVectors& v_before, const MidstepMotion& step) {
-  return parallel_sum(surface_.cloth_count, partial_energies_, [&](Eigen::Index begin, Eigen::Index end) {
-    TwiceEnergy sum;
-    for (Eigen::Index i = begin; i < end; ++i) {
-      const double w = surface_.inverse_mass[static_cast<std::size_t>(i)];
-      if (!(w > 0)) continue;
-      const double before = v_before.row(i).squaredNorm();
-      sum += {1 / w, before / w, (step.v.row(i).squaredNorm() - before) / w};
-    }
-    return sum;
-  });
-}
-
 /// What bodies and pins do by their motion to cloth that presses on them.
-double HeldContacts::work_from_outside_j(const MidstepMotion& step) const {
-  double sum = 0;
+void HeldContacts::take_work_from_outside(const MidstepMotion& step) {
+  const ContactMotion motion = motion_of(step);
   for (std::size_t id = 0; id < packs_.size(); ++id) {
     const Lanes lanes = above_zero(packs_[id].pressed);
+    if (lanes == 0) continue;
     PackMotion read;
-    read_motion(packs_[id], lanes, motion_of(step), read);
+    read_motion(packs_[id], lanes, motion, read);
     LaneColumn<double> work;
     find_work_from_outside(packs_[id], read, work);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (has_lane(lanes, lane)) sum += work[lane] / contact_at(id * kLanes + lane).interaction.inverse_mass_scale;
+      if (!has_lane(lanes, lane)) continue;
+      const Interaction& pair = contact_at(id * kLanes + lane).interaction;
+      const auto cloth = std::ranges::find_if(pair.vertices, [&](VertexId v) { return is_cloth(v); });
+      gains_.take_work(*cloth, work[lane] / (pair.inverse_mass_scale * step.h * step.h));
     }
   }
-  return sum / (step.h * step.h);
 }
 
 /// What they bore in the last step, before anything else, where they are now.

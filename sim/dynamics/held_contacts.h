@@ -13,6 +13,7 @@
 #include "sim/contact/contact_table.h"
 #include "sim/contact/quick_proximity.h"
 #include "sim/contact/repulsion_contact.h"
+#include "sim/dynamics/contact_gains.h"
 #include "sim/dynamics/contact_groups.h"
 #include "sim/dynamics/contact_load.h"
 #include "sim/dynamics/contact_pack.h"
@@ -33,6 +34,7 @@ struct MidstepMotion {
 /// a table that turned at 2 rad/s, half a metre from its axis, in steps of 1/30 s under a friction of 0.5.
 struct HeldSurface {
   const Mesh& mesh;
+  const SurfaceParts& parts;
   const VertexFaces& faces;
   const ContactTable& properties;
   std::span<const double> inverse_mass;
@@ -50,24 +52,24 @@ class HeldContacts {
 
   /// First the loads with their friction, where the contacts are now; then `limit`, the limits on strain, which else
   /// see cloth fall that is borne, and have it pull on what bears it (docs/numerics.md); then sweeps of inelastic
-  /// impulses, with friction in the last (paper, 7.2 and 7.3). Where loads and sweeps have added energy, beyond what
-  /// bodies bring by their motion, all is done once more without loads, `limit` as well: limits pass on what loads
-  /// pushed too far, and leave it where the sweeps take that back. Loads grew by it, and a disc of 150 faces around one
-  /// vertex, folded over a needle, flew off at 1,136 m/s (docs/stability.md). Contacts of unlike masses, and those
-  /// beside them, take more sweeps than others, the first ones (contact_sweeps.h).
-  /// A contact alone ends no nearer than its thickness, or than it was before the step, after any number of sweeps,
-  /// and adds no energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the
-  /// friction that it began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it.
-  /// Of many something is left (tests/sim/energy_test.cpp asks their energy). They keep linear momentum. Every contact
-  /// that presses is first looked at where it is now: held where they were at the start of the collision step, cloth
-  /// that a ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an
-  /// edge was held in the air. A vertex that has left its face is held by the one on which it is now: held by the
-  /// border that it left, cloth without friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s
-  /// in a second. In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave
-  /// nothing for the edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2
-  /// micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a sweep, eight at
-  /// once and in parallel where contacts share no vertex (contact_groups.h); one that slides on to a vertex of another
-  /// of its eight acts alone from then on. Same bits for any number of threads and any vector unit.
+  /// impulses, with friction in the last (paper, 7.2 and 7.3). Where loads and sweeps have given cloth that hangs
+  /// together more energy than it falls by in 100 steps, past what bodies bring by their motion, all contacts act once
+  /// more without loads, and `limit` with them: limits pass on what loads pushed too far, and leave it where the sweeps
+  /// take that back. Loads grew by it, and a disc of 150 faces around one vertex, folded over a needle, flew off at
+  /// 1,136 m/s (docs/stability.md). Contacts of unlike masses, and those beside them, take more sweeps than others, the
+  /// first ones (contact_sweeps.h). A contact alone ends no nearer than its thickness, or than it was before the step,
+  /// after any number of sweeps, and adds no energy: it takes back what its load or an earlier sweep, over-relaxed,
+  /// pushed too far, and the friction that it began with. Where its lever is limited (interaction.h) it is pushed once,
+  /// as far as that lets it. Of many something is left (tests/sim/energy_test.cpp asks their energy). They keep linear
+  /// momentum. Every contact that presses is first looked at where it is now: held where they were at the start of the
+  /// collision step, cloth that a ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms,
+  /// and what slid off an edge was held in the air. A vertex that has left its face is held by the one on which it is
+  /// now: held by the border that it left, cloth without friction that slid at 2 m/s over a flat ground of small faces
+  /// slowed to 1.5 m/s in a second. In turn back and forth, but vertices before edges always: in cloth at rest on a
+  /// plane they leave nothing for the edges between them to press, while edges alone lift one end to hold the other (a
+  /// corner swung by 2 micrometres for ever). Call for the steps of a collision step in their order. O(contacts) a
+  /// sweep, eight at once and in parallel where contacts share no vertex (contact_groups.h); one that slides on to a
+  /// vertex of another of its eight acts alone from then on. Same bits for any number of threads and any vector unit.
   void hold(const MidstepMotion& step, const std::function<void()>& limit);
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
@@ -126,20 +128,9 @@ class HeldContacts {
   [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact, const ContactLoads& loads) const;
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
-  /// Of the cloth: mass, kg, and twice the kinetic energy that it had and that it has gained.
-  struct TwiceEnergy {
-    double mass = 0, before_j = 0, gain_j = 0;
-    TwiceEnergy& operator+=(const TwiceEnergy& other) {
-      mass += other.mass;
-      before_j += other.before_j;
-      gain_j += other.gain_j;
-      return *this;
-    }
-  };
   void forget_impulses();
   void sweep(const MidstepMotion& step);
-  [[nodiscard]] TwiceEnergy gained_since(const LaneVectors& v_before, const MidstepMotion& step);
-  [[nodiscard]] double work_from_outside_j(const MidstepMotion& step) const;
+  void take_work_from_outside(const MidstepMotion& step);
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
@@ -168,12 +159,12 @@ class HeldContacts {
   std::int32_t least_sweeps_, most_sweeps_;
   LaneVectors scripted_t0_, scripted_way_, scripted_bow_;  ///< of the vertices that are not cloth
   Kind vf_{PairKind::kVf, {}, {}}, ee_{PairKind::kEe, {}, {}};
-  std::vector<RepulsionContact> contacts_;   ///< as given; weights and normals that changed since are in packs_
+  std::vector<RepulsionContact> contacts_;  ///< as given; weights and normals that changed since are in packs_
+  ContactGains gains_;
   std::vector<ContactPack> packs_;           ///< of vf, then ee; a place is a lane of one
   std::vector<std::size_t> place_of_;        ///< of each contact
   std::vector<std::size_t> contact_at_;      ///< of each place
   LaneVectors v_free_, x_free_, v_limited_;  ///< before anything acted, and behind the limits
-  std::vector<TwiceEnergy> partial_energies_;
   bool backwards_ = false;
 };
 

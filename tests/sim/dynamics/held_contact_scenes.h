@@ -13,12 +13,14 @@ inline constexpr double kHeldThickness = 0.25, kHeldStep = 0.125;
 /// What contacts are on: `faces` over all vertices, of which those with mass come first.
 struct Ground {
   Mesh mesh;
+  SurfaceParts parts;
   VertexFaces faces;
   ContactTable properties;
   std::vector<double> inverse_mass;
 
   Ground(const Faces& F, std::vector<double> inverse_masses)
       : mesh(make_mesh(static_cast<std::int32_t>(inverse_masses.size()), F)),
+        parts(mesh),
         faces(mesh),
         properties(mesh, options(), {}),
         inverse_mass(std::move(inverse_masses)) {}
@@ -28,7 +30,7 @@ struct Ground {
     return options;
   }
   [[nodiscard]] HeldSurface surface(Eigen::Index cloth_count) const {
-    return {mesh, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()};
+    return {mesh, parts, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()};
   }
 };
 

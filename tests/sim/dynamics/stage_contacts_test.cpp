@@ -12,6 +12,7 @@ constexpr double kStageThickness = 0.25, kStageStep = 0.125;
 /// One contact of four vertices, of which the first `cloth_count` are cloth, and what a stage adds for it.
 struct OneStageContact {
   Mesh mesh = make_mesh(4, Faces{{1, 2, 3}});
+  SurfaceParts parts{mesh};
   VertexFaces faces{mesh};
   ContactTable properties{mesh, {}, {}};
   std::vector<double> inverse_mass, resistance_kg;
@@ -27,7 +28,8 @@ struct OneStageContact {
         x(rows(pair.x_t0)),
         x_t1(x),
         held({contact(pair, friction)}, loads,
-             HeldSurface{mesh, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()}, x, x_t1, kStageStep, 1),
+             HeldSurface{mesh, parts, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()}, x, x_t1,
+             kStageStep, 1),
         stage(held, x.topRows(cloth_count), inverse_mass, resistance_kg, {0, 1, kStageStep}) {}
 
   static std::vector<double> resistances(const RandomPair& pair) {
