@@ -76,8 +76,9 @@ void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const Co
 void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,
            const ContactMotion& motion);
 
-/// The work of what no impulse moves, by those that have pressed and rubbed: joules times the square of the step, and
-/// times Interaction::inverse_mass_scale.
+/// The work that vertices which no impulse moves, of bodies and at pins, do on the others of their contact in this
+/// step, by what has pressed and rubbed: joules times the square of the step and times Interaction::inverse_mass_scale.
+/// Normal and weights are those by which it pressed, as a contact is not looked at again while it presses.
 void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, LaneColumn<double>& result);
 
 /// From what they did, what they begin the next step with: `share` of what was missing or too much.
