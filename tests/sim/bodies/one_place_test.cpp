@@ -45,6 +45,13 @@ TEST(OnePlace, WhatPartsInAnyFrameIsNotOne) {
   EXPECT_EQ(place.first(), (Numbers{0, 1, 0, 3, 4})) << "what met again has parted";
 }
 
+TEST(OnePlace, TwoPairsThatMeetStayTwo) {
+  OnePlace place;
+  place.narrow(rows({{1, 1, 1}, {5, 5, 5}, {1, 1, 1}, {5, 5, 5}}));
+  place.narrow(rows({{2, 2, 2}, {2, 2, 2}, {2, 2, 2}, {2, 2, 2}}));
+  EXPECT_EQ(place.first(), (Numbers{0, 1, 0, 1}));
+}
+
 TEST(OnePlace, NoVerticesHaveNone) {
   OnePlace place;
   place.narrow(Positions(0, 3));
