@@ -1,5 +1,5 @@
-// What contact adds to the kinetic energy of cloth, apart for what hangs together by springs, faces or contacts: what
-// falls elsewhere hides nothing, however heavy it is.
+// What contact adds to the kinetic energy of cloth, apart for what hangs together by faces or contacts: what falls
+// elsewhere hides nothing, however heavy it is.
 #pragma once
 
 #include <span>

@@ -217,28 +217,32 @@ void write_disc_and_needle(const std::filesystem::path& folder, double size_m) {
   write(std::ofstream(folder / "needle.obj"), 6, 0.004 * size_m, 0.4 * size_m);
 }
 
-// Each face around the middle began with all of what the tip had borne: 1,136 m/s of 150 faces, and 20,000 J/kg.
-TEST(Energy, ADiscOfManyFacesFoldedOverANeedleGainsNone) {
-  const testing::TemporaryFolder folder;
-  write_disc_and_needle(folder.path(), 1);
-  Simulation simulation(testing::write_and_read_scene(folder.path() / "disc.toml", R"(
+/// The disc over the needle, and what else is in the scene.
+Simulation disc_over_needle(const std::filesystem::path& folder, double size_m, const std::string& thickness_m,
+                            const std::string& height_m, const std::string& more = "") {
+  write_disc_and_needle(folder, size_m);
+  return Simulation(testing::write_and_read_scene(folder / "disc.toml", R"(
 gravity_m_s2 = [0, 0, -9.81]
 [time]
 frames_per_s = 30
 duration_s = 0.5
 [collision]
-thickness_m = 0.001
 friction_static = 0.5
+thickness_m = )" + thickness_m + R"(
 [[cloth]]
 mesh = {file = "disc.obj"}
-position_m = [0, 0, 0.05]
 density_kg_m2 = 0.2
 stretch_n_m = 60
 bend_n_m = 0.3
 damping_ratio = 0.1
-[[body]]
-mesh = {file = "needle.obj"}
-)"));
+position_m = [0, 0, )" + height_m + R"(]
+)" + more + "[[body]]\nmesh = {file = \"needle.obj\"}\n"));
+}
+
+// Each face around the middle began with all of what the tip had borne: 1,136 m/s of 150 faces, and 20,000 J/kg.
+TEST(Energy, ADiscOfManyFacesFoldedOverANeedleGainsNone) {
+  const testing::TemporaryFolder folder;
+  Simulation simulation = disc_over_needle(folder.path(), 1, "0.001", "0.05");
   const double start_j = energy_j(simulation);
   std::int64_t contacts = 0;
   while (simulation.clock().time_s() < 0.5 - 1e-9) {
@@ -253,31 +257,13 @@ mesh = {file = "needle.obj"}
 // 0.012 J/kg into its springs, alone as well.)
 TEST(Energy, WhatFallsElsewhereDoesNotHideWhatLoadsGain) {
   const testing::TemporaryFolder folder;
-  write_disc_and_needle(folder.path(), 0.1);
-  Simulation simulation(testing::write_and_read_scene(folder.path() / "disc.toml", R"(
-gravity_m_s2 = [0, 0, -9.81]
-[time]
-frames_per_s = 30
-duration_s = 0.2
-[collision]
-thickness_m = 0.0003
-friction_static = 0.5
-[[cloth]]
-mesh = {file = "disc.obj"}
-position_m = [0, 0, 0.003]
-density_kg_m2 = 0.2
-stretch_n_m = 60
-bend_n_m = 0.3
-damping_ratio = 0.1
-[[cloth]]
+  Simulation simulation = disc_over_needle(folder.path(), 0.1, "0.0003", "0.003", R"([[cloth]]
 name = "heavy"
 sheet = {nx = 10, ny = 10, width_m = 1.7, height_m = 1.7}
 position_m = [10, 0, 0]
 density_kg_m2 = 1
 stretch_n_m = 600
-[[body]]
-mesh = {file = "needle.obj"}
-)"));
+)");
   constexpr VertexId kDisc = 151;
   constexpr double kMostGain_j = 0.05 * 1.57e-3;
   const double start_j = energy_j(simulation, kDisc);
