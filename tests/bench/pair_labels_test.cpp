@@ -1,10 +1,9 @@
 #include "bench/pair_labels.h"
 
-#include <fstream>
-
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "tests/temporary_folder.h"
 
 namespace selvage::bench {
 namespace {
@@ -12,21 +11,19 @@ namespace {
 /// Two faces: vertices 0-5, edges 6-11, faces 12-13.
 class PairLabels : public ::testing::Test {
  protected:
-  PairLabels() : folder_(std::filesystem::path(::testing::TempDir()) / "pair_labels") {
+  PairLabels() {
     Faces F(2, 3);
     F << 0, 1, 2, 3, 4, 5;
     mesh_ = make_mesh(6, F);
-    std::filesystem::create_directories(folder_);
   }
-  ~PairLabels() override { std::filesystem::remove_all(folder_); }
 
   std::vector<LabelledPair> read(const std::string& boxes, const std::string& verdicts) {
-    std::ofstream(folder_ / "boxes.json") << boxes;
-    std::ofstream(folder_ / "verdicts.json") << verdicts;
+    testing::spit(folder_ / "boxes.json", boxes);
+    testing::spit(folder_ / "verdicts.json", verdicts);
     return read_pair_labels(folder_ / "boxes.json", folder_ / "verdicts.json", mesh_);
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder folder_;
   Mesh mesh_;
 };
 

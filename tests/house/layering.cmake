@@ -47,6 +47,15 @@ foreach(room kernel io sim verify)
   endforeach()
 endforeach()
 
+# Tests run beside each other: what writes has a folder of its own (tests/temporary_folder.h), never one that has a name.
+file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/tests/*.h" "${ROOT}/tests/*.cpp")
+foreach(source ${sources})
+  file(STRINGS "${ROOT}/${source}" shared REGEX "TempDir\\(|temp_directory_path|\"/tmp")
+  if(shared AND NOT source STREQUAL "tests/temporary_folder.h")
+    list(APPEND faults "${ROOT}/${source}: ${shared}: a test's files are in a TemporaryFolder")
+  endif()
+endforeach()
+
 # The rooms within sim and within verify, likewise. What stands in the folder of sim itself is the step, and what makes it: it
 # may use them all but those that are made of steps. In that of verify it is the checks, which ask all of its rooms.
 set(sim_itself step)
