@@ -48,7 +48,7 @@ void ContactGains::add_motion(const LaneVectors& before, const LaneVectors& afte
 
 bool ContactGains::exceed(double borne_j_kg) const {
   for (std::size_t i = 0; i < twice_j_.size(); ++i) {
-    if (twice_j_[i] > 2 * borne_j_kg * mass_kg_[i]) return true;
+    if (exceeds(i, borne_j_kg)) return true;
   }
   return false;
 }

@@ -25,9 +25,14 @@ class ContactGains {
   void take_work(VertexId vertex, double work_j) { twice_j_[set_of(vertex)] -= 2 * work_j; }
   /// Whether any gained more than `borne_j_kg`.
   [[nodiscard]] bool exceed(double borne_j_kg) const;
+  /// Whether the cloth of a vertex of it did.
+  [[nodiscard]] bool exceed_at(VertexId vertex, double borne_j_kg) const { return exceeds(set_of(vertex), borne_j_kg); }
 
  private:
   [[nodiscard]] std::size_t set_of(VertexId vertex) const { return set_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] bool exceeds(std::size_t set, double borne_j_kg) const {
+    return twice_j_[set] > 2 * borne_j_kg * mass_kg_[set];
+  }
 
   std::span<const double> inverse_mass_;
   std::vector<std::size_t> set_;     ///< by vertex: the smallest one of its set

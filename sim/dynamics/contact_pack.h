@@ -28,6 +28,7 @@ struct alignas(64) ContactPack {
   LaneColumn3 rubbed{};
   LaneColumn<std::int32_t> sweeps{};  ///< where not all take as many
   Lanes ever_repelled = 0, ever_rubbed = 0;
+  Lanes without_load = 0;  ///< of cloth to which loads have added energy in this step of the dynamics
 };
 
 /// The cloth in a step of the dynamics of h seconds, x_t1 = x + h v, and what is not cloth: at

@@ -206,16 +206,14 @@ ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
 }
 
 void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& limit) {
+  const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
+  const double borne_j_kg = fall_m_s * fall_m_s / 2;
   const bool backwards = backwards_;
   v_free_ = step.v;
   x_free_ = step.x_t1;
-  forget_impulses();
-  vf_.groups.each(false,
-                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
   gains_.clear();
+  bear_all(step);
   gains_.add_motion(v_free_, step.v);
-  const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
-  const double borne_j_kg = fall_m_s * fall_m_s / 2;
   const bool may_be_too_much = gains_.exceed(borne_j_kg);
   limit();
   if (may_be_too_much) v_limited_ = step.v;
@@ -226,13 +224,17 @@ void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& 
     if (gains_.exceed(borne_j_kg)) {
       step.v = v_free_;
       step.x_t1 = x_free_;
-      forget_impulses();
+      withhold_loads(borne_j_kg);
+      bear_all(step);
       limit();
       backwards_ = backwards;
       sweep(step);
     }
   }
-  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) { learn_loads(kLearning, step.h, pack); });
+  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) {
+    learn_loads(kLearning, step.h, pack);
+    pack.without_load = 0;
+  });
 }
 
 void HeldContacts::forget_impulses() {
@@ -240,6 +242,12 @@ void HeldContacts::forget_impulses() {
     pack.pressed = {};
     pack.rubbed = {};
   });
+}
+
+void HeldContacts::bear_all(const MidstepMotion& step) {
+  forget_impulses();
+  vf_.groups.each(false,
+                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
 }
 
 void HeldContacts::sweep(const MidstepMotion& step) {
@@ -266,18 +274,31 @@ void HeldContacts::take_work_from_outside(const MidstepMotion& step) {
     find_work_from_outside(packs_[id], read, work);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (!has_lane(lanes, lane)) continue;
-      const Interaction& pair = contact_at(id * kLanes + lane).interaction;
-      const auto cloth = std::ranges::find_if(pair.vertices, [&](VertexId v) { return is_cloth(v); });
-      gains_.take_work(*cloth, work[lane] / (pair.inverse_mass_scale * step.h * step.h));
+      const std::size_t place = id * kLanes + lane;
+      const double scale = contact_at(place).interaction.inverse_mass_scale * step.h * step.h;
+      gains_.take_work(cloth_of(place), work[lane] / scale);
     }
   }
+}
+
+/// Those of cloth that has gained more than is borne.
+void HeldContacts::withhold_loads(double borne_j_kg) {
+  for (std::size_t place = 0; place < ee_.first_pack * kLanes; ++place) {
+    if (contact_at_[place] == ContactGroups::kNobody || !gains_.exceed_at(cloth_of(place), borne_j_kg)) continue;
+    packs_[place / kLanes].without_load |= only_lane(place % kLanes);
+  }
+}
+
+/// A vertex of cloth of the contact.
+VertexId HeldContacts::cloth_of(std::size_t place) const {
+  return *std::ranges::find_if(contact_at(place).interaction.vertices, [&](VertexId v) { return is_cloth(v); });
 }
 
 /// What they bore in the last step, before anything else, where they are now.
 HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
   ContactPack& pack = packs_[vf_.first_pack + id];
   fetch(packs_, vf_.first_pack + id + 1);
-  lanes &= above_zero(pack.load_m_s2);
+  lanes &= static_cast<Lanes>(above_zero(pack.load_m_s2) & ~pack.without_load);
   if (lanes == 0) return {};
   PackMotion read;
   read_motion(pack, lanes, motion_of(step), read);

@@ -69,8 +69,9 @@ class HeldContacts {
   /// threads and any vector unit.
   ///
   /// Where loads and sweeps have given cloth that hangs together more energy than it falls by in 100 steps, past what
-  /// bodies bring by their motion, all contacts act once more without loads, and `limit` with them, which may begin
-  /// with what it found before: limits pass on what loads pushed too far, and leave it where the sweeps take that back.
+  /// bodies bring by their motion, all contacts act once more, without the loads of that cloth, and `limit` with them,
+  /// which may begin with what it found before: limits pass on what loads pushed too far, and leave it where the sweeps
+  /// take that back.
   /// Loads grew by it, and a disc of 150 faces around one vertex, folded over a needle, flew off at 1,136 m/s
   /// (docs/stability.md).
   void hold(const MidstepMotion& step, const std::function<void()>& limit);
@@ -132,9 +133,12 @@ class HeldContacts {
   [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
   void forget_impulses();
+  void bear_all(const MidstepMotion& step);
   void sweep(const MidstepMotion& step);
   void take_work_from_outside(const MidstepMotion& step);
+  void withhold_loads(double borne_j_kg);
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
+  [[nodiscard]] VertexId cloth_of(std::size_t place) const;
   [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
                              const MidstepMotion& step);
