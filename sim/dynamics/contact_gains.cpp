@@ -16,7 +16,7 @@ constexpr double kEnergyRounding = 0x1p-36;
 
 ContactGains::ContactGains(const SurfaceParts& parts, std::span<const RepulsionContact> contacts,
                            std::span<const double> inverse_mass, Eigen::Index cloth_count)
-    : inverse_mass_(inverse_mass), mass_kg_(static_cast<std::size_t>(cloth_count), 0) {
+    : mass_kg_(static_cast<std::size_t>(cloth_count), 0) {
   DisjointSets<VertexId> sets(static_cast<VertexId>(cloth_count));
   for (const RepulsionContact& contact : contacts) {
     VertexId one = -1;
@@ -27,9 +27,14 @@ ContactGains::ContactGains(const SurfaceParts& parts, std::span<const RepulsionC
     }
   }
   for (VertexId i = 0; i < cloth_count; ++i) {
-    set_.push_back(static_cast<std::size_t>(sets.root(parts.part(i))));
     const double w = inverse_mass[static_cast<std::size_t>(i)];
-    if (w > 0) mass_kg_[set_.back()] += 1 / w;
+    set_.push_back(static_cast<std::size_t>(sets.root(parts.part(i))));
+    vertex_kg_.push_back(w > 0 ? 1 / w : 0);
+    mass_kg_[set_.back()] += vertex_kg_.back();
+    const bool begins_block = i % kParallelBlock == 0;
+    if (begins_block) first_run_.push_back(runs_.size());
+    if (begins_block || runs_.back().set != set_.back()) runs_.push_back({i, i, set_.back(), 0});
+    ++runs_.back().end;
   }
   clear();
 }
@@ -37,13 +42,18 @@ ContactGains::ContactGains(const SurfaceParts& parts, std::span<const RepulsionC
 void ContactGains::clear() { twice_j_.assign(mass_kg_.size(), 0); }
 
 void ContactGains::add_motion(const LaneVectors& before, const LaneVectors& after) {
-  of_vertex_j_.resize(set_.size());
-  parallel_each(std::ssize(set_), [&](Eigen::Index i) {
-    const double w = inverse_mass_[static_cast<std::size_t>(i)];
-    const double from = before.row(i).squaredNorm(), to = after.row(i).squaredNorm();
-    of_vertex_j_[static_cast<std::size_t>(i)] = w > 0 ? (to - from - kEnergyRounding * from) / w : 0;
+  parallel_blocks(std::ssize(set_), [&](Eigen::Index begin, Eigen::Index end) {
+    std::size_t id = first_run_[static_cast<std::size_t>(begin / kParallelBlock)];
+    for (; id < runs_.size() && runs_[id].begin < end; ++id) {
+      Run& run = runs_[id];
+      run.twice_j = 0;
+      for (Eigen::Index i = run.begin; i < run.end; ++i) {
+        const double from = before.row(i).squaredNorm(), to = after.row(i).squaredNorm();
+        run.twice_j += vertex_kg_[static_cast<std::size_t>(i)] * (to - from - kEnergyRounding * from);
+      }
+    }
   });
-  for (std::size_t i = 0; i < set_.size(); ++i) twice_j_[set_[i]] += of_vertex_j_[i];
+  for (const Run& run : runs_) twice_j_[run.set] += run.twice_j;
 }
 
 bool ContactGains::exceed(double borne_j_kg) const {

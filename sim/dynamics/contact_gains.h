@@ -13,7 +13,7 @@ namespace selvage::sim {
 
 class ContactGains {
  public:
-  /// Of the first `cloth_count` vertices; none gained yet. The masses must outlive it. O(vertices + contacts).
+  /// Of the first `cloth_count` vertices; none gained yet. O(vertices + contacts).
   ContactGains(const SurfaceParts& parts, std::span<const RepulsionContact> contacts,
                std::span<const double> inverse_mass, Eigen::Index cloth_count);
 
@@ -29,16 +29,23 @@ class ContactGains {
   [[nodiscard]] bool exceed_at(VertexId vertex, double borne_j_kg) const { return exceeds(set_of(vertex), borne_j_kg); }
 
  private:
+  /// Vertices next to each other, of one set and of one parallel block.
+  struct Run {
+    Eigen::Index begin, end;
+    std::size_t set;
+    double twice_j;  ///< gained in a motion
+  };
   [[nodiscard]] std::size_t set_of(VertexId vertex) const { return set_[static_cast<std::size_t>(vertex)]; }
   [[nodiscard]] bool exceeds(std::size_t set, double borne_j_kg) const {
     return twice_j_[set] > 2 * borne_j_kg * mass_kg_[set];
   }
 
-  std::span<const double> inverse_mass_;
-  std::vector<std::size_t> set_;     ///< by vertex: the smallest one of its set
-  std::vector<double> mass_kg_;      ///< by set, at its smallest vertex
-  std::vector<double> twice_j_;      ///< the same: twice what was gained
-  std::vector<double> of_vertex_j_;  ///< room to work in
+  std::vector<std::size_t> set_;   ///< by vertex: the smallest one of its set
+  std::vector<double> vertex_kg_;  ///< zero where it cannot move
+  std::vector<double> mass_kg_;    ///< by set, at its smallest vertex
+  std::vector<double> twice_j_;    ///< the same: twice what was gained
+  std::vector<Run> runs_;
+  std::vector<std::size_t> first_run_;  ///< by block
 };
 
 }  // namespace selvage::sim

@@ -81,6 +81,14 @@ void each_pack(std::span<ContactPack> packs, Body body) {
   });
 }
 
+/// In parallel.
+void copy(const LaneVectors& from, LaneVectors& to) {
+  to.resize(from.rows());
+  parallel_blocks(from.rows(), [&](Eigen::Index begin, Eigen::Index end) {
+    for (int k = 0; k < 3; ++k) std::copy(from.axis(k) + begin, from.axis(k) + end, to.axis(k) + begin);
+  });
+}
+
 }  // namespace
 
 HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const ContactLoads& loads,
@@ -209,8 +217,8 @@ void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& 
   const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
   const double borne_j_kg = fall_m_s * fall_m_s / 2;
   const bool backwards = backwards_;
-  v_free_ = step.v;
-  x_free_ = step.x_t1;
+  copy(step.v, v_free_);
+  copy(step.x_t1, x_free_);
   gains_.clear();
   bear_all(step);
   gains_.add_motion(v_free_, step.v);
