@@ -168,12 +168,13 @@ TEST(Driver, CrashesAndHangsAreFindingsAndNotTheEnd) {
   EXPECT_EQ(ledger.findings.at({"one", "hung"}).count, 2);
 }
 
-/// A unit of cases that take a millisecond, until one does something else.
+/// A unit of cases that take a millisecond, until one does something else. Few are ahead of that one: on a busy machine
+/// the campaigns of run_out_of_time() come to a few dozen.
 class Slow final : public Property {
  public:
   using Case = void (*)();
   explicit Slow(Case last) : Property("slow", "goes on"), last_(last) {
-    streams_ = {{"one", 'A', 200}, {"two", 'A', 200}};
+    streams_ = {{"one", 'A', last == nullptr ? 200 : 1}, {"two", 'A', 200}};
   }
   Outcome run(const Stream& stream, ChoiceSource source) override {
     if (last_ != nullptr && stream.name == "two") last_();
@@ -188,7 +189,7 @@ class Slow final : public Property {
   Case last_;
 };
 
-/// A campaign that is out of time while the third stream is in hand, and how long it took.
+/// A campaign that is soon out of time, and how long it took.
 double run_out_of_time(Properties& properties, DriverOptions options) {
   options.seconds = 0.3;
   options.case_seconds = 0.5;
