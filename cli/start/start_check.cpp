@@ -91,6 +91,17 @@ bool has_edge_without_length(const sim::World& world) {
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
 }
 
+/// `first` pairs intersect; how many of them are gone is shown.
+sim::RepairedStart repair_and_show(const sim::Simulation& simulation, const Judge& judge, std::size_t first) {
+  ProgressBar bar("repair");
+  bar.update(0, first);
+  return sim::repair_start(simulation, [&](const Positions& x) {
+    std::vector<sim::FacePair> left = judge(x);
+    bar.update(first - std::min(first, left.size()), first);
+    return left;
+  });
+}
+
 }  // namespace
 
 sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
@@ -111,7 +122,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
            "that is more than --repair looks at; " + start_remedy(world, simulation.x(), pairs, false));
   }
   if (has_edge_without_length(world)) refuse(simulation, pairs, start_remedy(world, simulation.x(), pairs, false));
-  sim::RepairedStart repaired = sim::repair_start(simulation, judge);
+  sim::RepairedStart repaired = repair_and_show(simulation, judge, pairs.size());
   if (!repaired.remaining.empty()) {
     std::vector<sim::FacePair> since_start = repaired.remaining;  // what the repair has made says nothing of a mesh
     std::erase_if(since_start, [&](const sim::FacePair& pair) { return !std::ranges::binary_search(pairs, pair); });
