@@ -52,7 +52,9 @@ void inside_out(Trial& trial) {
     const Vec3 centre = stage.x().colwise().mean();
     stage.step_to((-stage.x()).rowwise() + 2 * centre.transpose());
   }
-  trial.at_least("steps with collisions", double(trial.report().steps_with_collisions), 1);
+  // Of a fine box, all of whose pairs meet in the centre, the motion is cut back before its collisions are looked for.
+  trial.at_least("steps with collisions, and vertices cut back",
+                 double(trial.report().steps_with_collisions + trial.report().cut_candidates), 1);
 }
 
 /// A step of a surface that is not free at the start: refused by the exact check; the collision step, which cannot

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -72,10 +73,17 @@ sheet = {{nx = 2, ny = 2, width_m = 8, height_m = 8}}
                                              n, n, place, -fast_m_s);
 }
 
+/// On the way: of 16 edges-on a tenth of a millimetre apart springs were compressed by 0.15 to 0.37 for a moment, while
+/// the heap sank. Where contact may press springs they come to a sixtieth of their length.
 void fall(Trial& trial, const std::string& place, double fast_m_s) {
   ScenePlay play(trial, falling_sheet(trial.pick(8, 12, 16), place, fast_m_s), 1);
-  play.run_to(trial.variant().quick ? 0.05 : 1);
-  if (!trial.variant().quick) trial.at_most("largest strain at the end", play.largest_strain(), 0.3);
+  double most = 0;
+  for (int frame = 1; frame <= (trial.variant().quick ? 2 : 60); ++frame) {
+    play.run_to(frame / 30.0);
+    most = std::max(most, play.largest_strain());
+  }
+  trial.at_most("largest strain on the way", most, 0.5);
+  trial.at_most("largest strain at the end", play.largest_strain(), 0.3);
   const auto cloth = play.x().topRows(play.simulation().world().cloth_vertex_count);
   trial.at_least("height above the ground, m", cloth.col(2).minCoeff() - play.offset().z(), 0);
 }
@@ -115,10 +123,12 @@ std::vector<StabilityCase> fold_cases() {
       {"hinge", "two faces that share an edge fold to an angle of zero, and beyond", "the angle stays above zero",
        hinge},
       {"bellows", "pleats pressed into a thousandth of their length", "pleats stay apart", bellows},
-      {"own-corner", "cloth falls on its own corner", "strain at most 0.3, above the ground", own_corner},
-      {"edge-on", "cloth falls on its edge", "strain at most 0.3, above the ground", edge_on},
-      {"edge-on-fast", "the same at 30 m/s, half its length a frame", "strain at most 0.3, above the ground",
-       edge_on_fast},
+      {"own-corner", "cloth falls on its own corner",
+       "strain at most 0.5 on the way and 0.3 in the end, above the ground", own_corner},
+      {"edge-on", "cloth falls on its edge", "strain at most 0.5 on the way and 0.3 in the end, above the ground",
+       edge_on},
+      {"edge-on-fast", "the same at 30 m/s, half its length a frame",
+       "strain at most 0.5 on the way and 0.3 in the end, above the ground", edge_on_fast},
   };
 }
 
