@@ -193,11 +193,13 @@ void HeldContacts::begin_with(const ContactLoads& loads) {
 /// what is too much they take back.
 const ContactLoad* HeldContacts::load_of(const RepulsionContact& contact, const ContactLoads& loads) const {
   const bool is_vf = contact.kind == PairKind::kVf;
-  const auto of_first = std::ranges::equal_range(is_vf ? loads.vf : loads.ee, contact.first, {}, &ContactLoad::first);
-  auto load = std::ranges::find(of_first, contact.second, &ContactLoad::second);
+  const std::vector<ContactLoad>& all = is_vf ? loads.vf : loads.ee;
+  const auto begin = std::ranges::lower_bound(all, contact.first, {}, &ContactLoad::first);
+  const auto end = std::ranges::upper_bound(begin, all.end(), contact.first, {}, &ContactLoad::first);
+  auto load = std::ranges::find(begin, end, contact.second, &ContactLoad::second);
   const auto is_beside = [&](const ContactLoad& l) { return touch(l.second, contact.second); };
-  if (load == of_first.end() && is_vf) load = std::ranges::find_if(of_first, is_beside);
-  return load == of_first.end() ? nullptr : &*load;
+  if (load == end && is_vf) load = std::ranges::find_if(begin, end, is_beside);
+  return load == end ? nullptr : &*load;
 }
 
 bool HeldContacts::touch(FaceId a, FaceId b) const {
