@@ -13,12 +13,12 @@ ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world) : scene_(
 }
 
 ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& collider) const {
-  const auto& [properties, surface_of_vertex, rest_pairs] = world_.contacts;
+  const ContactSurfaces& contacts = world_.contacts;
   Thickness result{scene_.collision.thickness_m, scene_.collision.thickness_m};
-  if (properties.empty() || collider.vertices().empty()) return result;
+  if (contacts.properties.empty() || collider.vertices().empty()) return result;
   const auto properties_of = [&](VertexId vertex) -> const ContactProperties& {
-    const std::int32_t surface = surface_of_vertex[static_cast<std::size_t>(vertex)];
-    return properties[static_cast<std::size_t>(surface)];
+    const std::int32_t surface = contacts.surface_of_vertex[static_cast<std::size_t>(vertex)];
+    return contacts.properties[static_cast<std::size_t>(surface)];
   };
   result = {std::numeric_limits<double>::infinity(), 0};
   for (VertexId vertex = 0; vertex < world_.cloth_vertex_count; ++vertex) {

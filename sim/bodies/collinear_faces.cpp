@@ -92,7 +92,7 @@ class CollinearFaces {
   bool resolve(std::size_t f) {
     const auto [a, middle, b] = line_of(faces_[f], x_);
     const std::vector<std::size_t> others = beyond(f, a, b);
-    const auto is_twin = [&](std::size_t g) { return has_corner(faces_[g], middle); };
+    const auto is_twin = [&, middle = middle](std::size_t g) { return has_corner(faces_[g], middle); };
     const bool has_twin = std::ranges::any_of(others, is_twin);
     if (has_twin || (others.empty() && !beyond(f, a, middle).empty() && !beyond(f, middle, b).empty())) {
       resolve_to(f, kGone);
