@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/mesh.h"
+#include "kernel/types.h"
+
 namespace selvage::sim {
 
 /// What a pair bears: the next step of the dynamics begins with it.
@@ -27,5 +30,15 @@ struct ContactLoads {
 
   [[nodiscard]] bool empty() const { return vf.empty() && ee.empty(); }
 };
+
+/// That of the pair; else that of the vertex on a face that shares a corner. Over an edge or a corner of the surface a
+/// vertex lies on any of the faces there, and another may have been found than the one that bore it. Several may begin
+/// with one load: what is too much they take back. Null where there is none. O(log loads + those of `first`).
+[[nodiscard]] const ContactLoad* find_load(const ContactLoads& loads, PairKind kind, std::int32_t first,
+                                           std::int32_t second, const Mesh& mesh);
+
+/// Sorts them as ContactLoads has them. A pair that collided while it was held is held twice; what both bear, the first
+/// does, and the other takes back.
+void keep_one_of_each_pair(std::vector<ContactLoad>& loads);
 
 }  // namespace selvage::sim

@@ -43,8 +43,6 @@ constexpr double kNearer = 1 - 1e-6;
 
 constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
 
-std::pair<std::int32_t, std::int32_t> pair_of(const ContactLoad& load) { return {load.first, load.second}; }
-
 template <class Columns>
 Vec3 vector_in(const Columns& columns, std::size_t lane) {
   return {columns[0][lane], columns[1][lane], columns[2][lane]};
@@ -180,32 +178,13 @@ void HeldContacts::set_sweeps(const std::vector<std::int32_t>& sweeps) {
 void HeldContacts::begin_with(const ContactLoads& loads) {
   parallel_each(std::ssize(place_of_), [&](Eigen::Index i) {
     const std::size_t place = place_of_[static_cast<std::size_t>(i)];
-    const ContactLoad* const load = load_of(contacts_[static_cast<std::size_t>(i)], loads);
+    const RepulsionContact& contact = contacts_[static_cast<std::size_t>(i)];
+    const ContactLoad* const load = find_load(loads, contact.kind, contact.first, contact.second, surface_.mesh);
     if (load == nullptr) return;
     ContactPack& pack = packs_[place / kLanes];
     pack.load_m_s2[place % kLanes] = load->acceleration_m_s2;
     for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][place % kLanes] = load->friction_m_s2[k];
   });
-}
-
-/// That of its pair; else that of a vertex on a face beside. Over an edge or a corner of the surface a vertex lies on
-/// any of the faces there, and another may have been found than the one that bore it. Several may begin with one load:
-/// what is too much they take back.
-const ContactLoad* HeldContacts::load_of(const RepulsionContact& contact, const ContactLoads& loads) const {
-  const bool is_vf = contact.kind == PairKind::kVf;
-  const std::vector<ContactLoad>& all = is_vf ? loads.vf : loads.ee;
-  const auto begin = std::ranges::lower_bound(all, contact.first, {}, &ContactLoad::first);
-  const auto end = std::ranges::upper_bound(begin, all.end(), contact.first, {}, &ContactLoad::first);
-  auto load = std::ranges::find(begin, end, contact.second, &ContactLoad::second);
-  const auto is_beside = [&](const ContactLoad& l) { return touch(l.second, contact.second); };
-  if (load == end && is_vf) load = std::ranges::find_if(begin, end, is_beside);
-  return load == end ? nullptr : &*load;
-}
-
-bool HeldContacts::touch(FaceId a, FaceId b) const {
-  const auto& of_a = surface_.mesh.faces[static_cast<std::size_t>(a)];
-  const auto& of_b = surface_.mesh.faces[static_cast<std::size_t>(b)];
-  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
 ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
@@ -512,10 +491,7 @@ std::vector<ContactLoad> HeldContacts::loads_of(const Kind& kind) const {
     result.push_back(
         {contacts_[i].first, contacts_[i].second, borne.along_m_s2, {friction[0], friction[1], friction[2]}});
   }
-  // A pair that collided while it was held is held twice; what both bear, the first does, and the other takes back.
-  std::ranges::stable_sort(result, {}, pair_of);
-  const auto same = [](const ContactLoad& a, const ContactLoad& b) { return pair_of(a) == pair_of(b); };
-  result.erase(std::unique(result.begin(), result.end(), same), result.end());
+  keep_one_of_each_pair(result);
   return result;
 }
 

@@ -129,8 +129,6 @@ class HeldContacts {
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const ContactLoads& loads);
   [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
-  [[nodiscard]] const ContactLoad* load_of(const RepulsionContact& contact, const ContactLoads& loads) const;
-  [[nodiscard]] bool touch(FaceId a, FaceId b) const;
 
   void forget_impulses();
   void bear_all(const MidstepMotion& step);
