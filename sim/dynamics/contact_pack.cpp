@@ -289,14 +289,18 @@ void Press(const PackMotion& read, Lanes asked, double relaxation, bool is_last,
 
 /// Friction is learnt where the vertex can move: cloth that the edge of a box carried by a vertex of its own swung
 /// about that by 0.7 mm for ever, and rests since the vertices of bodies do not remember (docs/simulator-speed.md).
-void LearnLoads(double learnt, double h, ContactPack& pack) {
+/// Edges learn where all four of their vertices can.
+void LearnLoads(PairKind kind, double learnt, double h, ContactPack& pack) {
   const Value zero = hn::Zero(Real()), one = Number(1), learning = Number(learnt);
   const Value squared_s2 = Number(h * h), largest = Number(std::numeric_limits<double>::max());
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const PairLanes pair(ReadFour(pack.weights, first), ReadFour(pack.mobility, first));
     const Value pressed = Read(pack.pressed, first);
     const Truth is_whole = hn::Eq(LeverShare(pair), one);
-    const Truth learns = hn::And(hn::Gt(pressed, zero), is_whole);
+    Truth learns = hn::And(hn::Gt(pressed, zero), is_whole);
+    if (kind == PairKind::kEe) {
+      for (const Value& mobility : pair.mobility) learns = hn::And(learns, hn::Gt(mobility, zero));
+    }
     const Value in_step = hn::Div(pressed, squared_s2);
     const Value now = hn::IfThenElse(hn::Gt(in_step, largest), largest, in_step);
     const Value load = Read(pack.load_m_s2, first);
@@ -383,7 +387,9 @@ void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last,
            const ContactMotion& motion) {
   HWY_DYNAMIC_DISPATCH(Press)(read, lanes, relaxation, is_last, pack, motion);
 }
-void learn_loads(double share, double h, ContactPack& pack) { HWY_DYNAMIC_DISPATCH(LearnLoads)(share, h, pack); }
+void learn_loads(PairKind kind, double share, double h, ContactPack& pack) {
+  HWY_DYNAMIC_DISPATCH(LearnLoads)(kind, share, h, pack);
+}
 
 }  // namespace selvage::sim
 #endif

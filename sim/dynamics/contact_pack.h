@@ -22,7 +22,7 @@ struct alignas(64) ContactPack {
   std::array<LaneColumn<double>, 4> mobility{};
   LaneColumn3 normal{};  ///< unit
   LaneColumn<double> thickness_m{}, friction_static{}, friction_kinetic{};
-  LaneColumn<double> load_m_s2{};  ///< as in ContactLoad, and its friction; HeldContacts::hold() leaves 0 for edges
+  LaneColumn<double> load_m_s2{};  ///< as in ContactLoad, and its friction
   LaneColumn3 friction_m_s2{};
   LaneColumn<double> pressed{};  ///< in this step of the dynamics, as in FrictionLoad; so is what rubbed
   LaneColumn3 rubbed{};
@@ -83,6 +83,6 @@ void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last,
 void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, LaneColumn<double>& result);
 
 /// From what they did, what they begin the next step with: `share` of what was missing or too much.
-void learn_loads(double share, double h, ContactPack& pack);
+void learn_loads(PairKind kind, double share, double h, ContactPack& pack);
 
 }  // namespace selvage::sim

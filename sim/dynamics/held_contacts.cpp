@@ -25,10 +25,10 @@ constexpr double kLearning = 0.5;
 constexpr double kOverRelaxation = 1.7;
 
 /// Slower than what falls for so many steps of the dynamics, what slips counts as sticking still, with the static cone.
-/// In a step gravity and neighbours move a contact by as much, edges more, as they remember no load; and where kinetic
-/// friction is below the slope, what begins to slide by that would never stop. Measured on planes of 8 to 40 faces a
-/// side, slope 0.47 (docs/stability.md): 2 hold what has a fifth of static friction to spare, so do 4; 6 and 8 hold a
-/// thirtieth, but what should slide begins to a tenth of a second late.
+/// In a step gravity and neighbours move a contact by as much, edges of bodies more, as they remember no load; and
+/// where kinetic friction is below the slope, what begins to slide by that would never stop. Measured on planes of 8 to
+/// 40 faces a side, slope 0.47 (docs/stability.md): 2 hold what has a fifth of static friction to spare, so do 4; 6 and
+/// 8 hold a thirtieth, but what should slide begins to a tenth of a second late.
 constexpr double kCreepSteps = 4;
 
 /// Contact may add the energy of a fall of so many steps of the dynamics in one: columns of 12, 50 and 100 vertices
@@ -187,6 +187,10 @@ void HeldContacts::begin_with(const ContactLoads& loads) {
   });
 }
 
+std::span<ContactPack> HeldContacts::packs_of(const Kind& kind) {
+  return std::span(packs_).subspan(kind.first_pack, kind.groups.order().size() / kLanes);
+}
+
 ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
   const double step_share = step.h / dt_s_;
   const double creep_m = kCreepSteps * step.h * step.h * surface_.gravity_m_s2.norm();
@@ -220,10 +224,12 @@ void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& 
       sweep(step);
     }
   }
-  each_pack(std::span(packs_).first(ee_.first_pack), [&](ContactPack& pack) {
-    learn_loads(kLearning, step.h, pack);
-    pack.without_load = 0;
-  });
+  for (const Kind* kind : {&vf_, &ee_}) {
+    each_pack(packs_of(*kind), [&](ContactPack& pack) {
+      learn_loads(kind->kind, kLearning, step.h, pack);
+      pack.without_load = 0;
+    });
+  }
 }
 
 void HeldContacts::forget_impulses() {
@@ -235,8 +241,11 @@ void HeldContacts::forget_impulses() {
 
 void HeldContacts::bear_all(const MidstepMotion& step) {
   forget_impulses();
-  vf_.groups.each(false,
-                  [&](std::size_t pack, Lanes lanes, const Reach& reach) { return bear(pack, lanes, reach, step); });
+  for (Kind* kind : {&vf_, &ee_}) {
+    kind->groups.each(false, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
+      return bear(*kind, pack, lanes, reach, step);
+    });
+  }
 }
 
 void HeldContacts::sweep(const MidstepMotion& step) {
@@ -272,7 +281,7 @@ void HeldContacts::take_work_from_outside(const MidstepMotion& step) {
 
 /// Those of cloth that has gained more than is borne.
 void HeldContacts::withhold_loads(double borne_j_kg) {
-  for (std::size_t place = 0; place < ee_.first_pack * kLanes; ++place) {
+  for (std::size_t place = 0; place < contact_at_.size(); ++place) {
     if (contact_at_[place] == ContactGroups::kNobody || !gains_.exceed_at(cloth_of(place), borne_j_kg)) continue;
     packs_[place / kLanes].without_load |= only_lane(place % kLanes);
   }
@@ -284,15 +293,16 @@ VertexId HeldContacts::cloth_of(std::size_t place) const {
 }
 
 /// What they bore in the last step, before anything else, where they are now.
-HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
-  ContactPack& pack = packs_[vf_.first_pack + id];
-  fetch(packs_, vf_.first_pack + id + 1);
+HeldContacts::Refused HeldContacts::bear(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach,
+                                         const MidstepMotion& step) {
+  ContactPack& pack = packs_[kind.first_pack + id];
+  fetch(packs_, kind.first_pack + id + 1);
   lanes &= static_cast<Lanes>(above_zero(pack.load_m_s2) & ~pack.without_load);
   if (lanes == 0) return {};
   PackMotion read;
   read_motion(pack, lanes, motion_of(step), read);
   Lanes acting = lanes;
-  const Refused refused = look_again(vf_, id, reach, step, read, acting);
+  const Refused refused = look_again(kind, id, reach, step, read, acting);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane) || has_lane(acting | refused.out_of_reach | refused.at_once, lane)) continue;
     pack.load_m_s2[lane] = 0;

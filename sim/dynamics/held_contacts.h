@@ -135,9 +135,10 @@ class HeldContacts {
   void sweep(const MidstepMotion& step);
   void take_work_from_outside(const MidstepMotion& step);
   void withhold_loads(double borne_j_kg);
+  [[nodiscard]] std::span<ContactPack> packs_of(const Kind& kind);
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] VertexId cloth_of(std::size_t place) const;
-  [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
+  [[nodiscard]] Refused bear(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
   [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
                              const MidstepMotion& step);
   /// Looks where the contacts are now; leaves in `lanes` those that can act.

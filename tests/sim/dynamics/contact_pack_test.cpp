@@ -83,7 +83,7 @@ struct EightPairs {
     read_motion(pack, lanes, motion(), read);
     const Lanes pressed = take_nearest(nearest, newly_pressed(pack, read, lanes), pack);
     press(read, (lanes & loaded) | pressed, 1, true, pack, motion());
-    learn_loads(0.5, kPackStep, pack);
+    learn_loads(kind, 0.5, kPackStep, pack);
   }
 };
 

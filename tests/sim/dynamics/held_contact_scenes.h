@@ -65,10 +65,17 @@ struct OneContact {
     const Ground ground = one_face();
     const ContactLoad load{
         contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
-    HeldContacts held(contacts, {{load}, {}}, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
+    ContactLoads begun;
+    (contact.kind == PairKind::kVf ? begun.vf : begun.ee) = {load};
+    HeldContacts held(contacts, begun, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
     act(held, {kHeldStep, 1, x, v});
     loads = held.loads();
     return held.count();
+  }
+
+  /// After a step: one load at most.
+  [[nodiscard]] const std::vector<ContactLoad>& borne() const {
+    return contact.kind == PairKind::kVf ? loads.vf : loads.ee;
   }
 
   [[nodiscard]] PairVectors velocities() const {
