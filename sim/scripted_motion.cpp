@@ -31,7 +31,7 @@ ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& c
 
 void ScriptedMotion::start_step() { waits_.assign(static_cast<std::size_t>(world_.x_t0.rows()), 0); }
 
-bool ScriptedMotion::goes_straight(const Positions& x, const Positions& v, const StepClock& clock) const {
+ScriptedMotion::Way ScriptedMotion::way(const Positions& x, const Positions& v, const StepClock& clock) const {
   const double t0_s = clock.time_s(), t1_s = clock.end_s();
   const auto may_meet_cloth = [&](const Eigen::AlignedBox3d& within, double thickness_m) {
     const Vec3 fall = clock.dt_s() * clock.dt_s() / 2 * scene_.gravity_m_s2;
@@ -42,14 +42,18 @@ bool ScriptedMotion::goes_straight(const Positions& x, const Positions& v, const
     }
     return cloth.squaredExteriorDistance(within) <= thickness_m * thickness_m;
   };
+  Way worst = Way::kAsSeen;
   for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
     const Collider& collider = world_.colliders[i];
     if (!collider.holds(t0_s)) continue;
     const Collider::Bend bend = collider.bend(t0_s, t1_s);
     const auto& [least_m, most_m] = thickness_[i];
-    if (bend.leaves_line_by_m > least_m && may_meet_cloth(bend.within, most_m)) return false;
+    const bool is_bent = bend.leaves_line_by_m > least_m;
+    if ((!is_bent && bend.off_by_m <= least_m) || !may_meet_cloth(bend.within, most_m)) continue;
+    if (is_bent) return Way::kBent;
+    worst = Way::kUneven;
   }
-  return true;
+  return worst;
 }
 
 // First the bodies, then the pins, which may hang on them.
@@ -81,18 +85,16 @@ void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, con
     if (waits_[static_cast<std::size_t>(vertices[i])] == 0)
       x.row(vertices[i]) = script_t1.row(static_cast<Eigen::Index>(i));
   }
-  if (is_on_script) set_bow(collider, (clock.time_s() + clock.end_s()) / 2, x_t0, x);
+  if (is_on_script) set_bow(collider, clock);
 }
 
-void ScriptedMotion::set_bow(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1) {
+void ScriptedMotion::set_bow(const Collider& collider, const StepClock& clock) {
   const std::vector<VertexId>& vertices = collider.vertices();
   if (vertices.empty() || vertices.front() < world_.cloth_vertex_count) return;  // pins move as springs have them
-  const Positions middle = collider.placed_at(middle_s, false, x_t0);
+  const Positions bow_m = collider.bow_m(clock.time_s(), clock.end_s());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const VertexId vertex = vertices[i];
-    if (waits_[static_cast<std::size_t>(vertex)] != 0) continue;
-    bow_m_.row(vertex - world_.cloth_vertex_count) =
-        2 * (x_t0.row(vertex) + x_t1.row(vertex)) - 4 * middle.row(static_cast<Eigen::Index>(i));
+    if (waits_[static_cast<std::size_t>(vertices[i])] != 0) continue;
+    bow_m_.row(vertices[i] - world_.cloth_vertex_count) = bow_m.row(static_cast<Eigen::Index>(i));
   }
 }
 

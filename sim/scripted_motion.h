@@ -19,15 +19,18 @@ class ScriptedMotion {
 
   /// A step begins, in which nothing had to wait yet.
   void start_step();
-  /// Whether every body that may come near cloth stays within the thickness of their contacts, the least of them, of
-  /// the straight lines on which a step takes its vertices: what they would pass on their way is met, and none turns so
-  /// far that it comes back to where it was. x, v: of cloth, at least.
-  [[nodiscard]] bool goes_straight(const Positions& x, const Positions& v, const StepClock& clock) const;
+  /// How the bodies that may come near cloth move in a step, the worst of them. Bent: one leaves the straight lines on
+  /// which the step takes its vertices by more than the thickness of their contacts, the least of them, so that what it
+  /// passes on its way would not be met, or turns so far that it may come back to where it was. Uneven: it keeps to its
+  /// lines, but is farther than that from where the dynamics have it meanwhile (Passage), so that it would meet cloth
+  /// at the wrong time and speed. x, v: of cloth, at least.
+  enum class Way { kAsSeen, kUneven, kBent };
+  [[nodiscard]] Way way(const Positions& x, const Positions& v, const StepClock& clock) const;
   /// x, with the vertices that are scripted now where their scripts are at the end of the step, or on their way there.
   [[nodiscard]] Positions follow(const Positions& x, const StepClock& clock);
   /// How bodies leave the straight lines of the last motion: halfway through the step a vertex is a quarter of its row
-  /// away from the middle of its line, m. #V less those of cloth by 3; null where no body does. 0 for those that wait,
-  /// or are not where their scripts have them.
+  /// away from the middle of its line, m (Passage). #V less those of cloth by 3; null where no body does. 0 for those
+  /// that wait, or are not where their scripts have them.
   [[nodiscard]] const Positions* bow_m() const { return bow_m_.isZero(0) ? nullptr : &bow_m_; }
   /// Bodies that had to wait in a try are known before the next one, which starts from the same state: so the dynamics
   /// sees them stand still. Where it saw them move, cloth took up a motion that never was: pinched between two spheres
@@ -50,7 +53,7 @@ class ScriptedMotion {
   };
   [[nodiscard]] Thickness thickness_with_cloth(const Collider& collider) const;
   void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x);
-  void set_bow(const Collider& collider, double middle_s, const Positions& x_t0, const Positions& x_t1);
+  void set_bow(const Collider& collider, const StepClock& clock);
 
   const Scene& scene_;
   const World& world_;

@@ -102,11 +102,12 @@ StepResult Simulation::step() {
 
 // Before any try: no response of a try tells of cloth that a body has passed beside its straight way.
 bool Simulation::shorten_for_scripts() {
-  while (!script_.goes_straight(x_, v_, clock_)) {
-    if (!clock_.can_halve()) return false;
+  auto way = script_.way(x_, v_, clock_);
+  while (way != ScriptedMotion::Way::kAsSeen && clock_.can_halve()) {
     clock_.shorten();
+    way = script_.way(x_, v_, clock_);
   }
-  return true;
+  return way != ScriptedMotion::Way::kBent;
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are

@@ -1,6 +1,7 @@
 #include "sim/bodies/collider.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/assert.h"
 
@@ -24,16 +25,11 @@ struct Place {
   Positions operator()(const Attachment& attachment) const { return attachment.placed_on(x); }
 };
 
-double distance_to_segment(const Vec3& x, const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
-  const double squared = way.squaredNorm();
-  const double share = squared > 0 ? std::clamp((x - from).dot(way) / squared, 0.0, 1.0) : 0;
-  return (x - from - share * way).norm();
-}
-
-Eigen::AlignedBox3d box_of(const Positions& x) {
-  return {x.colwise().minCoeff().transpose(), x.colwise().maxCoeff().transpose()};
-}
+/// Where a body turns by more its ends say little of where it is between.
+constexpr double kMostTurn_deg = 90;
+/// Such a body is looked at after so much of its turn again: at quarters of the step one that goes round four times in
+/// it stood still. And where it turns by more than can be looked at, it may be anywhere.
+constexpr double kSampledTurn_deg = 45, kMostSampledTurn_deg = 64 * 360;
 
 }  // namespace
 
@@ -58,37 +54,71 @@ Positions Collider::placed_at(double time_s, bool round_to_float32, const Positi
   return placed;
 }
 
-Collider::Bend Collider::bend(double t0_s, double t1_s) const {
-  constexpr double kMostTurn_deg = 90;
-  constexpr double kRounding = 0x1p-40;  // of places, however far out; thousands of times more than there is
-  Bend bend;
-  if ((met_ ? met_->empty() : vertices_.empty()) || std::holds_alternative<Attachment>(motion_)) return bend;
-  const auto* rigid = std::get_if<Rigid>(&motion_);
-  const Linkage& linkage = rigid != nullptr ? rigid->linkage : std::get<Animated>(motion_).linkage;
-  const auto placed = [this](double time_s) {
-    Positions all = placed_at(time_s, false, {});
-    return met_ ? Positions(all(*met_, Eigen::all)) : all;
-  };
-  const Positions to = placed(t1_s), from = placed(t0_s);  // the first last: a sequence keeps two frames
-  bend.within = box_of(from).merged(box_of(to));
-  const double size_m = bend.within.min().cwiseAbs().cwiseMax(bend.within.max().cwiseAbs()).maxCoeff();
-  std::vector<double> times = linkage.keys_between(t0_s, t1_s);
+const Linkage* Collider::linkage() const {
+  if (const auto* rigid = std::get_if<Rigid>(&motion_)) return &rigid->linkage;
+  const auto* animated = std::get_if<Animated>(&motion_);
+  return animated != nullptr ? &animated->linkage : nullptr;
+}
+
+std::vector<double> Collider::times_between(double t0_s, double t1_s) const {
+  std::vector<double> times = linkage()->keys_between(t0_s, t1_s);
   if (const BodySequence* frames = sequence(); frames != nullptr) {
     const std::vector<double> own = frames->frames_between(t0_s, t1_s);
     times.insert(times.end(), own.begin(), own.end());
   }
-  for (const double share : {0.25, 0.5, 0.75}) times.push_back(t0_s + share * (t1_s - t0_s));
-  std::ranges::sort(times);  // so each frame is read once
-  for (const double time_s : times) {
-    const Positions between = placed(time_s);
-    bend.within.extend(box_of(between));
-    for (Eigen::Index i = 0; i < between.rows(); ++i) {
-      const double away_m = distance_to_segment(between.row(i), from.row(i), to.row(i));
-      if (away_m > kRounding * size_m) bend.leaves_line_by_m = std::max(bend.leaves_line_by_m, away_m);
-    }
+  for (const double share : {0.25, 0.75}) times.push_back(t0_s + share * (t1_s - t0_s));
+  std::ranges::sort(times);
+  return times;
+}
+
+/// So many that it turns by kSampledTurn_deg at most from one to the next, evenly between keys.
+void Collider::add_turns(double t0_s, double t1_s, std::vector<double>& times) const {
+  std::vector<double> more;
+  double from_s = t0_s;
+  times.push_back(t1_s);
+  for (const double to_s : times) {
+    const double pieces = std::ceil(linkage()->turn_deg(from_s, to_s) / kSampledTurn_deg);
+    for (double piece = 1; piece < pieces; ++piece) more.push_back(from_s + piece / pieces * (to_s - from_s));
+    from_s = to_s;
   }
-  const bool turns_far = linkage.turn_deg(t0_s, t1_s) > kMostTurn_deg;
-  if (turns_far) bend.leaves_line_by_m = std::numeric_limits<double>::infinity();
+  times.pop_back();
+  times.insert(times.end(), more.begin(), more.end());
+  std::ranges::sort(times);
+}
+
+Passage Collider::passage(double t0_s, double t1_s, const std::vector<double>& times, Rows rows) const {
+  const auto placed = [&](double time_s) {
+    Positions all = placed_at(time_s, false, {});
+    return rows == Rows::kMet && met_ ? Positions(all(*met_, Eigen::all)) : all;
+  };
+  Positions to = placed(t1_s), from = placed(t0_s);  // the first last: a sequence keeps two frames
+  Passage passage(std::move(from), placed((t0_s + t1_s) / 2), std::move(to));
+  for (const double time_s : times) passage.add((time_s - t0_s) / (t1_s - t0_s), placed(time_s));
+  return passage;
+}
+
+Positions Collider::bow_m(double t0_s, double t1_s) const {
+  if (linkage() == nullptr || vertices_.empty()) return Positions::Zero(std::ssize(vertices_), 3);
+  return passage(t0_s, t1_s, times_between(t0_s, t1_s), Rows::kAll).bow_m();
+}
+
+Collider::Bend Collider::bend(double t0_s, double t1_s) const {
+  Bend bend;
+  if ((met_ ? met_->empty() : vertices_.empty()) || linkage() == nullptr) return bend;
+  std::vector<double> times = times_between(t0_s, t1_s);
+  const double turn_deg = linkage()->turn_deg(t0_s, t1_s);
+  const bool turns_far = turn_deg > kMostTurn_deg;
+  if (turn_deg > kMostSampledTurn_deg) {
+    bend.leaves_line_by_m = std::numeric_limits<double>::infinity();
+    bend.within = {Vec3::Constant(-std::numeric_limits<double>::infinity()),
+                   Vec3::Constant(std::numeric_limits<double>::infinity())};
+    return bend;
+  }
+  if (turns_far) add_turns(t0_s, t1_s, times);
+  const Passage passage = this->passage(t0_s, t1_s, times, Rows::kMet);
+  bend.leaves_line_by_m = turns_far ? std::numeric_limits<double>::infinity() : passage.leaves_line_by_m();
+  bend.off_by_m = passage.off_by_m();
+  bend.within = passage.box();
   // Between the samples: as far again as they are from each other, where they may have missed half of a turn.
   const Vec3 more = Vec3::Constant(turns_far ? bend.within.diagonal().norm() : bend.leaves_line_by_m);
   bend.within = {bend.within.min() - more, bend.within.max() + more};

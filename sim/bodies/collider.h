@@ -14,6 +14,7 @@
 #include "sim/bodies/attachment.h"
 #include "sim/bodies/body_sequence.h"
 #include "sim/bodies/linkage.h"
+#include "sim/bodies/passage.h"
 
 namespace selvage::sim {
 
@@ -51,17 +52,28 @@ class Collider {
   /// Of its vertices that cloth can meet, between two times.
   struct Bend {
     double leaves_line_by_m = 0;  ///< how far they leave the straight lines from where they are first to where at last
+    double off_by_m = 0;          ///< and are from where the dynamics of a step between has them (Passage)
     Eigen::AlignedBox3d within;   ///< where they are meanwhile; not of one that goes straight
   };
-  /// At its keys, at the frames of its sequence and at quarters of the time between. Infinite where it turns by more
-  /// than 90 degrees, of which the ends say little. 0 of an attachment, whose body tells. Reads every frame between
-  /// once: the steps of a run read what lies within them, and what lies within steps that they then halve or double,
-  /// some four times in all, where the start has read all frames already.
+  /// At its keys, at the frames of its sequence and at quarters of the time between. Lines are left without bound where
+  /// it turns by more than 90 degrees, of which the ends say little. 0 of an attachment, whose body tells. Reads every
+  /// frame between once, those about the middle twice: the steps of a run read what lies within them, and what lies
+  /// within steps that they then halve or double, some four times in all, where the start has read all frames already.
   [[nodiscard]] Bend bend(double t0_s, double t1_s) const;
+  /// Of all its vertices in a step between (Passage). 0 of an attachment.
+  [[nodiscard]] Positions bow_m(double t0_s, double t1_s) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;
 
  private:
+  enum class Rows { kAll, kMet };
+  /// Null of an attachment.
+  [[nodiscard]] const Linkage* linkage() const;
+  /// Where something may change: keys, frames, a quarter and three quarters; in their order.
+  [[nodiscard]] std::vector<double> times_between(double t0_s, double t1_s) const;
+  void add_turns(double t0_s, double t1_s, std::vector<double>& times) const;
+  [[nodiscard]] Passage passage(double t0_s, double t1_s, const std::vector<double>& times, Rows rows) const;
+
   std::string name_;
   std::vector<VertexId> vertices_;
   Motion motion_;

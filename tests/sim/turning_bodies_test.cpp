@@ -129,6 +129,43 @@ TEST(TurningBodies, ABoxThatComesAndGoesWithinAStepThrowsTheCloth) {
   EXPECT_GT(simulation.x().topRows(36).col(2).minCoeff(), 0.3);
 }
 
+// It goes round 25 times through the place of the sheet, and is where it began at quarters of every frame.
+TEST(TurningBodies, ABallThatGoesRoundFourTimesAFrameMeetsTheCloth) {
+  Simulation simulation =
+      make("explicit", "frames_per_s = 12.5\nframes = 1",
+           "squeeze = \"yield\"\n[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.3, "
+           "height_m = 0.3}\nposition_m = [-0.5, 0, 0]\nrotation_deg = [90, 0, 0]\n" +
+               std::string(kMaterial) +
+               "[[body]]\nname = \"hub\"\nbox = {size_m = [0.01, 0.01, 0.01], cells = 1}\n"
+               "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 18000]}]\n"
+               "[[body]]\nname = \"ball\"\nparent = \"hub\"\nsphere = {radius_m = 0.05, subdivisions = 1}\n"
+               "position_m = [0.5, 0, 0]\n");
+  bool has_met = false;
+  while (!has_met && simulation.clock().state().frame < 1) has_met = meets(simulation.step());
+  EXPECT_TRUE(has_met);
+}
+
+/// How fast a sheet that lay on a box leaves it, m/s: the box goes up by 0.1 m from `start_s` to `end_s`.
+double thrown_m_s(double start_s, double end_s) {
+  Simulation simulation = make(
+      "explicit", "frames_per_s = 30\nframes = 6",
+      "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 6, ny = 6, width_m = 0.3, height_m = 0.3}\n"
+      "position_m = [0, 0, 0.004]\n" +
+          std::string(kMaterial) +
+          "[[body]]\nbox = {size_m = [0.6, 0.6, 0.05], cells = 3}\nkey = [{time_s = " + std::to_string(start_s) +
+          ", position_m = [0, 0, -0.025]}, {time_s = " + std::to_string(end_s) + ", position_m = [0, 0, 0.075]}]\n");
+  while (simulation.clock().state().frame < 6) simulation.step();
+  return simulation.state().v.topRows(36).col(2).mean();
+}
+
+// Wherever in a frame that is.
+TEST(TurningBodies, ABoxThatStartsWithinAStepThrowsClothAtItsOwnSpeed) {
+  for (const double start_s : {0.0, 0.004, 0.01, 0.016667, 0.0225, 0.03}) {
+    EXPECT_NEAR(thrown_m_s(start_s, start_s + 0.05), 2, 0.01) << start_s;
+    EXPECT_NEAR(thrown_m_s(start_s, start_s + 0.0125), 8, 0.2) << start_s << ", and stops within it";
+  }
+}
+
 // Where a step may be no shorter it is said.
 TEST(TurningBodies, AStepThatIsTooLongForThemIsCounted) {
   const std::string parts =

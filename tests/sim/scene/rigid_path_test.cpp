@@ -104,6 +104,14 @@ TEST(Collider, KnowsHowFarItLeavesStraightLines) {
   // There and back between the quarters; and along one line at two speeds, which leaves nothing out.
   EXPECT_NEAR(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {0.2, {}}}, vertex).bend(0, 1).leaves_line_by_m, 3, 1e-15);
   EXPECT_EQ(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {1, {{0, 0, 4}, none}}}, vertex).bend(0, 1).leaves_line_by_m, 0);
+  // Of those two speeds the first brings it to 3, where it would be at 0.4 in an even motion.
+  EXPECT_NEAR(on({{0, {}}, {0.1, {{0, 0, 3}, none}}, {1, {{0, 0, 4}, none}}}, vertex).bend(0, 1).off_by_m, 2.6, 1e-15);
+  // At quarters of the time it is always where it began; it turns by more than is looked at.
+  const Eigen::AlignedBox3d four_turns = on({{0, {}}, {1, {none, {0, 0, 1440}}}}, vertex).bend(0, 1).within;
+  EXPECT_TRUE(four_turns.contains(Eigen::AlignedBox3d(Vec3(-2, -2, 0), Vec3(2, 2, 0))));
+  EXPECT_LT(four_turns.diagonal().norm(), 30);
+  const Eigen::AlignedBox3d any_turns = on({{0, {}}, {1, {none, {0, 0, 1e9}}}}, vertex).bend(0, 1).within;
+  EXPECT_TRUE(any_turns.contains(Vec3(-2, 0, 0)));
 }
 
 TEST(RigidPath, IsRigidAtAllTimes) {
