@@ -32,7 +32,7 @@ class BoxHierarchy {
   /// in parallel; O(#F log #F) where the tree is made or chosen again. REQUIRES #V flags or none, a finite reach >= 0,
   /// and validate() == kNone, which alone it does not ask: without it candidates may be missing.
   void refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options);
-  /// Equal to find_candidates_brute_force for the last refit (K6), for any thread count (K7).
+  /// Equal to find_candidates_brute_force for the last refit (K6), for any thread count (K7). REQUIRES one.
   [[nodiscard]] Candidates candidates() const;
   /// Likewise, but nothing where there are more than `most`; takes memory for about so many. A motion that is long
   /// beside the features has O(#F^2) candidates.

@@ -20,9 +20,9 @@ struct CcdOptions {
 
 /// What a query answers.
 enum class CcdVerdict : std::uint8_t {
-  kSeparated,   ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
-  kCollides,    ///< the features come within gap_bound (PROVED) at some t in [0,1]: at most 2^-39 of their size
-                ///< (kMotion), or, at t = 1, the upper end of a bracket of their distance that tolerance is in (kEnd)
+  kSeparated,  ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
+  kCollides,   ///< the features come within gap_bound (PROVED) at some t in [0,1]: at most 2^-39 of their size
+               ///< (kMotion), or, at t = 1, the upper bound of their distance, whose lower one tolerance reaches (kEnd)
   kUnresolved,  ///< the limit, or that of double-double arithmetic (K8), was reached: a collision at toi_lower to
                 ///< whoever must be safe
 };

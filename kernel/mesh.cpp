@@ -86,6 +86,7 @@ const char* describe(InputError error) {
 }
 
 InputError validate_faces(std::int32_t vertex_count, const FacesRef& F) {
+  if (vertex_count < 0) return InputError::kIndexOutOfRange;
   if (F.rows() > kMaxFaceCount) return InputError::kTooManyFaces;
   for (Eigen::Index f = 0; f < F.rows(); ++f) {
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -97,7 +98,6 @@ InputError validate_faces(std::int32_t vertex_count, const FacesRef& F) {
 }
 
 Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F) {
-  SELVAGE_REQUIRE(vertex_count >= 0);
   SELVAGE_REQUIRE(validate_faces(vertex_count, F) == InputError::kNone);
   Mesh mesh;
   mesh.vertex_count = vertex_count;

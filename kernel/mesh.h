@@ -45,11 +45,12 @@ enum class InputError : std::uint8_t {
 /// One sentence for a person, with the remedy.
 [[nodiscard]] const char* describe(InputError error);
 
-/// Whether F (#F by 3) indexes vertices 0 .. vertex_count-1, no face repeats a vertex, and edge numbers fit. O(#F).
+/// Whether F (#F by 3) indexes vertices 0 .. vertex_count-1, no face repeats a vertex, and edge numbers fit. O(#F). A
+/// negative vertex_count has no vertices to index: kIndexOutOfRange.
 [[nodiscard]] InputError validate_faces(std::int32_t vertex_count, const FacesRef& F);
 
-/// Builds edges and ownership; depends on indices alone. O(#F log #F). REQUIRES vertex_count >= 0 and
-/// validate_faces() == kNone. Non-manifold edges, duplicate faces, holes and loose vertices are valid.
+/// Builds edges and ownership; depends on indices alone. O(#F log #F). REQUIRES validate_faces() == kNone. Non-manifold
+/// edges, duplicate faces, holes and loose vertices are valid.
 [[nodiscard]] Mesh make_mesh(std::int32_t vertex_count, const FacesRef& F);
 /// Of a list of faces. The same otherwise.
 [[nodiscard]] Mesh make_mesh(std::int32_t vertex_count, std::span<const std::array<VertexId, 3>> faces);

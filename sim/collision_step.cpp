@@ -82,7 +82,9 @@ class Attempt {
 
   /// The report says how it ended; a conflict where the fail-safe ends in one.
   std::optional<StepLimiter::Conflict> run(const PositionsRef& V_t0, const PositionsRef& V_candidate) {
+    const CollisionPhases till_now = report_.phases;
     report_ = {};
+    report_.phases = till_now;
     report_.status = StepStatus::kAbandoned;
     met_.clear();
     motion_.start(V_t0, groups_.targets(V_t0, V_candidate), step_.options.precision);

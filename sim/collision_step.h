@@ -48,9 +48,10 @@ struct CollisionStepReport {
   /// Left by the repulsions, before any impulse of section 7.4; at least so many where the step was abandoned.
   std::int64_t first_collisions = 0;
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
-  std::int32_t largest_zone = 0;             ///< vertices
-  std::int64_t fail_safe_vertices = 0;       ///< 0 in ordinary scenes
-  CollisionPhases phases;                    ///< where the time went; differs from run to run
+  std::int32_t largest_zone = 0;        ///< vertices
+  std::int64_t fail_safe_vertices = 0;  ///< 0 in ordinary scenes
+  /// Where the time went, of all tries where bodies had to wait; the counts are of the last. Differs from run to run.
+  CollisionPhases phases;
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
   std::vector<VertexId> waiting_vertices;    ///< sorted; theirs: all, or some where they deform
   std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
@@ -68,7 +69,8 @@ struct CollisionStepReport {
 struct CollisionStepResult {
   Positions x;  ///< #V by 3: certified where the status is kSafe, else V_t0; exactly the doubles to store
   /// #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x; at most the largest
-  /// finite double.
+  /// finite double. Impulses keep momentum and angular momentum; a zone that turns by an angle in the step is at the
+  /// end of a chord, which keeps sin(angle) / angle of the latter about its axis (docs/guarantee.md).
   Positions velocity;
   /// Contacts beside `held` that pressed, and collisions that repulsions left, as contacts: dynamics that hold contacts
   /// should know of them in another try from the same V_t0. None without repulsion.

@@ -202,7 +202,8 @@ struct SequenceReport {
 /// Whether every frame that was asked for was gone through: a part that was stopped can be resumed.
 [[nodiscard]] bool is_complete(const SequenceReport& report);
 
-/// Throws io::Error on unreadable input: never a verdict on part of it; GroupRuleError on rules that do not fit.
+/// Throws io::Error on unreadable input: never a verdict on part of it; GroupRuleError on rules that do not fit;
+/// std::invalid_argument on a range that is none of the sequence's frames.
 [[nodiscard]] SequenceReport check_sequence(const io::SequenceReader& sequence, const SequenceOptions& options);
 
 }  // namespace selvage::verify

@@ -120,6 +120,24 @@ void choose_options(ChoiceSource& source, MotionQuery& query) {
   if (source.one_in(32)) query.options.max_intervals = source.range(1, 64);
 }
 
+void repeat_point_of_self(MotionQuery& query) {
+  if (query.kind != PairKind::kSelf) return;
+  query.x_t0[3] = query.x_t0[0];
+  query.x_t1[3] = query.x_t1[0];
+}
+
+/// A zero is one number and two bit patterns: kernels that take a minimum, a sign bit or a hash tell them apart.
+void choose_signs_of_zero(ChoiceSource& source, MotionQuery& query) {
+  if (!source.one_in(8)) return;
+  for (auto* const x : {&query.x_t0, &query.x_t1}) {
+    for (Vec3& point : *x) {
+      for (double& coordinate : point) {
+        if (coordinate == 0 && source.coin()) coordinate = -0.0;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 const std::vector<QueryGroup>& query_groups() {
@@ -138,11 +156,10 @@ const std::vector<QueryClass>& query_classes() {
 
 MotionQuery make_query(const QueryClass& query_class, PairKind kind, ChoiceSource& source) {
   MotionQuery query = query_class.make(source, kind);
-  if (kind == PairKind::kSelf) {
-    query.x_t0[3] = query.x_t0[0];
-    query.x_t1[3] = query.x_t1[0];
-  }
+  repeat_point_of_self(query);
   choose_options(source, query);
+  choose_signs_of_zero(source, query);
+  repeat_point_of_self(query);
   return query;
 }
 

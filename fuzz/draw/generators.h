@@ -44,7 +44,7 @@ struct QueryClass {
 [[nodiscard]] const std::vector<QueryClass>& query_classes();
 
 /// Geometry of the class, then tolerance and limit: 0 in half of the cases, else absolute, relative to the query, or an
-/// axis distance of the end positions; in one case of 32 a limit of few intervals.
+/// axis distance of the end positions; in one case of 32 a limit of few intervals; in one of 8 zeros with either sign.
 [[nodiscard]] MotionQuery make_query(const QueryClass& query_class, PairKind kind, ChoiceSource& source);
 
 }  // namespace selvage::fuzz

@@ -154,7 +154,13 @@ Plugin::Plugin(const std::filesystem::path& library) {
   if (handle == nullptr) refuse(library, std::string("cannot be loaded: ") + dlerror());
   const auto entry = std::bit_cast<selvage_plugin_entry_function>(dlsym(handle, "selvage_plugin_entry"));
   if (entry == nullptr) refuse(library, "has no function selvage_plugin_entry");
-  plugin_ = entry();
+  try {
+    plugin_ = entry();
+  } catch (const std::exception& error) {
+    refuse(library, std::string("throws from selvage_plugin_entry: ") + error.what());
+  } catch (...) {
+    refuse(library, "throws from selvage_plugin_entry");
+  }
   load_misdeed_ = forks.misdeed();
   if (load_misdeed_.empty()) load_misdeed_ = fp_misdeed();
   if (plugin_ == nullptr) refuse(library, "selvage_plugin_entry returns nothing");

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include <fenv.h>
 #include <sys/resource.h>
@@ -140,6 +141,8 @@ extern "C" const selvage_plugin* selvage_plugin_entry(void) {
   std::puts("a plugin says hello");
 #if defined(EXITS_AT_LOAD)
   std::exit(0);
+#elif defined(THROWS_AT_LOAD)
+  throw std::runtime_error("no licence");
 #elif defined(HANGS_AT_LOAD)
   while (true) pause();
 #elif defined(HANGS_IN_WORKERS)

@@ -75,6 +75,7 @@ TEST(ValidateFaces, NamesTheDefect) {
   EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 3}})), InputError::kIndexOutOfRange);
   EXPECT_EQ(validate_faces(3, faces_of({{0, -1, 2}})), InputError::kIndexOutOfRange);
   EXPECT_EQ(validate_faces(0, faces_of({{0, 1, 2}})), InputError::kIndexOutOfRange);
+  EXPECT_EQ(validate_faces(-1, faces_of({})), InputError::kIndexOutOfRange);
   EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 2}, {0, 0, 1}})), InputError::kRepeatedVertex);
   EXPECT_EQ(validate_faces(3, faces_of({{0, 1, 1}})), InputError::kRepeatedVertex);
   EXPECT_EQ(validate_faces(3, faces_of({{1, 0, 1}})), InputError::kRepeatedVertex);

@@ -407,6 +407,7 @@ TEST(Plugin, WhatIsNoPluginIsRefused) {
   EXPECT_EQ(run_program(folder, {"fuzz", "--plugin", (folder.path() / "absent.so").string()}).exit_code, 4);
   const std::pair<const char*, const char*> kUnfit[] = {
       {"exits_at_load", "does not survive being loaded: exited"},
+      {"throws_at_load", "throws from selvage_plugin_entry: no licence"},
       {"is_of_another_version", "is built for version 2 of selvage-plugin.h, this is version 1"},
       {"has_another_entry", "has no function selvage_plugin_entry"}};
   for (const auto& [plugin, words] : kUnfit) {
