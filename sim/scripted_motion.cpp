@@ -91,10 +91,10 @@ void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, con
 void ScriptedMotion::set_bow(const Collider& collider, const StepClock& clock) {
   const std::vector<VertexId>& vertices = collider.vertices();
   if (vertices.empty() || vertices.front() < world_.cloth_vertex_count) return;  // pins move as springs have them
-  const Positions bow_m = collider.bow_m(clock.time_s(), clock.end_s());
+  const Positions rows = collider.bow_m(clock.time_s(), clock.end_s());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (waits_[static_cast<std::size_t>(vertices[i])] != 0) continue;
-    bow_m_.row(vertices[i] - world_.cloth_vertex_count) = bow_m.row(static_cast<Eigen::Index>(i));
+    bow_m_.row(vertices[i] - world_.cloth_vertex_count) = rows.row(static_cast<Eigen::Index>(i));
   }
 }
 

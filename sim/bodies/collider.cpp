@@ -25,10 +25,13 @@ struct Place {
   Positions operator()(const Attachment& attachment) const { return attachment.placed_on(x); }
 };
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
 /// Where a body turns by more its ends say little of where it is between.
 constexpr double kMostTurn_deg = 90;
 /// Such a body is looked at after so much of its turn again: at quarters of the step one that goes round four times in
-/// it stood still. And where it turns by more than can be looked at, it may be anywhere.
+/// it stood still. Beyond 512 looks, each of which places all its vertices, it is taken to be anywhere: the step is
+/// halved, and with it what is to be looked at.
 constexpr double kSampledTurn_deg = 45, kMostSampledTurn_deg = 64 * 360;
 
 }  // namespace
@@ -91,8 +94,9 @@ Passage Collider::passage(double t0_s, double t1_s, const std::vector<double>& t
     Positions all = placed_at(time_s, false, {});
     return rows == Rows::kMet && met_ ? Positions(all(*met_, Eigen::all)) : all;
   };
-  Positions to = placed(t1_s), from = placed(t0_s);  // the first last: a sequence keeps two frames
-  Passage passage(std::move(from), placed((t0_s + t1_s) / 2), std::move(to));
+  const Positions to = placed(t1_s);  // the first last: a sequence keeps two frames
+  Positions from = placed(t0_s);
+  Passage passage(std::move(from), placed((t0_s + t1_s) / 2), to);
   for (const double time_s : times) passage.add((time_s - t0_s) / (t1_s - t0_s), placed(time_s));
   return passage;
 }
@@ -108,17 +112,12 @@ Collider::Bend Collider::bend(double t0_s, double t1_s) const {
   std::vector<double> times = times_between(t0_s, t1_s);
   const double turn_deg = linkage()->turn_deg(t0_s, t1_s);
   const bool turns_far = turn_deg > kMostTurn_deg;
-  if (turn_deg > kMostSampledTurn_deg) {
-    bend.leaves_line_by_m = std::numeric_limits<double>::infinity();
-    bend.within = {Vec3::Constant(-std::numeric_limits<double>::infinity()),
-                   Vec3::Constant(std::numeric_limits<double>::infinity())};
-    return bend;
-  }
+  if (turn_deg > kMostSampledTurn_deg) return {kInfinite, 0, {Vec3::Constant(-kInfinite), Vec3::Constant(kInfinite)}};
   if (turns_far) add_turns(t0_s, t1_s, times);
-  const Passage passage = this->passage(t0_s, t1_s, times, Rows::kMet);
-  bend.leaves_line_by_m = turns_far ? std::numeric_limits<double>::infinity() : passage.leaves_line_by_m();
-  bend.off_by_m = passage.off_by_m();
-  bend.within = passage.box();
+  const Passage seen = passage(t0_s, t1_s, times, Rows::kMet);
+  bend.leaves_line_by_m = turns_far ? kInfinite : seen.leaves_line_by_m();
+  bend.off_by_m = seen.off_by_m();
+  bend.within = seen.box();
   // Between the samples: as far again as they are from each other, where they may have missed half of a turn.
   const Vec3 more = Vec3::Constant(turns_far ? bend.within.diagonal().norm() : bend.leaves_line_by_m);
   bend.within = {bend.within.min() - more, bend.within.max() + more};

@@ -11,8 +11,7 @@ namespace {
 /// last (cubic keys), and a vertex that goes round by an angle of a radians by a / 16.
 constexpr double kMostOff = 1.0 / 8;
 
-double distance_to_segment(const Vec3& x, const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
+double distance_to_segment(const Vec3& x, const Vec3& from, const Vec3& way) {
   const double squared = way.squaredNorm();
   const double share = squared > 0 ? std::clamp((x - from).dot(way) / squared, 0.0, 1.0) : 0;
   return (x - from - share * way).norm();
@@ -26,12 +25,11 @@ double longest(const Positions& rows) { return rows.rows() > 0 ? rows.rowwise().
 
 }  // namespace
 
-Passage::Passage(Positions from, const Positions& middle, Positions to)
+Passage::Passage(Positions from, const Positions& middle, const Positions& to)
     : from_(std::move(from)),
-      to_(std::move(to)),
-      way_(to_ - from_),
-      bow_(2 * (from_ + to_) - 4 * middle),
-      box_(box_of(from_).merged(box_of(to_))) {
+      way_(to - from_),
+      bow_(2 * (from_ + to) - 4 * middle),
+      box_(box_of(from_).merged(box_of(to))) {
   rounding_m_ = 0x1p-40 * box_.min().cwiseAbs().cwiseMax(box_.max().cwiseAbs()).maxCoeff();
   add(0.5, middle);
 }
@@ -41,7 +39,7 @@ void Passage::add(double share, const Positions& at) {
   line_is_off_by_m_ = std::max(line_is_off_by_m_, longest(off));
   bow_is_off_by_m_ = std::max(bow_is_off_by_m_, longest(off + share * (1 - share) * bow_));
   for (Eigen::Index i = 0; i < at.rows(); ++i) {
-    leaves_line_by_m_ = std::max(leaves_line_by_m_, distance_to_segment(at.row(i), from_.row(i), to_.row(i)));
+    leaves_line_by_m_ = std::max(leaves_line_by_m_, distance_to_segment(at.row(i), from_.row(i), way_.row(i)));
   }
   box_.extend(box_of(at));
 }

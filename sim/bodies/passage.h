@@ -16,7 +16,7 @@ namespace selvage::sim {
 /// seen to go evenly.
 class Passage {
  public:
-  Passage(Positions from, const Positions& middle, Positions to);
+  Passage(Positions from, const Positions& middle, const Positions& to);
 
   /// Where they are at `share` of the time, in (0, 1). What follows is of all that it has been told; a quarter and
   /// three quarters are the least that tells a bow from a start.
@@ -34,7 +34,7 @@ class Passage {
   [[nodiscard]] bool is_bow() const;
   [[nodiscard]] double unless_rounding(double length_m) const { return length_m > rounding_m_ ? length_m : 0; }
 
-  Positions from_, to_, way_, bow_;
+  Positions from_, way_, bow_;
   double rounding_m_;  ///< of places, however far out; thousands of times more than there is
   double bow_is_off_by_m_ = 0, line_is_off_by_m_ = 0, leaves_line_by_m_ = 0;
   Eigen::AlignedBox3d box_;

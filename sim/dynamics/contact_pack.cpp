@@ -330,6 +330,23 @@ std::array<const double*, 3> axes_of(const LaneVectors& vectors) {
 
 }  // namespace
 
+void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack) {
+  pack.load_m_s2[lane] = along_m_s2;
+  for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = friction_m_s2[k];
+}
+
+Lanes above_zero(const LaneColumn<double>& column) {
+  Lanes result = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only_lane(lane) : Lanes{0};
+  return result;
+}
+
+Lanes that_take(std::int32_t sweeps, const ContactPack& pack) {
+  Lanes result = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= pack.sweeps[lane] >= sweeps ? only_lane(lane) : Lanes{0};
+  return result;
+}
+
 // One by one: the rows of lanes are anywhere, and gathering eight of them at once was no faster (AMD EPYC with AVX-512,
 // sim/scenes/curtain.toml at full quality).
 void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {

@@ -56,6 +56,13 @@ struct PackNearest {
   Lanes on_border = 0;  ///< a corner has no weight: the surface may go on beyond
 };
 
+/// What its contact begins the next step with.
+void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack);
+
+/// Those whose column is above zero; that take as many sweeps.
+[[nodiscard]] Lanes above_zero(const LaneColumn<double>& column);
+[[nodiscard]] Lanes that_take(std::int32_t sweeps, const ContactPack& pack);
+
 // For all lanes, or for those given; same bits for any vector unit. What an impulse is and why is said in
 // held_contacts.h, what friction is in friction.h.
 

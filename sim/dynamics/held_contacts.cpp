@@ -48,20 +48,6 @@ Vec3 vector_in(const Columns& columns, std::size_t lane) {
   return {columns[0][lane], columns[1][lane], columns[2][lane]};
 }
 
-/// Of those whose column is above zero.
-Lanes above_zero(const LaneColumn<double>& column) {
-  Lanes result = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only_lane(lane) : Lanes{0};
-  return result;
-}
-
-/// Those that take as many sweeps.
-Lanes that_take(std::int32_t sweeps, const ContactPack& pack) {
-  Lanes result = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= pack.sweeps[lane] >= sweeps ? only_lane(lane) : Lanes{0};
-  return result;
-}
-
 /// Packs are read one after the other, and all of them take more than a core's cache.
 void fetch(const std::vector<ContactPack>& packs, std::size_t id) {
   if (id >= packs.size()) return;
@@ -181,9 +167,7 @@ void HeldContacts::begin_with(const ContactLoads& loads) {
     const RepulsionContact& contact = contacts_[static_cast<std::size_t>(i)];
     const ContactLoad* const load = find_load(loads, contact.kind, contact.first, contact.second, surface_.mesh);
     if (load == nullptr) return;
-    ContactPack& pack = packs_[place / kLanes];
-    pack.load_m_s2[place % kLanes] = load->acceleration_m_s2;
-    for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][place % kLanes] = load->friction_m_s2[k];
+    set_load(load->acceleration_m_s2, load->friction_m_s2, place % kLanes, packs_[place / kLanes]);
   });
 }
 
@@ -305,8 +289,7 @@ HeldContacts::Refused HeldContacts::bear(Kind& kind, std::size_t id, Lanes lanes
   const Refused refused = look_again(kind, id, reach, step, read, acting);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane) || has_lane(acting | refused.out_of_reach | refused.at_once, lane)) continue;
-    pack.load_m_s2[lane] = 0;
-    for (auto& column : pack.friction_m_s2) column[lane] = 0;
+    set_load(0, {}, lane, pack);
   }
   if (acting != 0) bear_loads(read, acting, pack, motion_of(step));
   return refused;
@@ -449,8 +432,8 @@ HeldContacts::Load HeldContacts::load(std::size_t i) const {
 void HeldContacts::bore(std::size_t i, const Load& load) {
   const std::size_t lane = place_of_[i] % kLanes;
   ContactPack& pack = packs_[place_of_[i] / kLanes];
-  pack.load_m_s2[lane] = load.along_m_s2;
-  for (int k = 0; k < 3; ++k) pack.friction_m_s2[static_cast<std::size_t>(k)][lane] = load.friction_m_s2[k];
+  const Vec3& friction = load.friction_m_s2;
+  set_load(load.along_m_s2, {friction.x(), friction.y(), friction.z()}, lane, pack);
   if (load.along_m_s2 > 0) pack.ever_repelled |= only_lane(lane);
   if (!load.friction_m_s2.isZero(0)) pack.ever_rubbed |= only_lane(lane);
 }

@@ -53,4 +53,30 @@ TEST(Passage, WhatStartsOrStopsWithinAStepIsSeenToGoEvenly) {
   }
 }
 
+TEST(Passage, WhatStartsAndStopsWithinAStepIsSeenToGoEvenly) {
+  constexpr double kPart = 1.0 / 32;
+  for (double start = kPart; start < 1; start += kPart) {
+    for (double end = start + kPart; end < 1; end += kPart) {
+      const Passage passage = passage_of(stroke(start, end), {start, end});
+      EXPECT_EQ(passage.bow_m().norm(), 0) << start << " " << end;
+      EXPECT_GE(passage.off_by_m(), std::max(start, 1 - end) * (1 - 1e-12)) << start << " " << end;
+    }
+  }
+}
+
+// What passage.cpp says of cubic keys and of turns: as of these steps and angles on they are seen as they move.
+TEST(Passage, WhatComesSmoothlyFromRestToRestIsSeenToDoSo) {
+  for (const double steps : {2.5, 3.0, 10.0, 100.0}) {
+    const auto key = [&](double share) {
+      const double u = share / steps;
+      return Vec3(u * u * (3 - 2 * u), 0, 0);
+    };
+    EXPECT_GT(passage_of(key).bow_m().norm(), 0) << steps;
+  }
+  for (const double turn : {0.01, 0.1, 1.0, 1.9}) {
+    const auto round = [&](double share) { return Vec3(std::cos(turn * share), std::sin(turn * share), 0); };
+    EXPECT_GT(passage_of(round).bow_m().norm(), 0) << turn;
+  }
+}
+
 }  // namespace selvage::sim
