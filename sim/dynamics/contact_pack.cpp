@@ -51,6 +51,17 @@ HWY_INLINE void WriteWhere(Truth which, const T& value, std::size_t first, Colum
   }
 }
 
+/// From the ends of a step of h seconds and the velocities in it to its start and the displacements.
+void GoBack(double h, PackMotion& motion) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
+      const Vector displacement = Scaled(Number(h), Read(motion.displacement[i], first));
+      Write(Difference(Read(motion.x[i], first), displacement), first, motion.x[i]);
+      Write(displacement, first, motion.displacement[i]);
+    }
+  }
+}
+
 /// How much of the approach in this step is too much; below 0 how much more there may be.
 HWY_INLINE Value Excess(const ContactPack& pack, const PackMotion& motion, std::size_t first) {
   const Values weights = ReadFour(pack.weights, first);
@@ -337,7 +348,7 @@ void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std
 
 Lanes above_zero(const LaneColumn<double>& column) {
   Lanes result = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= column[lane] > 0 ? only_lane(lane) : Lanes{0};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= static_cast<Lanes>((column[lane] > 0 ? 1U : 0U) << lane);
   return result;
 }
 
@@ -347,36 +358,55 @@ Lanes that_take(std::int32_t sweeps, const ContactPack& pack) {
   return result;
 }
 
-// One by one: the rows of lanes are anywhere, and gathering eight of them at once was no faster (AMD EPYC with AVX-512,
-// sim/scenes/curtain.toml at full quality).
-void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
+namespace {
+
+/// The ends of the step and the velocities, as if all vertices were of cloth; zero where one is not, or is not asked
+/// for. One by one: the rows of lanes are anywhere, and gathering eight of them at once was no faster (AMD EPYC with
+/// AVX-512, sim/scenes/curtain.toml at full quality). Whether any is not of cloth.
+bool copy_rows(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
+  constexpr std::ptrdiff_t kZeroRow = -1;  // before the first
   const auto end = axes_of(motion.x_t1), v = axes_of(motion.v);
+  bool any_scripted = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto& [x, y, z] = result.x[i];
+    auto& [v_x, v_y, v_z] = result.displacement[i];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::ptrdiff_t vertex = has_lane(lanes, lane) ? pack.vertices[i][lane] : 0;
+      any_scripted = any_scripted || vertex < 0;
+      const std::ptrdiff_t row = has_lane(lanes, lane) && vertex >= 0 ? vertex : kZeroRow;
+      x[lane] = end[0][row];
+      y[lane] = end[1][row];
+      z[lane] = end[2][row];
+      v_x[lane] = v[0][row];
+      v_y[lane] = v[1][row];
+      v_z[lane] = v[2][row];
+    }
+  }
+  return any_scripted;
+}
+
+void read_scripted(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
   const auto start = axes_of(motion.scripted_x), way = axes_of(motion.scripted_way);
-  const double h = motion.h, share = motion.share, step_share = motion.step_share;
+  const double share = motion.share, step_share = motion.step_share;
   const bool has_bow = motion.scripted_bow != nullptr;
   const auto bow = has_bow ? axes_of(*motion.scripted_bow) : way;
   const double bent = has_bow ? share * (1 - share) : 0;
   const double bends = has_bow ? step_share * (1 - 2 * share - step_share) : 0;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!has_lane(lanes, lane)) continue;
-      const std::ptrdiff_t row = pack.vertices[i][lane];
-      if (row >= 0) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double displacement = h * v[k][row];
-          result.displacement[i][k][lane] = displacement;
-          result.x[i][k][lane] = end[k][row] - displacement;
-        }
-      } else {
-        for (std::size_t k = 0; k < 3; ++k) {
-          result.displacement[i][k][lane] = step_share * way[k][~row] - bends * bow[k][~row];
-          result.x[i][k][lane] = start[k][~row] + share * way[k][~row] - bent * bow[k][~row];
-        }
+      const std::ptrdiff_t row = ~pack.vertices[i][lane];
+      if (!has_lane(lanes, lane) || row < 0) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        result.displacement[i][k][lane] = step_share * way[k][row] - bends * bow[k][row];
+        result.x[i][k][lane] = start[k][row] + share * way[k][row] - bent * bow[k][row];
       }
     }
   }
 }
 
+}  // namespace
+
+HWY_EXPORT(GoBack);
 HWY_EXPORT(NewlyPressed);
 HWY_EXPORT(FindWorkFromOutside);
 HWY_EXPORT(FindNearest);
@@ -385,6 +415,12 @@ HWY_EXPORT(BearLoads);
 HWY_EXPORT(Press);
 HWY_EXPORT(LearnLoads);
 
+void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
+  result.lanes = lanes;
+  const bool any_scripted = copy_rows(pack, lanes, motion, result);
+  HWY_DYNAMIC_DISPATCH(GoBack)(motion.h, result);
+  if (any_scripted) read_scripted(pack, lanes, motion, result);
+}
 Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
   return HWY_DYNAMIC_DISPATCH(NewlyPressed)(pack, motion, lanes);
 }

@@ -17,18 +17,20 @@ using LaneColumn3 = std::array<LaneColumn<double>, 3>;
 /// What contacts are and what they have done, in columns. A vertex of cloth is its row, any other row k of those that
 /// are not cloth is ~k. Lanes without a contact are zero.
 struct alignas(64) ContactPack {
+  // What newly_pressed() reads.
   std::array<LaneColumn<std::int32_t>, 4> vertices{};
   std::array<LaneColumn<double>, 4> weights{};  ///< as in Interaction; so are mobilities
-  std::array<LaneColumn<double>, 4> mobility{};
-  LaneColumn3 normal{};  ///< unit
-  LaneColumn<double> thickness_m{}, friction_static{}, friction_kinetic{};
+  LaneColumn3 normal{};                         ///< unit
+  LaneColumn<double> thickness_m{};
   LaneColumn<double> load_m_s2{};  ///< as in ContactLoad, and its friction
+  LaneColumn<double> pressed{};    ///< in this step of the dynamics, as in FrictionLoad; so is what rubbed
+  // What those that act read as well.
+  std::array<LaneColumn<double>, 4> mobility{};
+  LaneColumn<double> friction_static{}, friction_kinetic{};
   LaneColumn3 friction_m_s2{};
-  LaneColumn<double> pressed{};  ///< in this step of the dynamics, as in FrictionLoad; so is what rubbed
   LaneColumn3 rubbed{};
   LaneColumn<std::int32_t> sweeps{};  ///< where not all take as many
   Lanes ever_repelled = 0, ever_rubbed = 0;
-  Lanes without_load = 0;  ///< of cloth to which loads have added energy in this step of the dynamics
 };
 
 /// The cloth in a step of the dynamics of h seconds, x_t1 = x + h v, and what is not cloth: at
@@ -45,7 +47,8 @@ struct ContactMotion {
 
 /// The vertices of a pack, at the start of the step and how they move in it.
 struct alignas(64) PackMotion {
-  std::array<LaneColumn3, 4> x{}, displacement{};
+  std::array<LaneColumn3, 4> x, displacement;  // set by read_motion(): to set them twice takes as long as to read them
+  Lanes lanes = 0;                             ///< that were read; zero in the others
 };
 
 /// Nearest points of the pairs of a pack at the start of the step, as in QuickProximity.

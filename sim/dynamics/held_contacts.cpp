@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -48,23 +49,6 @@ Vec3 vector_in(const Columns& columns, std::size_t lane) {
   return {columns[0][lane], columns[1][lane], columns[2][lane]};
 }
 
-/// Packs are read one after the other, and all of them take more than a core's cache.
-void fetch(const std::vector<ContactPack>& packs, std::size_t id) {
-  if (id >= packs.size()) return;
-  const auto* const bytes = reinterpret_cast<const char*>(&packs[id]);
-  for (std::size_t k = 0; k < sizeof(ContactPack); k += 64) __builtin_prefetch(bytes + k);
-}
-
-/// In parallel, in blocks of as many contacts as other loops have items.
-template <class Body>
-void each_pack(std::span<ContactPack> packs, Body body) {
-  parallel_blocks(std::ssize(packs) * kLanes, [&](Eigen::Index begin, Eigen::Index end) {
-    std::ranges::for_each(
-        packs.subspan(static_cast<std::size_t>(begin / kLanes), static_cast<std::size_t>((end - begin) / kLanes)),
-        body);
-  });
-}
-
 /// In parallel.
 void copy(const LaneVectors& from, LaneVectors& to) {
   to.resize(from.rows());
@@ -96,6 +80,7 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const Contact
   group(ee_);
   ee_.first_pack = vf_.groups.order().size() / kLanes;
   packs_.resize(ee_.first_pack + ee_.groups.order().size() / kLanes);
+  states_.resize(packs_.size());
   contact_at_.resize(packs_.size() * kLanes, ContactGroups::kNobody);
   place(vf_);
   place(ee_);
@@ -162,17 +147,40 @@ void HeldContacts::set_sweeps(const std::vector<std::int32_t>& sweeps) {
 }
 
 void HeldContacts::begin_with(const ContactLoads& loads) {
-  parallel_each(std::ssize(place_of_), [&](Eigen::Index i) {
-    const std::size_t place = place_of_[static_cast<std::size_t>(i)];
-    const RepulsionContact& contact = contacts_[static_cast<std::size_t>(i)];
-    const ContactLoad* const load = find_load(loads, contact.kind, contact.first, contact.second, surface_.mesh);
-    if (load == nullptr) return;
-    set_load(load->acceleration_m_s2, load->friction_m_s2, place % kLanes, packs_[place / kLanes]);
+  each_pack([&](std::size_t id) {
+    for (std::size_t place = id * kLanes; place < (id + 1) * kLanes; ++place) {
+      if (contact_at_[place] == ContactGroups::kNobody) continue;
+      const RepulsionContact& contact = contact_at(place);
+      const ContactLoad* const load = find_load(loads, contact.kind, contact.first, contact.second, surface_.mesh);
+      if (load != nullptr) begin_with(load->acceleration_m_s2, load->friction_m_s2, place);
+    }
   });
 }
 
-std::span<ContactPack> HeldContacts::packs_of(const Kind& kind) {
-  return std::span(packs_).subspan(kind.first_pack, kind.groups.order().size() / kLanes);
+void HeldContacts::begin_with(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t place) {
+  ContactPack& pack = packs_[place / kLanes];
+  set_load(along_m_s2, friction_m_s2, place % kLanes, pack);
+  states_[place / kLanes].loaded = above_zero(pack.load_m_s2);
+}
+
+/// In parallel, in blocks of as many contacts as other loops have items.
+template <class Body>
+void HeldContacts::each_pack(const Body& body) {
+  parallel_blocks(std::ssize(packs_) * kLanes, [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index id = begin / kLanes; id < end / kLanes; ++id) body(static_cast<std::size_t>(id));
+  });
+}
+
+/// Packs are read one after the other, and all of them take more than a core's cache.
+void HeldContacts::fetch(std::size_t pack) const {
+  if (pack >= packs_.size()) return;
+  const std::size_t size = states_[pack].loaded == 0 ? offsetof(ContactPack, mobility) : sizeof(ContactPack);
+  const auto* const bytes = reinterpret_cast<const char*>(&packs_[pack]);
+  for (std::size_t k = 0; k < size; k += 64) __builtin_prefetch(bytes + k);
+}
+
+Lanes HeldContacts::pressing(std::size_t pack) const {
+  return states_[pack].has_acted ? above_zero(packs_[pack].pressed) : Lanes{0};
 }
 
 ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
@@ -186,58 +194,67 @@ void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& 
   const double fall_m_s = kSettlingSteps * step.h * surface_.gravity_m_s2.norm();
   const double borne_j_kg = fall_m_s * fall_m_s / 2;
   const bool backwards = backwards_;
+  const ContactMotion motion = motion_of(step);
   copy(step.v, v_free_);
   copy(step.x_t1, x_free_);
   gains_.clear();
-  bear_all(step);
+  bear_all(motion);
   gains_.add_motion(v_free_, step.v);
   const bool may_be_too_much = gains_.exceed(borne_j_kg);
   limit();
   if (may_be_too_much) v_limited_ = step.v;
-  sweep(step);
+  sweep(motion);
   if (may_be_too_much) {
     gains_.add_motion(v_limited_, step.v);
-    take_work_from_outside(step);
+    take_work_from_outside(motion);
     if (gains_.exceed(borne_j_kg)) {
       step.v = v_free_;
       step.x_t1 = x_free_;
+      forget_impulses();
       withhold_loads(borne_j_kg);
-      bear_all(step);
+      bear_all(motion);
       limit();
       backwards_ = backwards;
-      sweep(step);
+      sweep(motion);
     }
   }
-  for (const Kind* kind : {&vf_, &ee_}) {
-    each_pack(packs_of(*kind), [&](ContactPack& pack) {
-      learn_loads(kind->kind, kLearning, step.h, pack);
-      pack.without_load = 0;
-    });
-  }
+  learn_all(step.h);
+  forget_impulses();
 }
 
-void HeldContacts::forget_impulses() {
-  each_pack(packs_, [](ContactPack& pack) {
-    pack.pressed = {};
-    pack.rubbed = {};
+void HeldContacts::learn_all(double h) {
+  each_pack([&](std::size_t id) {
+    PackState& state = states_[id];
+    state.withheld = 0;
+    if (!state.has_acted && state.loaded == 0) return;
+    learn_loads(kind_of(id), kLearning, h, packs_[id]);
+    state.loaded = above_zero(packs_[id].load_m_s2);
   });
 }
 
-void HeldContacts::bear_all(const MidstepMotion& step) {
-  forget_impulses();
+void HeldContacts::forget_impulses() {
+  each_pack([&](std::size_t id) {
+    if (!std::exchange(states_[id].has_acted, false)) return;
+    packs_[id].pressed = {};
+    packs_[id].rubbed = {};
+  });
+}
+
+void HeldContacts::bear_all(const ContactMotion& motion) {
   for (Kind* kind : {&vf_, &ee_}) {
     kind->groups.each(false, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
-      return bear(*kind, pack, lanes, reach, step);
+      return bear(kind->first_pack + pack, lanes, reach, motion);
     });
   }
 }
 
-void HeldContacts::sweep(const MidstepMotion& step) {
+void HeldContacts::sweep(const ContactMotion& motion) {
   for (int left = most_sweeps_; left > 0; --left) {
     for (Kind* kind : {&vf_, &ee_}) {
       kind->groups.each(backwards_, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
-        if (left > least_sweeps_) lanes &= that_take(left, packs_[kind->first_pack + pack]);
-        return lanes == 0 ? Refused{} : hold(*kind, pack, lanes, reach, left, step);
+        const std::size_t id = kind->first_pack + pack;
+        if (left > least_sweeps_) lanes &= that_take(left, packs_[id]);
+        return lanes == 0 ? Refused{} : hold(id, lanes, reach, left, motion);
       });
     }
     backwards_ = !backwards_;
@@ -245,10 +262,9 @@ void HeldContacts::sweep(const MidstepMotion& step) {
 }
 
 /// What bodies and pins do by their motion to cloth that presses on them.
-void HeldContacts::take_work_from_outside(const MidstepMotion& step) {
-  const ContactMotion motion = motion_of(step);
+void HeldContacts::take_work_from_outside(const ContactMotion& motion) {
   for (std::size_t id = 0; id < packs_.size(); ++id) {
-    const Lanes lanes = above_zero(packs_[id].pressed);
+    const Lanes lanes = pressing(id);
     if (lanes == 0) continue;
     PackMotion read;
     read_motion(packs_[id], lanes, motion, read);
@@ -257,7 +273,7 @@ void HeldContacts::take_work_from_outside(const MidstepMotion& step) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (!has_lane(lanes, lane)) continue;
       const std::size_t place = id * kLanes + lane;
-      const double scale = contact_at(place).interaction.inverse_mass_scale * step.h * step.h;
+      const double scale = contact_at(place).interaction.inverse_mass_scale * motion.h * motion.h;
       gains_.take_work(cloth_of(place), work[lane] / scale);
     }
   }
@@ -267,7 +283,7 @@ void HeldContacts::take_work_from_outside(const MidstepMotion& step) {
 void HeldContacts::withhold_loads(double borne_j_kg) {
   for (std::size_t place = 0; place < contact_at_.size(); ++place) {
     if (contact_at_[place] == ContactGroups::kNobody || !gains_.exceed_at(cloth_of(place), borne_j_kg)) continue;
-    packs_[place / kLanes].without_load |= only_lane(place % kLanes);
+    states_[place / kLanes].withheld |= only_lane(place % kLanes);
   }
 }
 
@@ -277,53 +293,57 @@ VertexId HeldContacts::cloth_of(std::size_t place) const {
 }
 
 /// What they bore in the last step, before anything else, where they are now.
-HeldContacts::Refused HeldContacts::bear(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach,
-                                         const MidstepMotion& step) {
-  ContactPack& pack = packs_[kind.first_pack + id];
-  fetch(packs_, kind.first_pack + id + 1);
-  lanes &= static_cast<Lanes>(above_zero(pack.load_m_s2) & ~pack.without_load);
+HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const ContactMotion& motion) {
+  PackState& state = states_[id];
+  if (id + 1 < states_.size() && states_[id + 1].loaded != 0) fetch(id + 1);
+  lanes &= static_cast<Lanes>(state.loaded & ~state.withheld);
   if (lanes == 0) return {};
   PackMotion read;
-  read_motion(pack, lanes, motion_of(step), read);
+  read_motion(packs_[id], lanes, motion, read);
   Lanes acting = lanes;
-  const Refused refused = look_again(kind, id, reach, step, read, acting);
+  const Refused refused = look_again(id, reach, motion, read, acting);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane) || has_lane(acting | refused.out_of_reach | refused.at_once, lane)) continue;
-    set_load(0, {}, lane, pack);
+    begin_with(0, {}, id * kLanes + lane);
   }
-  if (acting != 0) bear_loads(read, acting, pack, motion_of(step));
+  if (acting == 0) return refused;
+  bear_loads(read, acting, packs_[id], motion);
+  state.has_acted = true;
   return refused;
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
-HeldContacts::Refused HeldContacts::hold(Kind& kind, std::size_t id, Lanes lanes, const Reach& reach, int left,
-                                         const MidstepMotion& step) {
-  ContactPack& pack = packs_[kind.first_pack + id];
-  fetch(packs_, kind.first_pack + (backwards_ ? id - 1 : id + 1));
+HeldContacts::Refused HeldContacts::hold(std::size_t id, Lanes lanes, const Reach& reach, int left,
+                                         const ContactMotion& motion) {
+  ContactPack& pack = packs_[id];
+  fetch(backwards_ ? id - 1 : id + 1);
   PackMotion read;
-  read_motion(pack, lanes, motion_of(step), read);
-  const Lanes looked_at = lanes & (above_zero(pack.load_m_s2) | above_zero(pack.pressed));
+  read_motion(pack, lanes, motion, read);
+  const Lanes looked_at = lanes & (states_[id].loaded | pressing(id));
   Lanes pressed = newly_pressed(pack, read, lanes);
-  const Refused refused = pressed == 0 ? Refused{} : look_again(kind, id, reach, step, read, pressed);
+  const Refused refused = pressed == 0 ? Refused{} : look_again(id, reach, motion, read, pressed);
   const Lanes acting = looked_at | pressed;
+  if (acting == 0) return refused;
   const bool is_last = left == 1;
   const double relaxation = is_last || left > least_sweeps_ ? 1 : kOverRelaxation;
-  if (acting != 0) press(read, acting, relaxation, is_last, pack, motion_of(step));
+  press(read, acting, relaxation, is_last, pack, motion);
+  states_[id].has_acted = true;
   return refused;
 }
 
 /// The pairs' nearest points now, seen from the side on which they are while they are farther apart than the thickness;
 /// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
 /// that cannot move do not act.
-HeldContacts::Refused HeldContacts::look_again(Kind& kind, std::size_t id, const Reach& reach,
-                                               const MidstepMotion& step, PackMotion& read, Lanes& lanes) {
-  ContactPack& pack = packs_[kind.first_pack + id];
+HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reach, const ContactMotion& motion,
+                                               PackMotion& read, Lanes& lanes) {
+  ContactPack& pack = packs_[id];
+  const PairKind kind = kind_of(id);
   PackNearest nearest;
-  find_nearest(kind.kind, read, nearest);
+  find_nearest(kind, read, nearest);
   const Lanes on_border = lanes & nearest.on_border;
   Slid slid;
-  if (kind.kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, step);
-  if (slid.on != 0) read_motion(pack, lanes, motion_of(step), read);
+  if (kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, motion);
+  if (slid.on != 0) read_motion(pack, read.lanes, motion, read);
   const Lanes acting = slid.on | slid.through;
   const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot;
   lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
@@ -331,15 +351,15 @@ HeldContacts::Refused HeldContacts::look_again(Kind& kind, std::size_t id, const
 }
 
 /// Each of the lanes of vf on to the face on which its vertex is, seen from the side on which it is, as above.
-HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const MidstepMotion& step) {
+HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const ContactMotion& motion) {
   Slid slid;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane)) continue;
-    const std::size_t place = (vf_.first_pack + id) * kLanes + lane;
+    const std::size_t place = id * kLanes + lane;
     RepulsionContact now = contact_at(place);
-    QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, step));
+    QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, motion));
     Answer answer = Answer::kYes;
-    while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, step);
+    while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, motion);
     if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only_lane(lane);
     if (answer == Answer::kOutOfReach || now.second == contact_at(place).second) continue;
     const bool is_near = !(nearest.distance > now.properties.thickness_m);
@@ -357,7 +377,7 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
     contact_at(place) = now;
     set_lane(place);
-    const Lanes together = vf_.groups.together(id);
+    const Lanes together = vf_.groups.together(id - vf_.first_pack);
     const bool clashes = has_lane(together, lane) && shares_vertex(place, together);
     (clashes ? slid.refused.at_once : slid.on) |= only_lane(lane);
   }
@@ -382,7 +402,7 @@ bool HeldContacts::shares_vertex(std::size_t place, Lanes with) const {
 /// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is
 /// nearer. A walk from face to face ends, because the distance falls.
 HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
-                                             const MidstepMotion& step) const {
+                                             const ContactMotion& motion) const {
   if (contact.kind != PairKind::kVf) return Answer::kNo;
   const std::array<VertexId, 4> from = contact.interaction.vertices;
   const auto on_corner = [weights = nearest.weights](std::size_t k) { return weights[k] != 0; };
@@ -396,7 +416,7 @@ HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickPro
     if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
     if (!is_within(reach, face)) return Answer::kOutOfReach;
     const std::array<VertexId, 4> pair{from[0], face[0], face[1], face[2]};
-    const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, step));
+    const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, motion));
     if (!(other.distance < kNearer * nearest.distance)) continue;
     nearest = other;
     contact.second = id;
@@ -410,14 +430,14 @@ bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& 
   return std::ranges::all_of(face, [&](VertexId v) { return !is_cloth(v) || reach.has(v); });
 }
 
-PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const {
+PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const ContactMotion& motion) const {
   PairVectors x;
   for (std::size_t i = 0; i < 4; ++i) {
     const VertexId vertex = vertices[i];
     if (is_cloth(vertex)) {
-      x[i] = step.x_t1.row(vertex) - step.h * step.v.row(vertex);
+      x[i] = motion.x_t1.row(vertex) - motion.h * motion.v.row(vertex);
     } else {
-      x[i] = scripted_at(vertex, step.share - step.h / dt_s_);
+      x[i] = scripted_at(vertex, motion.share);
     }
   }
   return x;
@@ -433,7 +453,7 @@ void HeldContacts::bore(std::size_t i, const Load& load) {
   const std::size_t lane = place_of_[i] % kLanes;
   ContactPack& pack = packs_[place_of_[i] / kLanes];
   const Vec3& friction = load.friction_m_s2;
-  set_load(load.along_m_s2, {friction.x(), friction.y(), friction.z()}, lane, pack);
+  begin_with(load.along_m_s2, {friction.x(), friction.y(), friction.z()}, place_of_[i]);
   if (load.along_m_s2 > 0) pack.ever_repelled |= only_lane(lane);
   if (!load.friction_m_s2.isZero(0)) pack.ever_rubbed |= only_lane(lane);
 }

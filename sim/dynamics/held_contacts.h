@@ -112,6 +112,13 @@ class HeldContacts {
   using Refused = ContactGroups::Refused;
   enum class Answer { kNo, kYes, kOutOfReach };
 
+  /// What is asked of every pack in every step of the dynamics, side by side: most packs need not be read for it.
+  struct PackState {
+    Lanes loaded = 0;        ///< whose load is above zero
+    Lanes withheld = 0;      ///< of cloth to which loads have added energy in this step
+    bool has_acted = false;  ///< in this step: what pressed and rubbed may be other than zero
+  };
+
   /// The packs of one kind of pair, from `first_pack` on in packs_.
   struct Kind {
     PairKind kind;
@@ -128,35 +135,41 @@ class HeldContacts {
   void set_lane(std::size_t place);
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const ContactLoads& loads);
+  void begin_with(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t place);
   [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
 
-  void forget_impulses();
-  void bear_all(const MidstepMotion& step);
-  void sweep(const MidstepMotion& step);
-  void take_work_from_outside(const MidstepMotion& step);
+  void bear_all(const ContactMotion& motion);
+  void sweep(const ContactMotion& motion);
+  void take_work_from_outside(const ContactMotion& motion);
   void withhold_loads(double borne_j_kg);
-  [[nodiscard]] std::span<ContactPack> packs_of(const Kind& kind);
+  void learn_all(double h);
+  void forget_impulses();
+  template <class Body>
+  void each_pack(const Body& body);
+  [[nodiscard]] PairKind kind_of(std::size_t pack) const { return pack < ee_.first_pack ? vf_.kind : ee_.kind; }
+  void fetch(std::size_t pack) const;
+  /// Those that have pressed in this step of the dynamics.
+  [[nodiscard]] Lanes pressing(std::size_t pack) const;
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] VertexId cloth_of(std::size_t place) const;
-  [[nodiscard]] Refused bear(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
-  [[nodiscard]] Refused hold(Kind& kind, std::size_t pack, Lanes lanes, const Reach& reach, int left,
-                             const MidstepMotion& step);
+  [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const ContactMotion& motion);
+  [[nodiscard]] Refused hold(std::size_t pack, Lanes lanes, const Reach& reach, int left, const ContactMotion& motion);
   /// Looks where the contacts are now; leaves in `lanes` those that can act.
-  [[nodiscard]] Refused look_again(Kind& kind, std::size_t pack, const Reach& reach, const MidstepMotion& step,
-                                   PackMotion& read, Lanes& lanes);
+  [[nodiscard]] Refused look_again(std::size_t pack, const Reach& reach, const ContactMotion& motion, PackMotion& read,
+                                   Lanes& lanes);
   struct Slid {
     Refused refused;
     Lanes on = 0;       ///< to other faces
     Lanes cannot = 0;   ///< move there
     Lanes through = 0;  ///< the surface: stay as they are
   };
-  [[nodiscard]] Slid slide(std::size_t pack, Lanes lanes, const Reach& reach, const MidstepMotion& step);
+  [[nodiscard]] Slid slide(std::size_t pack, Lanes lanes, const Reach& reach, const ContactMotion& motion);
   [[nodiscard]] bool shares_vertex(std::size_t place, Lanes with) const;
   [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
-                                 const MidstepMotion& step) const;
+                                 const ContactMotion& motion) const;
   [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
   /// Of the contact's vertices at the start of the step.
-  [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const MidstepMotion& step) const;
+  [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const ContactMotion& motion) const;
 
   HeldSurface surface_;
   const Positions& V_t0_;
@@ -168,6 +181,7 @@ class HeldContacts {
   std::vector<RepulsionContact> contacts_;  ///< as given; weights and normals that changed since are in packs_
   ContactGains gains_;
   std::vector<ContactPack> packs_;           ///< of vf, then ee; a place is a lane of one
+  std::vector<PackState> states_;            ///< of each pack
   std::vector<std::size_t> place_of_;        ///< of each contact
   std::vector<std::size_t> contact_at_;      ///< of each place
   LaneVectors v_free_, x_free_, v_limited_;  ///< before anything acted, and behind the limits
