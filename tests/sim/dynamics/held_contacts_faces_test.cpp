@@ -172,6 +172,39 @@ TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
   EXPECT_NE(velocities({{first}, {second}}), velocities({{second}, {first}}));
 }
 
+TEST(HeldContacts, OneThatSlidesOnLeavesThoseOfItsPackAsTheyAre) {
+  // Two vertices over a flat body of two faces: the first has come over the border and falls, the second falls more
+  // than the load that it begins with bears. Beside the first it does what it does alone.
+  Positions V(6, 3);
+  V << 0, -2.2, kHeldThickness, 0.2, 0, kHeldThickness, -2, -2, 0, 2, -2, 0, 0, 4, 0, 0, -6, 0;
+  const Ground ground(Faces{{2, 3, 4}, {3, 2, 5}}, {1, 1, 0, 0, 0, 0});
+  const auto contact_of = [&](VertexId vertex) {
+    RepulsionContact contact;
+    contact.first = vertex;
+    contact.interaction =
+        make_interaction(PairKind::kVf, {vertex, 2, 3, 4}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, ground.inverse_mass);
+    contact.normal = Vec3::UnitZ();
+    contact.properties.thickness_m = kHeldThickness;
+    return contact;
+  };
+  const auto velocities = [&](const std::vector<RepulsionContact>& contacts) {
+    LaneVectors x, v;
+    x.copy(V.topRows(2));
+    v.resize(2);
+    for (const Eigen::Index i : {0, 1}) {
+      v.row(i) = Eigen::RowVector3d(0, 0, -0.5);
+      x.row(i) += kHeldStep * v.row(i);
+    }
+    HeldContacts held(contacts, {{{1, 0, 1.0}}, {}}, ground.surface(2), V, V, kHeldStep, 1);
+    act(held, {kHeldStep, 1, x, v});
+    EXPECT_EQ(held.count().repulsions, std::ssize(contacts));
+    return std::pair{Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(v.row(1))};
+  };
+  const auto [first, second] = velocities({contact_of(0), contact_of(1)});
+  EXPECT_EQ(second, velocities({contact_of(1)}).second);
+  for (const Eigen::RowVector3d& v : {first, second}) EXPECT_LT(v.norm(), 1e-15);
+}
+
 TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
   // Over the border of two faces a vertex lies on either.
   constexpr double kLoad = 7;
