@@ -25,6 +25,11 @@ struct PluginInfo {
 /// Of the file, by which a library is known again. Throws io::Error(kFile).
 [[nodiscard]] std::uint32_t crc32_of_plugin(const std::filesystem::path& library);
 
+/// A batch that is answered otherwise than its queries alone, which are answered as before when they are asked again.
+inline constexpr const char* kBatchDiffers = "batch-differs";
+/// An answer that depends on what was asked before, or on chance.
+inline constexpr const char* kUnsteady = "unsteady";
+
 class Plugin {
  public:
   /// Throws io::Error(kBadInput).
@@ -33,13 +38,15 @@ class Plugin {
 
   struct Answer {
     /// forked, changed-rounding-mode, set-flush-to-zero, wrote-out-of-bounds, changed-the-query, invalid-verdict,
-    /// invalid-time, batch-differs; or nothing.
+    /// invalid-time, kBatchDiffers, kUnsteady; or nothing.
     std::string misdeed;
     selvage_answer answer{};
     std::int64_t nanoseconds = 0;
   };
   /// REQUIRES vf or ee. Where `in_batch`, asks it in one batch with queries made of it as well, each first alone.
   [[nodiscard]] Answer ask(const MotionQuery& query, bool in_batch) const;
+  /// Whether it says the same again, bit for bit, with the same misdeed in a batch and none alone.
+  [[nodiscard]] bool stands_by(const MotionQuery& query, const Answer& before, bool in_batch) const;
   /// What loading did besides: a misdeed, or nothing.
   [[nodiscard]] const std::string& load_misdeed() const { return load_misdeed_; }
 

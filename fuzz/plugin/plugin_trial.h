@@ -14,9 +14,8 @@ struct PluginJudgement {
   Plugin::Answer answer;
 };
 [[nodiscard]] PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch);
-/// Asked again at once where it fails: an answer that is another then depends on what was asked before, and no case can
-/// keep that.
-inline constexpr const char* kUnsteady = "unsteady";
+/// Asked again where its answer fails, 32 times, every other time after another query: an answer that is another then
+/// depends on what was asked before, or on chance, and no case can keep that.
 [[nodiscard]] PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, bool in_batch);
 
 /// "separated", "collides", "collides at t = 0x1p-1"; or the misdeed.

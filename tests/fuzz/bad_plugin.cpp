@@ -93,6 +93,19 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
 #elif defined(REMEMBERS)
   static int calls = 0;
   if (++calls % 50 == 0) answer->verdict = SELVAGE_SEPARATED;
+#elif defined(WAVERS)
+  static std::uint32_t state = 1;
+  state = 1664525 * state + 1013904223;
+  if (state >> 31 != 0) answer->verdict = SELVAGE_SEPARATED;
+#elif defined(KEEPS_ITS_LAST_ANSWER)
+  static selvage_query last_query;
+  static selvage_answer last_answer;
+  static int calls = 0;
+  const bool is_last = calls++ > 0 && std::memcmp(query, &last_query, sizeof last_query) == 0;
+  if (calls % 50 == 0) answer->verdict = SELVAGE_SEPARATED;
+  if (is_last) *answer = last_answer;
+  last_query = *query;
+  last_answer = *answer;
 #elif defined(CHANGES_ROUNDING)
   _mm_setcsr(_mm_getcsr() | kRoundUp);
 #elif defined(SETS_FTZ)

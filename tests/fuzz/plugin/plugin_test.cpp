@@ -201,14 +201,19 @@ TEST(Plugin, OneCaseIsRunInAProcessOfItsOwn) {
 // What no case can keep is not made simpler, and not called anything else.
 TEST(Plugin, AnAnswerThatDependsOnEarlierOnesIsUnsteady) {
   const TemporaryFolder folder;
-  const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_remembers.so";
-  const std::filesystem::path artifacts = folder.path() / "artifacts";
-  const auto run =
-      run_program(folder, {"fuzz", "--plugin", library, "--cases", "1", "--jobs", "1", "--artifacts", artifacts});
-  EXPECT_EQ(run.exit_code, 1) << run.err;
-  const auto findings = nlohmann::json::parse(slurp(artifacts / "conformance.json"))["findings"];
-  ASSERT_FALSE(findings.empty());
-  for (const auto& finding : findings) EXPECT_EQ(finding["failure"], "unsteady") << finding;
+  std::string library;
+  std::filesystem::path artifacts;
+  nlohmann::json findings;
+  for (const char* plugin : {"wavers", "keeps_its_last_answer", "remembers"}) {
+    library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    artifacts = folder.path() / plugin;
+    const auto run =
+        run_program(folder, {"fuzz", "--plugin", library, "--cases", "1", "--jobs", "1", "--artifacts", artifacts});
+    EXPECT_EQ(run.exit_code, 1) << plugin << run.err;
+    findings = nlohmann::json::parse(slurp(artifacts / "conformance.json"))["findings"];
+    ASSERT_FALSE(findings.empty()) << plugin;
+    for (const auto& finding : findings) EXPECT_EQ(finding["failure"], "unsteady") << plugin << finding;
+  }
   const auto replayed =
       run_program(folder, {"replay", "--plugin", library, artifacts / findings[0]["smallest"].get<std::string>()});
   EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
