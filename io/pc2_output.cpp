@@ -32,9 +32,9 @@ class Pc2Output final : public SequenceOutput {
  private:
   void write_frame(double, const MeshData& mesh) override {
     require_same_mesh(header(), mesh, OutputFormat::kPc2, target());
-    if (frame_count() == 0) written_.write(base_, obj_bytes(mesh, base_.string()));
     std::string bytes;
     append_points(bytes, mesh.points, Precision::kFloat32, target().string());
+    if (frame_count() == 0) written_.write(base_, obj_bytes(mesh, base_.string()));
     cache_.write(bytes);
   }
   void commit() override {

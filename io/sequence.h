@@ -33,7 +33,8 @@ class SequenceReader {
   /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
   /// True for frame 0.
   [[nodiscard]] virtual bool same_faces_as_previous(std::size_t frame) const = 0;
-  /// Throws Error. Checks shape, finiteness and, where the format has hashes, the hash.
+  /// Throws Error, and std::out_of_range where there is no such frame. Checks shape, finiteness and, where the format
+  /// has hashes, the hash.
   [[nodiscard]] virtual MeshData frame(std::size_t frame) const = 0;
   /// What is there and is no part of it, or what was changed, as a sentence; nothing where there is none.
   [[nodiscard]] virtual std::string remark() const { return {}; }

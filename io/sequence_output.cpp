@@ -11,6 +11,7 @@
 #include "io/fail.h"
 #include "io/points.h"
 #include "io/sequence_outputs.h"
+#include "io/sequence_readers.h"
 #include "io/text.h"
 
 namespace selvage::io {
@@ -107,7 +108,16 @@ void require_faces(const Triangles& triangles, const std::vector<Group>& groups,
 
 }  // namespace
 
+void SequenceOutput::require_open() const {
+  if (state_ == State::kFinished) bad_input(target_.string(), "is finished; write what follows to another");
+  if (state_ == State::kFailed) {
+    throw Error(ErrorKind::kFile,
+                target_.string() + ": could not be written before, and may hold half a frame; start anew");
+  }
+}
+
 void SequenceOutput::append(double time_s, const MeshData& mesh) {
+  require_open();
   if (frame_count_ == header_.frame_count) {
     bad_input(target_.string(),
               "frame " + std::to_string(frame_count_) + " is one more than were announced; announce all");
@@ -121,20 +131,31 @@ void SequenceOutput::append(double time_s, const MeshData& mesh) {
                                     " is not finite; correct it");
   }
   require_faces(mesh.triangles, mesh.groups, mesh.points.size(), target_);
-  write_frame(time_s, mesh);
+  state_ = State::kFailed;  // unless it is said to be otherwise
+  try {
+    write_frame(time_s, mesh);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kBadInput) state_ = State::kOpen;
+    throw;
+  }
+  state_ = State::kOpen;
   ++frame_count_;
   last_time_s_ = time_s;
 }
 
 void SequenceOutput::finish() {
+  require_open();
   if (frame_count_ != header_.frame_count) {
     bad_input(target_.string(), std::to_string(frame_count_) + " frames were written, and " +
                                     std::to_string(header_.frame_count) + " announced; write all");
   }
+  state_ = State::kFailed;
   commit();
+  state_ = State::kFinished;
 }
 
 std::unique_ptr<SequenceOutput> create_output(const fs::path& target, OutputHeader header) {
+  check_is_surface(header.sequence.triangles, target.string());
   require_faces(header.sequence.triangles, header.sequence.groups, header.vertex_count, target);
   switch (output_format(target)) {
     case OutputFormat::kNpz:

@@ -44,12 +44,14 @@ class SequenceOutput {
   SequenceOutput(const SequenceOutput&) = delete;
   SequenceOutput& operator=(const SequenceOutput&) = delete;
 
-  /// Frames come in order, as many as the header announces. Throws Error: one too many, a time that does not increase,
-  /// a value that is not finite, or no float32 where the format stores these (they are never rounded here), faces or
-  /// groups of what does not exist, another mesh or other groups than those of the first where the format has one, any
-  /// failure of the file system.
+  /// Frames come in order, as many as the header announces. Throws Error(kBadInput): one too many, a time that does not
+  /// increase, a value that is not finite, or no float32 where the format stores these (they are never rounded here),
+  /// faces or groups of what does not exist, another mesh or other groups than those of the first where the format has
+  /// one. Nothing has changed then, and another frame may take its place. Any failure of the file system is
+  /// Error(kFile), after which both calls throw that: a file may hold half a frame.
   void append(double time_s, const MeshData& mesh);
-  /// On disk, under its own name, when it returns. Throws Error where frames are missing.
+  /// On disk, under its own name, when it returns, and then it is at its end: both calls throw Error(kBadInput). Throws
+  /// Error(kBadInput) where frames are missing, which may follow, and Error(kFile) as append() does.
   void finish();
   /// What to give to open_sequence(), after finish().
   [[nodiscard]] virtual std::vector<std::filesystem::path> sources() const = 0;
@@ -63,19 +65,24 @@ class SequenceOutput {
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
 
  private:
+  /// Throws Error(kBadInput) before it writes anything.
   virtual void write_frame(double time_s, const MeshData& mesh) = 0;
   virtual void commit() = 0;
+
+  enum class State { kOpen, kFinished, kFailed };
+  void require_open() const;
 
   std::filesystem::path target_;
   OutputHeader header_;
   std::size_t frame_count_ = 0;
   double last_time_s_ = -std::numeric_limits<double>::infinity();
+  State state_ = State::kOpen;
 };
 
 /// Writes to `target`: the file; for OBJ with several frames cloth_000000.obj, ... in place of cloth.obj; for PC2 also
 /// the base mesh cloth.obj beside cloth.pc2; for PVD also cloth_000000.vtp, ... Throws Error(kFile) if one of these is
-/// there already, or a folder that is not empty; kBadInput where faces name vertices, or groups faces, that do not
-/// exist.
+/// there already, or a folder that is not empty; kBadInput where there is no face, or faces name vertices, or groups
+/// faces, that do not exist.
 [[nodiscard]] std::unique_ptr<SequenceOutput> create_output(const std::filesystem::path& target, OutputHeader header);
 
 }  // namespace selvage::io

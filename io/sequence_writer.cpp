@@ -31,6 +31,7 @@ std::string frame_file(std::size_t index) {
 }
 
 void check_header(const SequenceHeader& header, const std::string& name) {
+  check_is_surface(header.triangles, name);
   for (const auto& corners : header.triangles) {
     const bool repeated = corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
     if (repeated || *std::min_element(corners.begin(), corners.end()) < 0) {

@@ -4,9 +4,12 @@
 
 // gtest before RapidCheck's bridge
 #include <cmath>
+#include <csignal>
+#include <stdexcept>
 #include <string>
 
 #include <rapidcheck/gtest.h>
+#include <sys/resource.h>
 
 #include "io/byte_order.h"
 #include "io/checksum.h"
@@ -154,6 +157,9 @@ TEST(SequenceOutput, FacesThatDoNotExistAreRefused) {
     header.sequence.triangles = {{0, 1, 3}};
     expect_error(ErrorKind::kBadInput, "a vertex that does not exist",
                  [&] { static_cast<void>(create_output(folder.path() / name, header)); });
+    header.sequence.triangles.clear();
+    expect_error(ErrorKind::kBadInput, "no face",
+                 [&] { static_cast<void>(create_output(folder.path() / name, header)); });
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
@@ -169,6 +175,10 @@ TEST(SequenceOutput, FramesThatCannotBeAreRefused) {
     MeshData bad = mesh_of(points);
     bad.points[1][2] = std::numeric_limits<double>::quiet_NaN();
     refuse(0, bad, "vertex 1 of frame 0 is not finite");
+    if (name == std::string("a.pc2")) {
+      bad.points[1][2] = 0.1;
+      refuse(0, bad, "float32");
+    }
     bad = mesh_of(points);
     bad.triangles[0][0] = 3;
     refuse(0, bad, "a vertex that does not exist");
@@ -180,6 +190,51 @@ TEST(SequenceOutput, FramesThatCannotBeAreRefused) {
     refuse(1, mesh_of(points), "frame 2 is one more than were announced");
     output->finish();
     EXPECT_FALSE(fs::is_empty(folder.path())) << name;
+    refuse(1, mesh_of(points), "is finished");
+    expect_error(ErrorKind::kBadInput, "is finished", [&] { output->finish(); });
+    if (name == std::string("a.pvd")) continue;  // which is not read
+    const auto reader = open_sequence(output->sources());
+    EXPECT_EQ(reader->frame(1).points, points) << name;
+    EXPECT_THROW((void)reader->frame(2), std::out_of_range) << name;
+  }
+}
+
+/// Files may not grow beyond so many bytes while it lives.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = SIG_DFL;
+};
+
+// A frame of which half is on disk, and then another behind it, would be a file of shifted frames.
+TEST(SequenceOutput, AfterAFailureOfTheFileNothingFollows) {
+  const Points many(2000, {0, 1, 2});
+  for (const char* name : {"a.npz", "a.pc2", "a.obj", "a.pvd", "a/"}) {
+    const TemporaryFolder folder;
+    {
+      const auto output = create(folder.path() / name, {many, many});
+      {
+        const FileSizeLimit limit(4096);
+        expect_error(ErrorKind::kFile, "a", [&] { output->append(0, mesh_of(many)); });
+      }
+      expect_error(ErrorKind::kFile, "start anew", [&] { output->append(1, mesh_of(many)); });
+      expect_error(ErrorKind::kFile, "start anew", [&] { output->finish(); });
+    }
+    EXPECT_TRUE(fs::is_empty(folder.path())) << name;
   }
 }
 

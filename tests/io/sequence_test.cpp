@@ -156,6 +156,7 @@ TEST(SequenceFolder, HeadersThatNoReaderTakesAreNotWritten) {
     expect_error(ErrorKind::kBadInput, fragment, [&] { SequenceWriter(folder.path(), header); });
     EXPECT_FALSE(fs::exists(folder / "sequence.json"));
   };
+  refuse("no face", [](SequenceHeader& header) { header.triangles.clear(), header.groups.clear(); });
   refuse("repeats a vertex", [](SequenceHeader& header) { header.triangles[0] = {1, 2, 1}; });
   refuse("negative index", [](SequenceHeader& header) { header.triangles[0] = {1, 2, -1}; });
   refuse("the group 'shirt' is not within the 2 faces", [](SequenceHeader& header) { header.groups[0].face_end = 3; });
