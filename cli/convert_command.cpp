@@ -47,12 +47,14 @@ bool has_bodies(const std::vector<io::Group>& groups) {
                      [](const io::Group& group) { return group.role == io::Group::Role::kBody; });
 }
 
-/// Throws io::Error where a frame holds no surface: what would be written of it is refused by its readers.
+/// Throws io::Error where a frame holds no surface, or one that is cloth and body: what would be written of it is
+/// refused by its readers, or says less than it.
 io::MeshData read_surface(const io::SequenceReader& input, std::size_t frame) {
   io::MeshData mesh = input.frame(frame);
   if (mesh.triangles.empty()) {
     throw io::Error(io::ErrorKind::kBadInput, input.frame_name(frame) + ": no faces: there is nothing to convert");
   }
+  io::require_one_role(mesh.groups, input.frame_name(frame));
   return mesh;
 }
 

@@ -14,6 +14,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "cli/arguments/named_bodies.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/sequence_argument.h"
@@ -32,6 +33,7 @@ namespace {
 
 struct SubdivideArguments {
   SequenceArgument sequence;
+  std::vector<std::string> body;
   std::filesystem::path output;
   std::int32_t levels = 1;
   std::optional<std::size_t> frame;
@@ -123,31 +125,29 @@ std::string pairs_intersect(std::int64_t count) {
 }
 
 /// What keeps the frame from being written, as faces of the input.
-std::string describe(const FineFrame& fine, std::int32_t levels) {
+std::string describe(const FineFrame& fine, std::int32_t levels, bool has_others) {
   const bool is_input = fine.before.count > 0;
   const Intersections& found = is_input ? fine.before : fine.after;
   const std::int32_t parts = is_input ? 1 : 1 << (2 * levels);  // face f becomes faces 4 f .. 4 f + 3 at every level
   const std::int32_t f = found.first[0] / parts, g = found.first[1] / parts;
   const std::string pairs = pairs_intersect(found.count);
+  const char* const others = has_others ? ", or subdivide the others one by one with --frame" : "";
   if (is_input) {
     return fmt::format(
-        "{} already, the first {}; nothing is written: free the frame, or subdivide the others one by one with --frame",
-        pairs, f == g ? fmt::format("is face {}, which has no area", f) : fmt::format("of faces {} and {}", f, g));
+        "{} already, the first {}; nothing is written: free the frame{}", pairs,
+        f == g ? fmt::format("is face {}, which has no area", f) : fmt::format("of faces {} and {}", f, g), others);
   }
-  return fmt::format(
-      "{} after subdivision, the first {}; nothing is written: {}, or subdivide the other frames one by "
-      "one with --frame",
-      pairs,
-      f == g ? fmt::format("within face {}, which is too thin for the rounding of its midpoints", f)
-             : fmt::format("of faces {} and {}, which are nearer than midpoints can be rounded", f, g),
-      f == g ? "take it out" : "move them apart");
+  return fmt::format("{} after subdivision, the first {}; nothing is written: {}{}", pairs,
+                     f == g ? fmt::format("within face {}, which is too thin for the rounding of its midpoints", f)
+                            : fmt::format("of faces {} and {}, which are nearer than midpoints can be rounded", f, g),
+                     f == g ? "take it out" : "move them apart", others);
 }
 
 ExitCode run(const SubdivideArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
   require_folder_name(arguments.output);
-  const auto input = open_sequence(arguments.sequence);
+  const auto input = with_bodies(open_sequence(arguments.sequence), arguments.body, {});
   if (arguments.frame && *arguments.frame >= input->frame_count()) {
     throw UsageError(fmt::format("--frame {}: there is no such frame; the last one is {}", *arguments.frame,
                                  input->frame_count() - 1));
@@ -159,6 +159,7 @@ ExitCode run(const SubdivideArguments& arguments) {
     throw io::Error(io::ErrorKind::kBadInput, input->frame_name(begin) + ": no faces: there is nothing to subdivide");
   }
   const std::vector<io::Group>& groups = first.groups;
+  io::require_one_role(groups, input->frame_name(begin));
   const sim::Subdivision subdivision(first.triangles, static_cast<std::int32_t>(first.points.size()), groups,
                                      arguments.levels);
   io::MeshData written{{}, subdivision.triangles(), subdivision.groups(), io::Precision::kFloat64};
@@ -185,7 +186,7 @@ ExitCode run(const SubdivideArguments& arguments) {
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before.count + fine[k].after.count > 0) {
         const std::string name = io::printable(input->frame_name(frame + k));
-        say("selvage: {}: {}\n", name, describe(fine[k], arguments.levels));
+        say("selvage: {}: {}\n", name, describe(fine[k], arguments.levels, end - begin > 1));
         return ExitCode::kViolation;
       }
       written.points = std::move(fine[k].points);
@@ -199,6 +200,11 @@ ExitCode run(const SubdivideArguments& arguments) {
   fmt::print("vertices stopped before a touch {}, in {} further rounds\n", counts.stopped, counts.rounds);
   const std::vector<std::uint8_t> is_body = io::body_faces(first.triangles.size(), groups);
   const auto bodies = std::ranges::count(is_body, 1);
+  if (bodies == 0 && groups.size() > 1) {
+    std::string names;
+    for (const io::Group& group : groups) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", group.name);
+    fmt::print("all groups are taken for cloth: {}; --body NAME says which is none\n", io::printable(names));
+  }
   if (bodies == std::ssize(is_body)) {
     fmt::print("nothing was smoothed or checked: all faces belong to bodies\n");
   } else {
@@ -218,6 +224,12 @@ void add_subdivide_command(CLI::App& program, Job& job) {
   command
       .add_option("-o,--output", arguments->output, "The sequence folder to write; must not be there yet, or be empty")
       ->required();
+  command
+      .add_option("--body", arguments->body,
+                  "A is a body, where the format cannot say so: not smoothed, and not checked against bodies and "
+                  "itself; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("A");
   command.add_option("--levels", arguments->levels, "How often every face is split into four")
       ->check(CLI::Range(1, kMaxLevels))
       ->capture_default_str();

@@ -33,6 +33,10 @@ struct Group {
 /// within the faces.
 [[nodiscard]] std::vector<std::uint8_t> body_faces(std::size_t face_count, const std::vector<Group>& groups);
 
+/// A face of a body and of the cloth could be taken for either, and is owed less as a body's. Throws Error(kBadInput)
+/// where there is one: "NAME: face ...".
+void require_one_role(const std::vector<Group>& groups, const std::string& name);
+
 struct MeshData {
   Points points;
   Triangles triangles;

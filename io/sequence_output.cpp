@@ -59,14 +59,22 @@ constexpr OutputTraits kPvdTraits = {.name = "VTP",
                                      .keeps_group_names = false,
                                      .is_read = false};
 
+constexpr std::pair<const char*, OutputFormat> kExtensions[] = {{".npz", OutputFormat::kNpz},
+                                                                {".obj", OutputFormat::kObj},
+                                                                {".pc2", OutputFormat::kPc2},
+                                                                {".pvd", OutputFormat::kPvd}};
+
 }  // namespace
 
 OutputFormat output_format(const fs::path& target) {
-  if (!target.has_filename() || !target.has_extension()) return OutputFormat::kFolder;
-  if (has_extension(target, ".npz")) return OutputFormat::kNpz;
-  if (has_extension(target, ".obj")) return OutputFormat::kObj;
-  if (has_extension(target, ".pc2")) return OutputFormat::kPc2;
-  if (has_extension(target, ".pvd")) return OutputFormat::kPvd;
+  const bool has_name = target.has_filename() && target.has_extension();
+  const fs::path named = has_name ? target : fs::path("name" + target.filename().string());  // ".npz" has none
+  for (const auto& [extension, format] : kExtensions) {
+    if (!has_extension(named, extension)) continue;
+    if (!has_name) bad_input(target.string(), "there is no name before the extension; name the file, or the folder");
+    return format;
+  }
+  if (!has_name) return OutputFormat::kFolder;
   bad_input(target.string(),
             "the extension is none that is written; name an .npz, .obj, .pc2 or .pvd, or end the name "
             "of a folder in a slash");
@@ -104,6 +112,7 @@ void require_faces(const Triangles& triangles, const std::vector<Group>& groups,
                 "the group \"" + printable(group.name) + "\" names faces that do not exist; correct it");
     }
   }
+  require_one_role(groups, target.string());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace selvage::io {
 enum class OutputFormat { kFolder, kNpz, kObj, kPc2, kPvd };
 
 /// By extension: .npz, .obj, .pc2, .pvd; a folder where there is none or the name ends in a slash. Throws
-/// Error(kBadInput).
+/// Error(kBadInput): another one, or no name before it.
 [[nodiscard]] OutputFormat output_format(const std::filesystem::path& target);
 
 /// What the format keeps of a sequence besides positions and faces.
@@ -81,8 +81,8 @@ class SequenceOutput {
 
 /// Writes to `target`: the file; for OBJ with several frames cloth_000000.obj, ... in place of cloth.obj; for PC2 also
 /// the base mesh cloth.obj beside cloth.pc2; for PVD also cloth_000000.vtp, ... Throws Error(kFile) if one of these is
-/// there already, or a folder that is not empty; kBadInput where there is no face, or faces name vertices, or groups
-/// faces, that do not exist.
+/// there already, or a folder that is not empty; kBadInput where there is no face, faces name vertices, or groups
+/// faces, that do not exist, or a face is in a cloth and in a body.
 [[nodiscard]] std::unique_ptr<SequenceOutput> create_output(const std::filesystem::path& target, OutputHeader header);
 
 }  // namespace selvage::io

@@ -39,6 +39,7 @@ void check_header(const SequenceHeader& header, const std::string& name) {
     }
   }
   check_groups(header.groups, header.triangles.size(), name);
+  require_one_role(header.groups, name);
   bool is_text = is_utf8(header.producer);
   for (const Group& group : header.groups) is_text = is_text && is_utf8(group.name);
   if (!is_text) bad_input(name, "a group's name or the producer is not UTF-8; rename it");

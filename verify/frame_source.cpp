@@ -9,22 +9,6 @@
 namespace selvage::verify {
 namespace {
 
-/// A face of a body and of the cloth could be checked as either, and is owed less as a body's: the user has to say
-/// which.
-void require_one_role(const io::MeshData& mesh, const std::string& name) {
-  for (const io::Group& body : mesh.groups) {
-    if (body.role != io::Group::Role::kBody) continue;
-    for (const io::Group& cloth : mesh.groups) {
-      const std::int32_t face = std::max(body.face_begin, cloth.face_begin);
-      if (cloth.role == io::Group::Role::kBody || face >= std::min(body.face_end, cloth.face_end)) continue;
-      throw io::Error(io::ErrorKind::kBadInput,
-                      name + ": face " + std::to_string(face) + " is in the group \"" + cloth.name +
-                          "\", which is cloth, and in \"" + body.name +
-                          "\", which is a body; give both groups one role, or ranges that have no face in common");
-    }
-  }
-}
-
 template <class T>
 std::uint32_t crc32_of(const std::vector<T>& values, std::uint32_t start = 0) {
   return io::crc32({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}, start);
@@ -87,7 +71,7 @@ Frame FrameSource::read(std::size_t i) {
   if (mesh.triangles.empty()) {
     throw io::Error(io::ErrorKind::kBadInput, name + ": no faces: there is nothing to check");
   }
-  require_one_role(mesh, name);
+  io::require_one_role(mesh.groups, name);
   std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
   ResolvedRules resolved = resolve_in(name, mesh);
   surface_changed_ = mesh.triangles != triangles_ || is_body != is_body_ || resolved != resolved_ ||

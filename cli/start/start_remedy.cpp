@@ -54,15 +54,24 @@ class Faults {
   const Positions& x_;
 };
 
-/// Empty where no pair is at a seam.
-std::string seam_remedy(const Faults& faults, std::span<const sim::FacePair> pairs) {
-  std::set<VertexId> coincident;
-  std::string part;
+struct Seams {
+  std::set<VertexId> coincident;  ///< vertices of pairs; none where no pair is at a seam
+  std::string part;               ///< of the first pair that is
+};
+
+Seams find_seams(const Faults& faults, std::span<const sim::FacePair> pairs) {
+  Seams seams;
   for (const sim::FacePair& pair : pairs) {
     const std::set<VertexId> more = faults.coincident(pair);
-    if (part.empty() && !more.empty()) part = faults.name_of_part(pair[0]);
-    coincident.insert(more.begin(), more.end());
+    if (seams.part.empty() && !more.empty()) seams.part = faults.name_of_part(pair[0]);
+    seams.coincident.insert(more.begin(), more.end());
   }
+  return seams;
+}
+
+/// Empty where no pair is at a seam.
+std::string seam_remedy(const Faults& faults, std::span<const sim::FacePair> pairs) {
+  const auto [coincident, part] = find_seams(faults, pairs);
   if (coincident.empty()) return {};
   return fmt::format(
       "the mesh of \"{}\" is split at seams, where {} of these vertices lie at the place of another: weld them to one "
@@ -94,6 +103,16 @@ std::string start_remedy(const sim::World& world, const Positions& x, std::span<
       std::ranges::none_of(pairs, [&](const sim::FacePair& pair) { return faults.coincident(pair).empty(); });
   if (!nothing_else) return seams + "; the others: " + move;
   return repair_failed ? seams : seams + ", or have --repair open them";
+}
+
+std::string opened_seams(const sim::World& world, const Positions& x, std::span<const sim::FacePair> pairs) {
+  const auto [coincident, part] = find_seams(Faults(world, x), pairs);
+  if (coincident.empty()) return {};
+  return fmt::format(
+      "the mesh of \"{}\" was split at seams, where {} of these vertices lay at the place of another; they are open "
+      "now, "
+      "and nothing holds them together: weld them (merge by distance 0) in the program that wrote it to keep them",
+      part, coincident.size());
 }
 
 }  // namespace selvage::cli

@@ -15,4 +15,8 @@ namespace selvage::cli {
 [[nodiscard]] std::string start_remedy(const sim::World& world, const Positions& x,
                                        std::span<const sim::FacePair> pairs, bool repair_failed);
 
+/// Of such a start that a repair has freed: the seams that are open now, or nothing.
+[[nodiscard]] std::string opened_seams(const sim::World& world, const Positions& x,
+                                       std::span<const sim::FacePair> pairs);
+
 }  // namespace selvage::cli

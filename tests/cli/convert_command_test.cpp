@@ -2,6 +2,7 @@
 
 #include "io/sequence.h"
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_roles.h"
 
 namespace selvage {
 namespace {
@@ -179,6 +180,9 @@ TEST(ConvertCommand, MistakesHaveTheirExitCodes) {
   const std::string run = folder.path() / "run", npz = folder.path() / "a.npz", two = folder.path() / "two.obj";
   record(run, kApart);
   record(folder.path() / "foreign", kApart);
+  const std::string two_roles = folder.path() / "two_roles";
+  record(two_roles, kApart);
+  testing::give_two_roles(two_roles);
   spit(npz, "mine");
   spit(two, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
   spit(folder.path() / "three.obj", "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 1\nf 1 2 4\n");
@@ -189,6 +193,8 @@ TEST(ConvertCommand, MistakesHaveTheirExitCodes) {
   } cases[] = {
       {2, {run}, "output"},
       {2, {run, "-o", folder.path() / "a.ply"}, "extension"},
+      {2, {run, "-o", folder.path() / ".npz"}, "no name before the extension"},
+      {3, {two_roles, "-o", folder.path() / "b.npz"}, "two_roles/frame_000000.npy: face 1 is in the group"},
       {2, {run, "-o", folder.path() / "a.pvd", "--recheck"}, "VTP is not read"},
       {2, {run, "-o", folder.path() / "b.npz", "--motion"}, "recheck"},
       {2, {run, "-o", folder.path() / "b.npz", "--recheck", "--motion", "--frames", ":1"}, "at least two frames"},

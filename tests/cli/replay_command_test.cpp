@@ -149,8 +149,8 @@ TEST(ReplayCommand, WhatTheKernelPromisesNothingAboutIsSaidToBeSo) {
   EXPECT_EQ(parse(json)["cases"][0]["outcome"], "outside");
   const auto negative = replay("-0x1p-20", "9");
   EXPECT_EQ(negative.exit_code, 3) << negative.out;
-  EXPECT_EQ(negative.err, "selvage: " + file.string() +
-                              ":3: tolerance: -0x1p-20 is negative; it is a distance, from 0 up\n");
+  EXPECT_EQ(negative.err,
+            "selvage: " + file.string() + ":3: tolerance: -0x1p-20 is negative; it is a distance, from 0 up\n");
 }
 
 TEST(ReplayCommand, TheTextbooksMissIsNamed) {

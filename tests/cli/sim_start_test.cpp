@@ -100,6 +100,20 @@ TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
   EXPECT_EQ(sim(far.substr(0, at) + far.substr(at + 1)).exit_code, 0);
 }
 
+TEST_F(SimCommand, SeamsThatARepairOpensAreNamed) {
+  spit(path("cloth.obj"),
+       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\n"
+       "f 1 2 3\nf 5 4 6\n");
+  const auto run =
+      sim("[time]\nframes = 1\n[[cloth]]\nmesh = {file = \"cloth.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n",
+          {"--repair"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("note       the mesh of \"cloth\" was split at seams, where 4 of these vertices lay at the "
+                         "place of another; they are open now"),
+            std::string::npos)
+      << run.err;
+}
+
 TEST_F(SimCommand, AMeshThatNoRepairCanFreeSaysWhatIsWrongWithIt) {
   struct Case {
     const char* faces;

@@ -5,6 +5,7 @@
 
 #include "io/sequence.h"
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_roles.h"
 
 namespace selvage {
 namespace {
@@ -64,7 +65,47 @@ TEST(SubdivideCommand, RefusesFramesThatIntersect) {
   const auto result = run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find(" already, the first of faces "), std::string::npos) << result.err;
+  expect_text(result.err, "subdivide the others one by one with --frame");
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+  const auto alone =
+      run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--frame", "1"});
+  EXPECT_EQ(alone.exit_code, 1);
+  EXPECT_EQ(alone.err.find("the others"), std::string::npos) << alone.err;
+}
+
+TEST(SubdivideCommand, AFaceHasOneRole) {
+  const TemporaryFolder folder;
+  record(folder.path() / "run", 0.01);
+  testing::give_two_roles(folder.path() / "run");
+  const auto result = run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine"});
+  EXPECT_EQ(result.exit_code, 3) << result.out;
+  expect_text(result.err, "frame_000000.npy: face 1 is in the group \"coat\", which is cloth, and in \"arm\"");
+  EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
+TEST(SubdivideCommand, BodiesOfAFormatWithoutRolesCanBeNamed) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj",
+       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 2\ng coat\nf 1 2 3\ng ball\nf 4 5 6\nf 5 7 6\n");
+  const auto fine = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"subdivide", folder.path() / "a.obj", "-o", folder.path() / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  expect_text(fine("cloth", {}), "all groups are taken for cloth: \"coat\", \"ball\"; --body NAME says which is none");
+  const std::string with_body = fine("body", {"--body", "ball"});
+  expect_text(with_body, "bodies not against each other or themselves");
+  EXPECT_EQ(with_body.find("taken for cloth"), std::string::npos);
+  const auto cloth = io::open_sequence({folder.path() / "cloth"}), body = io::open_sequence({folder.path() / "body"});
+  EXPECT_EQ(body->groups().at(1).role, io::Group::Role::kBody);
+  const io::Points flat = body->frame(0).points, smooth = cloth->frame(0).points;
+  EXPECT_EQ(flat[4], (std::array<double, 3>{1, 0, 1})) << "as it was";
+  EXPECT_NE(smooth[4], flat[4]);
+  const auto unknown =
+      run_program(folder, {"subdivide", folder.path() / "a.obj", "-o", folder.path() / "no", "--body", "bal"});
+  EXPECT_EQ(unknown.exit_code, 2);
 }
 
 /// A face one rounding unit wide: two corners of it have no midpoint between them.

@@ -157,6 +157,11 @@ TEST(SequenceOutput, FacesThatDoNotExistAreRefused) {
     header.sequence.triangles = {{0, 1, 3}};
     expect_error(ErrorKind::kBadInput, "a vertex that does not exist",
                  [&] { static_cast<void>(create_output(folder.path() / name, header)); });
+    header.sequence.triangles = kTriangles;
+    header.sequence.groups = {{"sleeve", Group::Role::kCloth, 0, 2}, {"arm", Group::Role::kBody, 1, 4}};
+    expect_error(ErrorKind::kBadInput, "face 1 is in the group \"sleeve\", which is cloth, and in \"arm\"",
+                 [&] { static_cast<void>(create_output(folder.path() / name, header)); });
+    header.sequence.groups.clear();
     header.sequence.triangles.clear();
     expect_error(ErrorKind::kBadInput, "no face",
                  [&] { static_cast<void>(create_output(folder.path() / name, header)); });

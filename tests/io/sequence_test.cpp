@@ -160,6 +160,9 @@ TEST(SequenceFolder, HeadersThatNoReaderTakesAreNotWritten) {
   refuse("repeats a vertex", [](SequenceHeader& header) { header.triangles[0] = {1, 2, 1}; });
   refuse("negative index", [](SequenceHeader& header) { header.triangles[0] = {1, 2, -1}; });
   refuse("the group 'shirt' is not within the 2 faces", [](SequenceHeader& header) { header.groups[0].face_end = 3; });
+  refuse("face 0 is in the group \"shirt\", which is cloth, and in \"ball\"", [](SequenceHeader& header) {
+    header.groups.push_back({"ball", Group::Role::kBody, 0, 1});
+  });
   refuse("not UTF-8", [](SequenceHeader& header) { header.groups[0].name = "caf\xe9"; });
   refuse("not UTF-8", [](SequenceHeader& header) { header.producer = "\xff"; });
   refuse("larger than a header", [](SequenceHeader& header) { header.groups.resize(20'000); });
