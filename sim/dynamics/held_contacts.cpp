@@ -1,6 +1,7 @@
 #include "sim/dynamics/held_contacts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <span>
@@ -160,7 +161,7 @@ void HeldContacts::begin_with(const ContactLoads& loads) {
 void HeldContacts::begin_with(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t place) {
   ContactPack& pack = packs_[place / kLanes];
   set_load(along_m_s2, friction_m_s2, place % kLanes, pack);
-  states_[place / kLanes].loaded = above_zero(pack.load_m_s2);
+  std::atomic_ref(states_[place / kLanes].loaded).store(above_zero(pack.load_m_s2), std::memory_order_relaxed);
 }
 
 /// In parallel, in blocks of as many contacts as other loops have items.
@@ -171,10 +172,13 @@ void HeldContacts::each_pack(const Body& body) {
   });
 }
 
-/// Packs are read one after the other, and all of them take more than a core's cache.
-void HeldContacts::fetch(std::size_t pack) const {
+/// Packs are read one after the other, and all of them take more than a core's cache: the next one, or, where it bears
+/// no load, its first `idle_bytes`. It may be another thread's, which may end a load just now; then too much is
+/// fetched.
+void HeldContacts::fetch(std::size_t pack, std::size_t idle_bytes) {
   if (pack >= packs_.size()) return;
-  const std::size_t size = states_[pack].loaded == 0 ? offsetof(ContactPack, mobility) : sizeof(ContactPack);
+  const bool is_loaded = std::atomic_ref(states_[pack].loaded).load(std::memory_order_relaxed) != 0;
+  const std::size_t size = is_loaded ? sizeof(ContactPack) : idle_bytes;
   const auto* const bytes = reinterpret_cast<const char*>(&packs_[pack]);
   for (std::size_t k = 0; k < size; k += 64) __builtin_prefetch(bytes + k);
 }
@@ -295,7 +299,7 @@ VertexId HeldContacts::cloth_of(std::size_t place) const {
 /// What they bore in the last step, before anything else, where they are now.
 HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const ContactMotion& motion) {
   PackState& state = states_[id];
-  if (id + 1 < states_.size() && states_[id + 1].loaded != 0) fetch(id + 1);
+  fetch(id + 1, 0);
   lanes &= static_cast<Lanes>(state.loaded & ~state.withheld);
   if (lanes == 0) return {};
   PackMotion read;
@@ -316,7 +320,7 @@ HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reac
 HeldContacts::Refused HeldContacts::hold(std::size_t id, Lanes lanes, const Reach& reach, int left,
                                          const ContactMotion& motion) {
   ContactPack& pack = packs_[id];
-  fetch(backwards_ ? id - 1 : id + 1);
+  fetch(backwards_ ? id - 1 : id + 1, offsetof(ContactPack, mobility));
   PackMotion read;
   read_motion(pack, lanes, motion, read);
   const Lanes looked_at = lanes & (states_[id].loaded | pressing(id));

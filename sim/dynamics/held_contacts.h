@@ -147,7 +147,7 @@ class HeldContacts {
   template <class Body>
   void each_pack(const Body& body);
   [[nodiscard]] PairKind kind_of(std::size_t pack) const { return pack < ee_.first_pack ? vf_.kind : ee_.kind; }
-  void fetch(std::size_t pack) const;
+  void fetch(std::size_t pack, std::size_t idle_bytes);
   /// Those that have pressed in this step of the dynamics.
   [[nodiscard]] Lanes pressing(std::size_t pack) const;
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
