@@ -1,6 +1,5 @@
 #include "verify/frame_source.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "io/checksum.h"

@@ -13,6 +13,9 @@ namespace selvage::sim {
 template <class T>
 using LaneColumn = std::array<T, kLanes>;
 using LaneColumn3 = std::array<LaneColumn<double>, 3>;
+[[nodiscard]] inline Vec3 vector_in(const LaneColumn3& columns, std::size_t lane) {
+  return {columns[0][lane], columns[1][lane], columns[2][lane]};
+}
 
 /// What contacts are and what they have done, in columns. A vertex of cloth is its row, any other row k of those that
 /// are not cloth is ~k. Lanes without a contact are zero.
@@ -47,7 +50,7 @@ struct ContactMotion {
 
 /// The vertices of a pack, at the start of the step and how they move in it.
 struct alignas(64) PackMotion {
-  std::array<LaneColumn3, 4> x, displacement;  // set by read_motion(): to set them twice takes as long as to read them
+  std::array<LaneColumn3, 4> x, displacement;  // read_motion() sets all: zeros before that would be 1.5 kB for nothing
   Lanes lanes = 0;                             ///< that were read; zero in the others
 };
 

@@ -39,17 +39,6 @@ constexpr double kCreepSteps = 4;
 /// third of its height. In the discs of docs/stability.md it was 0.1 to 87,000 J/kg, where this is 0.005 to 0.09.
 constexpr double kSettlingSteps = 100;
 
-/// As far as another face must be nearer to count: above rounding, which has a vertex over an edge go back and forth;
-/// on a flat surface it has slid over the border by 1.4e-3 of its distance then.
-constexpr double kNearer = 1 - 1e-6;
-
-constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf pair
-
-template <class Columns>
-Vec3 vector_in(const Columns& columns, std::size_t lane) {
-  return {columns[0][lane], columns[1][lane], columns[2][lane]};
-}
-
 /// In parallel.
 void copy(const LaneVectors& from, LaneVectors& to) {
   to.resize(from.rows());
@@ -333,118 +322,6 @@ HeldContacts::Refused HeldContacts::hold(std::size_t id, Lanes lanes, const Reac
   press(read, acting, relaxation, is_last, pack, motion);
   states_[id].has_acted = true;
   return refused;
-}
-
-/// The pairs' nearest points now, seen from the side on which they are while they are farther apart than the thickness;
-/// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
-/// that cannot move do not act.
-HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reach, const ContactMotion& motion,
-                                               PackMotion& read, Lanes& lanes) {
-  ContactPack& pack = packs_[id];
-  const PairKind kind = kind_of(id);
-  PackNearest nearest;
-  find_nearest(kind, read, nearest);
-  const Lanes on_border = lanes & nearest.on_border;
-  Slid slid;
-  if (kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, motion);
-  if (slid.on != 0) read_motion(pack, read.lanes, motion, read);
-  const Lanes acting = slid.on | slid.through;
-  const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot;
-  lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
-  return slid.refused;
-}
-
-/// Each of the lanes of vf on to the face on which its vertex is, seen from the side on which it is, as above.
-HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const ContactMotion& motion) {
-  Slid slid;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!has_lane(lanes, lane)) continue;
-    const std::size_t place = id * kLanes + lane;
-    RepulsionContact now = contact_at(place);
-    QuickProximity nearest = quick_proximity(now.kind, positions(now.interaction.vertices, motion));
-    Answer answer = Answer::kYes;
-    while (answer == Answer::kYes) answer = slides_on(now, nearest, reach, motion);
-    if (answer == Answer::kOutOfReach) slid.refused.out_of_reach |= only_lane(lane);
-    if (answer == Answer::kOutOfReach || now.second == contact_at(place).second) continue;
-    const bool is_near = !(nearest.distance > now.properties.thickness_m);
-    if (is_near && !(nearest.direction.dot(vector_in(packs_[place / kLanes].normal, lane)) > 0)) {
-      slid.through |= only_lane(lane);
-      continue;
-    }
-    now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
-    now.interaction.weights = nearest.weights;
-    now.normal = nearest.direction;
-    if (!(effective_mobility(now.interaction) > 0)) {
-      slid.cannot |= only_lane(lane);
-      continue;
-    }
-    now.properties = surface_.properties.of(now.kind, now.first, now.second);
-    contact_at(place) = now;
-    set_lane(place);
-    const Lanes together = vf_.groups.together(id - vf_.first_pack);
-    const bool clashes = has_lane(together, lane) && shares_vertex(place, together);
-    (clashes ? slid.refused.at_once : slid.on) |= only_lane(lane);
-  }
-  return slid;
-}
-
-/// A vertex of cloth, with one of the others of its pack.
-bool HeldContacts::shares_vertex(std::size_t place, Lanes with) const {
-  const ContactPack& pack = packs_[place / kLanes];
-  const std::size_t own = place % kLanes;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (lane == own || !has_lane(with, lane)) continue;
-    for (const auto& a : pack.vertices) {
-      for (const auto& b : pack.vertices) {
-        if (a[own] >= 0 && a[own] == b[lane]) return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is
-/// nearer. A walk from face to face ends, because the distance falls.
-HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
-                                             const ContactMotion& motion) const {
-  if (contact.kind != PairKind::kVf) return Answer::kNo;
-  const std::array<VertexId, 4> from = contact.interaction.vertices;
-  const auto on_corner = [weights = nearest.weights](std::size_t k) { return weights[k] != 0; };
-  const auto corner = std::ranges::find_if(kCorners, on_corner);
-  if (corner == kCorners.end() || std::ranges::all_of(kCorners, on_corner)) return Answer::kNo;
-  Answer slides = Answer::kNo;
-  for (const FaceId id : surface_.faces.of(from[*corner])) {
-    const std::array<VertexId, 3>& face = surface_.mesh.faces[static_cast<std::size_t>(id)];
-    const auto holds = [&](VertexId v) { return std::ranges::find(face, v) != face.end(); };
-    const auto is_beside = [&](std::size_t k) { return !on_corner(k) || holds(from[k]); };
-    if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
-    if (!is_within(reach, face)) return Answer::kOutOfReach;
-    const std::array<VertexId, 4> pair{from[0], face[0], face[1], face[2]};
-    const QuickProximity other = quick_proximity(PairKind::kVf, positions(pair, motion));
-    if (!(other.distance < kNearer * nearest.distance)) continue;
-    nearest = other;
-    contact.second = id;
-    contact.interaction.vertices = pair;
-    slides = Answer::kYes;
-  }
-  return slides;
-}
-
-bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& face) const {
-  return std::ranges::all_of(face, [&](VertexId v) { return !is_cloth(v) || reach.has(v); });
-}
-
-PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const ContactMotion& motion) const {
-  PairVectors x;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const VertexId vertex = vertices[i];
-    if (is_cloth(vertex)) {
-      x[i] = motion.x_t1.row(vertex) - motion.h * motion.v.row(vertex);
-    } else {
-      x[i] = scripted_at(vertex, motion.share);
-    }
-  }
-  return x;
 }
 
 HeldContacts::Load HeldContacts::load(std::size_t i) const {
