@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
@@ -15,6 +16,12 @@ constexpr int kShapeHalvings = 12;  // of the shape that is kept: 2^-12 of a han
 constexpr int kMostGrowth = 3;      // rings by which a region may grow, where the ring around it is too near
 
 using Region = std::vector<VertexId>;  // sorted
+
+/// region.size() for a vertex that is not in it.
+std::size_t index_in(const Region& region, VertexId v) {
+  const auto found = std::ranges::lower_bound(region, v);
+  return found != region.end() && *found == v ? static_cast<std::size_t>(found - region.begin()) : region.size();
+}
 
 class ClothUntangler {
  public:
@@ -40,13 +47,8 @@ class ClothUntangler {
   [[nodiscard]] std::vector<std::uint8_t> cut_edges() const;
   [[nodiscard]] std::vector<Region> regions() const;
   void grow(Region& region) const;
-  [[nodiscard]] bool has_ring(const Region& region) const {
-    return std::ranges::any_of(region, [&](VertexId v) {
-      const auto& around = neighbours_[static_cast<std::size_t>(v)];
-      return std::ranges::any_of(around, [&](VertexId n) { return !std::ranges::binary_search(region, n); });
-    });
-  }
-  [[nodiscard]] Positions membrane(const Region& region) const;
+  void drop_what_has_no_ring(Region& region) const;
+  [[nodiscard]] std::optional<Positions> membrane(const Region& region) const;
   [[nodiscard]] std::vector<Region> crossings() const;
   bool draw_back(Region region);
   bool draw_one_back(const std::vector<Region>& regions) {
@@ -125,8 +127,22 @@ void ClothUntangler::grow(Region& region) const {
   region = std::move(grown);
 }
 
-/// Every vertex of the region at the mean of its neighbours, the ring around it where it is.
-Positions ClothUntangler::membrane(const Region& region) const {
+/// A whole part that nothing holds, say: its membrane could be anywhere, and its Laplacian is singular.
+void ClothUntangler::drop_what_has_no_ring(Region& region) const {
+  const std::size_t ring = region.size();
+  DisjointSets<std::size_t> together(ring + 1);
+  for (std::size_t i = 0; i < ring; ++i) {
+    for (const VertexId v : neighbours_[static_cast<std::size_t>(region[i])]) together.join(i, index_in(region, v));
+  }
+  Region kept;
+  for (std::size_t i = 0; i < ring; ++i) {
+    if (together.root(i) == together.root(ring)) kept.push_back(region[i]);
+  }
+  region = std::move(kept);
+}
+
+/// Every vertex of the region at the mean of its neighbours, the ring around it where it is. PRE: all of it has one.
+std::optional<Positions> ClothUntangler::membrane(const Region& region) const {
   const auto count = static_cast<Eigen::Index>(region.size());
   std::vector<Eigen::Triplet<double>> entries;
   Positions right = Positions::Zero(count, 3);
@@ -134,9 +150,9 @@ Positions ClothUntangler::membrane(const Region& region) const {
     const auto& around = neighbours_[static_cast<std::size_t>(region[static_cast<std::size_t>(i)])];
     entries.emplace_back(i, i, static_cast<double>(around.size()));
     for (const VertexId v : around) {
-      const auto found = std::ranges::lower_bound(region, v);
-      if (found != region.end() && *found == v) {
-        entries.emplace_back(i, found - region.begin(), -1.0);
+      const auto j = static_cast<Eigen::Index>(index_in(region, v));
+      if (j < count) {
+        entries.emplace_back(i, j, -1.0);
       } else {
         right.row(i) += state_.x.row(v);
       }
@@ -144,7 +160,9 @@ Positions ClothUntangler::membrane(const Region& region) const {
   }
   Eigen::SparseMatrix<double> laplacian(count, count);
   laplacian.setFromTriplets(entries.begin(), entries.end());
-  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(laplacian).solve(Eigen::MatrixXd(right));
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(laplacian);
+  if (factors.info() != Eigen::Success) return std::nullopt;  // solve() would leave what it returns unwritten
+  return factors.solve(Eigen::MatrixXd(right));
 }
 
 bool ClothUntangler::keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end) {
@@ -159,12 +177,14 @@ bool ClothUntangler::keep_if_better(const Positions& x, const std::function<bool
 bool ClothUntangler::draw_back(Region region) {
   for (int growth = 0; growth <= kMostGrowth; ++growth, grow(region)) {
     std::erase_if(region, [&](VertexId v) { return state_.is_scripted(v); });
-    if (!has_ring(region)) return false;
-    const Positions flat = membrane(region);
+    drop_what_has_no_ring(region);
+    if (region.empty()) return false;
+    const std::optional<Positions> flat = membrane(region);
+    if (!flat) return false;
     for (int halvings = 1; halvings <= kShapeHalvings; ++halvings) {
       Positions x = state_.x;
       for (std::size_t i = 0; i < region.size(); ++i) {
-        const Vec3 target = flat.row(static_cast<Eigen::Index>(i)), here = at(region[i]);
+        const Vec3 target = flat->row(static_cast<Eigen::Index>(i)), here = at(region[i]);
         x.row(region[i]) = state_.on_lattice(target + std::ldexp(1.0, -halvings) * (here - target));
       }
       if (keep_if_better(x)) return true;

@@ -159,6 +159,35 @@ TEST(Untangle, WhatCouldBeRepairedIsNotWhereSomethingRemains) {
   EXPECT_EQ(defect_of(scene, result), "");
 }
 
+/// A sheet folded in two that is pinned, and a triangle through both halves. What crosses is drawn towards a membrane,
+/// which no ring around the triangle spans: it is a part of its own. Far from the origin, where that would be seen.
+TEST(Untangle, WhatNothingHoldsIsDrawnNowhere) {
+  const Vec3 far(1000, 1000, 1000);
+  StepScene scene;
+  Shape folded = make_sheet(4, 2, 30, 10);
+  for (Eigen::Index v = 0; v < folded.x.rows(); ++v) {
+    const Eigen::Index column = v % 4;
+    folded.x(v, 0) = column == 1 || column == 2 ? 10 : 0;
+    folded.x(v, 2) = column < 2 ? 0 : 1;
+  }
+  scene.inverse_mass[static_cast<std::size_t>(scene.add(folded, far).begin)] = 0;
+  Shape through{Positions(3, 3), {{0, 1, 2}}};
+  through.x << 7, -3, -1, 7, -3, 2, 7.3, -2.9, 0.5;
+  scene.add(through, far);
+
+  double farthest_m = 0;
+  const FindIntersections judge = exact_judge(scene);
+  const FindIntersections watch = [&](const Positions& V) {
+    farthest_m = std::max(farthest_m, (V - scene.V_t0).rowwise().norm().maxCoeff());
+    return judge(V);
+  };
+  const UntangleResult result = untangle(scene.mesh(), scene.V_t0, scene.bodies(), {}, watch);
+  EXPECT_EQ(defect_of(scene, result), "");
+  EXPECT_GT(result.report.rounds, 2) << "the scene asks for something";
+  EXPECT_GT(farthest_m, 0);
+  EXPECT_LT(farthest_m, 100) << "a part may move as a whole by twice the size of the scene";
+}
+
 TEST(Untangle, Float32ResultsLieOnTheLattice) {
   StepScene scene;
   scene.add(make_sheet(9, 9, 0.3, 0.3), Vec3(0.003, 0.002, 0.07));
