@@ -1,7 +1,9 @@
 #include "sim/base/conjugate_gradients.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "kernel/power_of_two.h"
 #include "sim/base/parallel.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -80,8 +82,12 @@ HWY_AFTER_NAMESPACE();
 namespace selvage::sim {
 namespace {
 
-// By cofactors. False for a block that is not positive definite, by Sylvester's criterion.
-bool invert(const SymmetricBlock& m, SymmetricBlock& inverse) {
+// By cofactors, of the block over a power of two: their products of three have other exponents than the inverse. False
+// for a block that is not positive definite, by Sylvester's criterion.
+bool invert(SymmetricBlock m, SymmetricBlock& inverse) {
+  const double largest = std::max({m[0], m[3], m[5]});
+  const int exponent = largest > 0 ? detail::exponent_of(largest) : 0;
+  for (double& element : m) element = detail::times_power(element, -exponent);
   const double xx = m[3] * m[5] - m[4] * m[4], xy = m[2] * m[4] - m[1] * m[5], xz = m[1] * m[4] - m[2] * m[3];
   const double determinant = m[0] * xx + m[1] * xy + m[2] * xz, scale = 1 / determinant;
   inverse = {scale * xx,
@@ -90,6 +96,7 @@ bool invert(const SymmetricBlock& m, SymmetricBlock& inverse) {
              scale * (m[0] * m[5] - m[2] * m[2]),
              scale * (m[1] * m[2] - m[0] * m[4]),
              scale * (m[0] * m[3] - m[1] * m[1])};
+  for (double& element : inverse) element = detail::times_power(element, -exponent);
   return m[0] > 0 && m[0] * m[3] - m[1] * m[1] > 0 && determinant > 0;
 }
 
@@ -161,7 +168,7 @@ ConjugateGradientsResult ConjugateGradients::solve(const BlockMatrix& A, const C
     energy = next;
     ++result.iterations;
   }
-  result.converged = energy <= enough;
+  result.converged = std::isfinite(energy) && energy <= enough;
   x_.copy_to(x);
   return result;
 }

@@ -162,6 +162,29 @@ TEST(ConjugateGradients, SameBitsForAnyThreadsAndVectorUnits) {
   }
 }
 
+TEST(ConjugateGradients, WhatLeavesTheRangeOfDoublesIsNoSolution) {
+  const auto solve_identity = [](double scale, double rhs, Positions& x) {
+    BlockMatrix A(std::vector<std::vector<VertexId>>(2));
+    SymmetricBlock block = {};
+    add_identity(scale, block);
+    A.add_diagonal(0, block);
+    A.add_diagonal(1, block);
+    ConjugateGradients solver;
+    return solver.solve(A, nullptr, std::vector<std::uint8_t>{1, 1}, Positions::Constant(2, 3, rhs), 1e-9,
+                        kManyIterations, x);
+  };
+  Positions x;
+  const auto beyond = solve_identity(1, 1e200, x);  // the square of the residual is
+  EXPECT_TRUE(beyond.definite);
+  EXPECT_FALSE(beyond.converged);
+  for (const double unit : {1e104, 1e-110, 1e150, 1e-150}) {  // in which only the determinant is
+    const auto result = solve_identity(unit, 3 * unit, x);
+    EXPECT_TRUE(result.definite) << unit;
+    EXPECT_TRUE(result.converged) << unit;
+    EXPECT_LT((x.array() - 3).abs().maxCoeff(), 1e-12) << unit;
+  }
+}
+
 TEST(ConjugateGradients, SaysWhatIsNotDefiniteAndWhatIsNotFinite) {
   System system = random_system(7, 11);
   ConjugateGradients solver;
