@@ -44,11 +44,11 @@ Centered centered(std::span<const Vec3> x, std::span<const double> share) {
 
 /// Masses over their sum.
 std::vector<double> mass_shares(std::span<const double> inverse_mass) {
-  const double lightest = *std::ranges::min_element(inverse_mass);  // of the heaviest node
+  const double least_inverse = *std::ranges::min_element(inverse_mass);  // of the heaviest node
   std::vector<double> share;
   double sum = 0;
   for (const double inverse : inverse_mass) {
-    share.push_back(lightest / inverse);
+    share.push_back(least_inverse / inverse);
     sum += share.back();
   }
   for (double& s : share) s /= sum;
