@@ -48,6 +48,9 @@ class Simulation {
   /// Builds what the scene asks for. Throws io::Error. The guard lives while the members are made, as no body of a
   /// constructor could see to.
   explicit Simulation(const Scene& scene) : Simulation(scene, FpEnvGuard()) {}
+  /// Its parts refer to each other.
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   /// Advances to the end of one collision step. PRE: the state is free of intersections (build_world does not check it;
   /// the command does). Where report.status is not kSafe, nothing was advanced.

@@ -1,5 +1,7 @@
 #include "sim/step.h"
 
+#include <type_traits>
+
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -18,6 +20,10 @@ namespace {
 Scene small_scene(int frames, const std::string& extra = "", const std::string& collision = "") {
   return parse_scene(small_scene_text(frames, extra, collision), "small.toml");
 }
+
+// Copied or moved, as by a vector that grows, it would step in the one that was.
+static_assert(!std::is_copy_constructible_v<Simulation> && !std::is_move_constructible_v<Simulation>);
+static_assert(!std::is_copy_assignable_v<Simulation> && !std::is_move_assignable_v<Simulation>);
 
 }  // namespace
 
