@@ -74,7 +74,8 @@ std::vector<double> Collider::times_between(double t0_s, double t1_s) const {
   return times;
 }
 
-/// So many that it turns by kSampledTurn_deg at most from one to the next, evenly between keys.
+/// So many that it turns by kSampledTurn_deg from one to the next where it turns evenly between keys; else by three
+/// times as much at most, as a cubic goes no faster than three times the length of its control polygon in its time.
 void Collider::add_turns(double t0_s, double t1_s, std::vector<double>& times) const {
   std::vector<double> more;
   double from_s = t0_s;

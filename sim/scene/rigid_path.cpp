@@ -58,13 +58,33 @@ double RigidPath::turn_deg(double t0_s, double t1_s) const {
   std::vector<double> times = keys_between(t0_s, t1_s);
   times.push_back(t1_s);
   double turn_deg = 0;
+  double from_s = t0_s;
   Vec3 from = at(t0_s).rotation_deg;
   for (const double time_s : times) {
     const Vec3 to = at(time_s).rotation_deg;
-    turn_deg += (to - from).norm();
+    if (interpolation_ == Interpolation::kSpline) {
+      const double third_s = (time_s - from_s) / 3;
+      const Vec3 out = third_s * turn_rate_deg_s(from_s), in = third_s * turn_rate_deg_s(time_s);
+      turn_deg += out.norm() + (to - in - from - out).norm() + in.norm();
+    } else {
+      turn_deg += (to - from).norm();
+    }
     from = to;
+    from_s = time_s;
   }
   return turn_deg;
+}
+
+Vec3 RigidPath::turn_rate_deg_s(double time_s) const {
+  if (time_s <= keys_.front().time_s || time_s >= keys_.back().time_s) return Vec3::Zero();
+  const auto next = std::upper_bound(keys_.begin(), keys_.end(), time_s,
+                                     [](double time, const PoseKey& key) { return time < key.time_s; });
+  const auto i = static_cast<std::size_t>(next - keys_.begin());
+  const PoseKey& from = keys_[i - 1];
+  const double span_s = next->time_s - from.time_s;
+  const double u = (time_s - from.time_s) / span_s;
+  return 6 * u * (1 - u) / span_s * (next->pose.rotation_deg - from.pose.rotation_deg) +
+         (1 - u) * (1 - 3 * u) * rate_at(i - 1).rotation_deg + u * (3 * u - 2) * rate_at(i).rotation_deg;
 }
 
 Pose RigidPath::rate_at(std::size_t i) const {

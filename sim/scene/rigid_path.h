@@ -44,12 +44,15 @@ class RigidPath {
   [[nodiscard]] Pose at(double time_s) const;
   /// The times of the keys between two times, these left out; in order.
   [[nodiscard]] std::vector<double> keys_between(double t0_s, double t1_s) const;
-  /// How far it turns between two times, degrees: what its rotation vector goes, from key to key.
+  /// How far it turns between two times, degrees: what its rotation vector goes, from key to key. Of a spline, which
+  /// may go beyond its keys and come back, the length of the control polygons between them: no less.
   [[nodiscard]] double turn_deg(double t0_s, double t1_s) const;
 
  private:
   /// The change of pose per second at key i of a spline.
   [[nodiscard]] Pose rate_at(std::size_t i) const;
+  /// What the rotation vector of a spline changes by per second, at any time.
+  [[nodiscard]] Vec3 turn_rate_deg_s(double time_s) const;
 
   std::vector<PoseKey> keys_;
   Interpolation interpolation_;

@@ -88,6 +88,29 @@ TEST(RigidPath, SaysHowFarItTurnsAndWhereItMayBend) {
   EXPECT_NEAR(path.turn_deg(0.6, 1.9), Vec3(5, 100, -17.5).norm() + Vec3(-10, -200, 755).norm(), 1e-10);
 }
 
+// Between its first two keys this one turns back by 3,413 degrees, and comes again.
+TEST(RigidPath, ASplineTurnsNoFartherThanItSays) {
+  const Vec3 none = Vec3::Zero();
+  const RigidPath path({{0, {}}, {1, {}}, {2, {none, {0, 0, 46080}}}, {3, {none, {90, 0, 0}}}}, Interpolation::kSpline);
+  for (const auto& [t0_s, t1_s] : {std::pair(0.0, 1.0), {0.0, 0.5}, {0.3, 0.31}, {-1.0, 0.2}, {0.5, 2.5}, {2.9, 4.0}}) {
+    constexpr int kPieces = 10'000;
+    double way_deg = 0;
+    Vec3 from = path.at(t0_s).rotation_deg;
+    for (int piece = 1; piece <= kPieces; ++piece) {
+      const Vec3 to = path.at(t0_s + (t1_s - t0_s) * piece / kPieces).rotation_deg;
+      way_deg += (to - from).norm();
+      from = to;
+    }
+    EXPECT_GT(way_deg, 1) << t0_s << " to " << t1_s << " s";
+    EXPECT_GE(path.turn_deg(t0_s, t1_s), (1 - 1e-9) * way_deg) << t0_s << " to " << t1_s << " s";
+    EXPECT_LE(path.turn_deg(t0_s, t1_s), 2.5 * way_deg) << t0_s << " to " << t1_s << " s";
+  }
+  EXPECT_EQ(path.turn_deg(-2, 0), 0);
+  EXPECT_EQ(path.turn_deg(3, 5), 0);
+  const Collider blade("blade", {0}, Collider::Rigid{Eigen::RowVector3d(1, 0, 0), Linkage({}, path)});
+  EXPECT_EQ(blade.bend(0, 1).leaves_line_by_m, std::numeric_limits<double>::infinity());
+}
+
 TEST(Collider, KnowsHowFarItLeavesStraightLines) {
   const auto on = [](std::vector<PoseKey> keys, const Vec3& vertex) {
     return Collider(
