@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -31,7 +32,8 @@ void RunTotals::add(const StepResult& step) {
   newton_rounds += step.dynamics.newton_rounds;
   cg_iterations += step.dynamics.cg_iterations;
   unconverged_solves += step.dynamics.unconverged;
-  largest_residual_m = std::max(largest_residual_m, step.dynamics.residual_m);
+  const double residual_m = step.dynamics.residual_m;
+  if (std::isnan(residual_m) || residual_m > largest_residual_m) largest_residual_m = residual_m;  // NaN stays
   if (step.most_strained.strain > largest_strain) {
     largest_strain = step.most_strained.strain;
     largest_strain_at_s = step.end_s;

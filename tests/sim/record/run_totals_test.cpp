@@ -1,5 +1,8 @@
 #include "sim/record/run_totals.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace selvage::sim {
@@ -13,6 +16,16 @@ TEST(RunTotals, ARepairThatLeavesClothTornIsAShortfall) {
   EXPECT_EQ(totals.shortfalls(), "--repair left cloth at 9 times its length");
   totals.waiting_bodies = 1;
   EXPECT_EQ(totals.shortfalls(), "--repair left cloth at 9 times its length, 1 times a body waited");
+}
+
+TEST(RunTotals, AResidualThatIsNoNumberIsNotHiddenByOthers) {
+  RunTotals totals;
+  StepResult step;
+  for (const double residual_m : {2e-5, std::numeric_limits<double>::quiet_NaN(), 1e-5, 3e-5}) {
+    step.dynamics.residual_m = residual_m;
+    totals.add(step);
+  }
+  EXPECT_TRUE(std::isnan(totals.largest_residual_m)) << totals.largest_residual_m;
 }
 
 }  // namespace selvage::sim
