@@ -258,9 +258,9 @@ TimeSpec read_time(TomlTable table) {
   if (table.has("frames")) {
     time.frame_count = table.integer("frames", 1, kMostFrames);
   } else {
-    const double frames = table.number("duration_s", kPositive) * time.frames_per_s;
+    const double frames = std::round(table.number("duration_s", kPositive) * time.frames_per_s);
     if (frames > kMostFrames) table.fail("duration_s", "duration_s is more than 999,999 frames; shorten it");
-    time.frame_count = std::max<std::int64_t>(1, std::llround(frames));
+    time.frame_count = std::max<std::int64_t>(1, static_cast<std::int64_t>(frames));
   }
   const double frame_s = 1 / time.frames_per_s;
   const auto step = [&](std::string_view key, double longest_s, const char* longest) -> std::optional<double> {

@@ -237,6 +237,13 @@ TEST(SceneReader, DefaultsAreThePapers) {
   EXPECT_EQ(scene.time.frame_count, 10);
 }
 
+TEST(SceneReader, ADurationIsComparedAsTheFramesThatItIsRoundedTo) {
+  const std::string cloth = kScene.substr(kScene.find("[[cloth]]"));
+  EXPECT_EQ(parse_scene("[time]\nduration_s = 33333.3\n" + cloth, "long.toml").time.frame_count, 999'999);
+  EXPECT_EQ(parse_scene("[time]\nduration_s = 1e-9\n" + cloth, "short.toml").time.frame_count, 1);
+  EXPECT_THROW((void)parse_scene("[time]\nduration_s = 33333.32\n" + cloth, "longer.toml"), io::Error);
+}
+
 TEST(SceneReader, ReadsWhatItIsGiven) {
   const Scene scene = parse_scene(R"(
 gravity_m_s2 = [0, 0, -9.81]
