@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -57,10 +58,13 @@ std::vector<Setting> settings_of(std::string_view text) {
   return settings;
 }
 
-/// In `all`, or null.
-const Setting* find(const std::vector<Setting>& all, const std::string& path) {
-  const auto found = std::ranges::find(all, path, &Setting::path);
-  return found == all.end() ? nullptr : &*found;
+using SettingsByPath = std::unordered_map<std::string_view, const Setting*>;
+
+/// The first of each path.
+SettingsByPath by_path(const std::vector<Setting>& all) {
+  SettingsByPath result;
+  for (const Setting& setting : all) result.try_emplace(setting.path, &setting);
+  return result;
 }
 
 std::string shown(const std::string& value) { return io::printable(value, kShownBytes); }
@@ -68,19 +72,22 @@ std::string shown(const std::string& value) { return io::printable(value, kShown
 }  // namespace
 
 std::optional<std::string> changed_setting(std::string_view before, std::string_view now) {
+  if (before == now) return std::nullopt;
   const std::vector<Setting> old_settings = settings_of(before), settings = settings_of(now);
+  const SettingsByPath old_by_path = by_path(old_settings), now_by_path = by_path(settings);
   for (const Setting& setting : settings) {
-    const Setting* old = find(old_settings, setting.path);
-    if (old == nullptr) {
+    const auto found = old_by_path.find(setting.path);
+    if (found == old_by_path.end()) {
       return fmt::format("{} (line {}) is {} and was not there", setting.path, setting.line, shown(setting.value));
     }
-    if (old->value != setting.value) {
-      return fmt::format("{} (line {}) was {} and is {}", setting.path, setting.line, shown(old->value),
+    const std::string& old_value = found->second->value;
+    if (old_value != setting.value) {
+      return fmt::format("{} (line {}) was {} and is {}", setting.path, setting.line, shown(old_value),
                          shown(setting.value));
     }
   }
   for (const Setting& old : old_settings) {
-    if (find(settings, old.path) == nullptr) {
+    if (!now_by_path.contains(old.path)) {
       return fmt::format("{} was {} and is not there any more", old.path, shown(old.value));
     }
   }
