@@ -1,6 +1,7 @@
 #include "sim/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -156,7 +157,14 @@ class WorldBuilder {
 
  private:
   void require_masses(const ClothSpec& spec, const std::vector<double>& mass_kg) const {
-    if (std::ranges::find(mass_kg, 0.0) == mass_kg.end()) return;
+    const double least_kg = *std::ranges::min_element(mass_kg);
+    if (std::isfinite(1 / least_kg)) return;  // which is what is simulated with
+    if (least_kg > 0) {
+      io::bad_input_at_line(scene_.file.string(), spec.masses_line,
+                            fmt::format("\"{}\" has a vertex of {:g} kg, which is too little to be divided by; raise "
+                                        "density_kg_m2",
+                                        spec.name, least_kg));
+    }
     const bool has_any = std::ranges::any_of(mass_kg, [](double mass) { return mass > 0; });
     io::bad_input_at_line(
         scene_.file.string(), spec.masses_line,

@@ -72,6 +72,23 @@ TEST(World, RefusesSpringsThatNoStepOfTheDynamicsIsShortEnoughFor) {
   }
 }
 
+TEST(World, RefusesAMassWhoseInverseIsNoNumber) {
+  const auto with_density = [](const std::string& density_kg_m2) {
+    std::string text = "solver = \"implicit\"\n" + small_scene_text(1);
+    text.replace(text.find("density_kg_m2 = 0.3"), 19, "density_kg_m2 = " + density_kg_m2);
+    return parse_scene(text, "small.toml");
+  };
+  EXPECT_NO_THROW((void)build_world(with_density("1e-290")));
+  try {
+    (void)build_world(with_density("1e-309"));
+    FAIL();
+  } catch (const io::Error& error) {
+    const std::string what = error.what();
+    EXPECT_TRUE(what.starts_with("small.toml:12: \"sheet\" has a vertex of ")) << what;
+    EXPECT_TRUE(what.ends_with("raise density_kg_m2")) << what;
+  }
+}
+
 TEST(World, ReadsMeshFilesBesideTheScene) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "two.obj") << "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 100 100 0\nf 1 2 3\nf 2 4 3\n";
