@@ -158,6 +158,10 @@ ExitCode run(const SubdivideArguments& arguments) {
   if (first.triangles.empty()) {
     throw io::Error(io::ErrorKind::kBadInput, input->frame_name(begin) + ": no faces: there is nothing to subdivide");
   }
+  if (!sim::may_subdivide(first.triangles.size(), arguments.levels)) {
+    throw UsageError(fmt::format("--levels {}: {} faces would become more than {}, all that a mesh may have; lower it",
+                                 arguments.levels, first.triangles.size(), kMaxFaceCount));
+  }
   const std::vector<io::Group>& groups = first.groups;
   io::require_one_role(groups, input->frame_name(begin));
   const sim::Subdivision subdivision(first.triangles, static_cast<std::int32_t>(first.points.size()), groups,

@@ -16,8 +16,6 @@ struct Side {
   std::int32_t side;
 };
 
-constexpr Eigen::Index kMaxFaceCount = std::numeric_limits<EdgeId>::max() / 3;
-
 std::vector<Side> sorted_sides(const std::vector<std::array<VertexId, 3>>& faces) {
   std::vector<Side> sides;
   sides.reserve(3 * faces.size());

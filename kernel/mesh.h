@@ -2,12 +2,16 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "kernel/types.h"
 
 namespace selvage {
+
+/// An edge number must be able to count three sides a face.
+inline constexpr std::int32_t kMaxFaceCount = std::numeric_limits<EdgeId>::max() / 3;
 
 /// What make_mesh() builds; not to be changed afterwards.
 struct Mesh {

@@ -50,11 +50,19 @@ struct Subdivision::Level {
   Mesh mesh;
 };
 
+bool may_subdivide(std::size_t face_count, std::int32_t levels) {
+  constexpr std::int32_t kNoneIsLeft = 16;  // of an int32 after so many divisions by four
+  return face_count <= static_cast<std::size_t>(kMaxFaceCount) >> (2 * std::min(levels, kNoneIsLeft));
+}
+
 Subdivision::Subdivision(const io::Triangles& triangles, std::int32_t vertex_count,
                          const std::vector<io::Group>& groups, std::int32_t levels)
     : groups_(groups) {
   const FpEnvGuard guard;
   if (levels < 1) throw std::invalid_argument("Subdivision: levels must be at least 1");
+  if (!may_subdivide(triangles.size(), levels)) {
+    throw std::invalid_argument("Subdivision: so many levels make more faces than a mesh may have");
+  }
   for (const io::Group& group : groups) {
     if (!io::is_within(group, triangles.size())) {
       throw std::invalid_argument("Subdivision: a group names faces that do not exist");

@@ -16,10 +16,14 @@ struct SubdivisionCounts {
   std::int64_t stopped = 0;  ///< vertices that did not reach their smooth place
 };
 
+/// Whether so many faces, split into four `levels` times, are not more than a mesh may have. PRE: levels >= 0.
+[[nodiscard]] bool may_subdivide(std::size_t face_count, std::int32_t levels);
+
 class Subdivision {
  public:
-  /// Throws std::invalid_argument where `levels` < 1 or a group names faces that do not exist. REQUIRES triangles as
-  /// make_mesh() does. Faces of bodies are split but not smoothed: the cloth was kept off their flat faces.
+  /// Throws std::invalid_argument where `levels` < 1, the faces become too many (may_subdivide), or a group names faces
+  /// that do not exist. REQUIRES triangles as make_mesh() does. Faces of bodies are split but not smoothed: the cloth
+  /// was kept off their flat faces.
   Subdivision(const io::Triangles& triangles, std::int32_t vertex_count, const std::vector<io::Group>& groups,
               std::int32_t levels);
   ~Subdivision();

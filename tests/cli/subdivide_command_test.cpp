@@ -161,6 +161,19 @@ TEST(SubdivideCommand, WhatCannotBeSubdividedIsNamedAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
 }
 
+TEST(SubdivideCommand, MoreFacesThanAMeshMayHaveAreRefusedBeforeAnyWork) {
+  const TemporaryFolder folder;
+  const io::Triangles triangles(175'000, {0, 1, 2});  // 716,800,000 in the end
+  io::SequenceWriter writer(folder.path() / "run",
+                            {triangles, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"});
+  writer.append(0, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const auto result =
+      run_program(folder, {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--levels", "6"});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  expect_text(result.err, "--levels 6: 175000 faces would become more than 715827882");
+  EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+}
+
 TEST(SubdivideCommand, SaysWhatItDidNotCheck) {
   const TemporaryFolder folder;
   using Role = io::Group::Role;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -46,6 +47,17 @@ TEST(Subdivision, RefusesNoLevelsAndGroupsOfNoFaces) {
   }
   for (const auto& [begin, end] : {std::pair(-1, 1), {0, 2}, {1, 0}}) {
     EXPECT_THROW(Subdivision(triangle, 3, {{"cloth", io::Group::Role::kCloth, begin, end}}, 1), std::invalid_argument);
+  }
+}
+
+TEST(Subdivision, RefusesMoreFacesThanAMeshMayHave) {
+  EXPECT_TRUE(may_subdivide(1, 14));
+  EXPECT_FALSE(may_subdivide(1, 15));
+  EXPECT_TRUE(may_subdivide(kMaxFaceCount / 4096, 6));
+  EXPECT_FALSE(may_subdivide(kMaxFaceCount / 4096 + 1, 6));
+  EXPECT_FALSE(may_subdivide(1, std::numeric_limits<std::int32_t>::max()));
+  for (const std::int32_t levels : {15, 16, 1000}) {
+    EXPECT_THROW(Subdivision({{0, 1, 2}}, 3, {}, levels), std::invalid_argument) << levels;
   }
 }
 
