@@ -10,7 +10,12 @@ namespace {
 
 Vec3 choose_vector(ChoiceSource& source) { return {source.signed_real(), source.signed_real(), source.signed_real()}; }
 
-Eigen::RowVector3d centre_of(const Positions& x) { return x.colwise().mean(); }
+/// Row by row: the order in which Eigen adds up a column depends on the address that the result has.
+Eigen::RowVector3d centre_of(const Positions& x) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const auto& point : x.rowwise()) sum += point;
+  return sum / static_cast<double>(x.rows());
+}
 
 Positions still(ChoiceSource& /*source*/, const StepWorld& /*world*/, const Positions& x) { return x; }
 
