@@ -12,6 +12,8 @@ namespace selvage::fuzz {
 /// Answers "which of k?" again and again. The answer 0 is always the simplest one, and an exhausted source answers 0:
 /// a shorter or smaller source means a simpler case, which is what lets RapidCheck and libFuzzer shrink.
 /// Does not own what it reads. Copying forks the source.
+/// One question a statement, or several in one braced list: in the arguments of a call and the operands of an operator
+/// each compiler asks in an order of its own, and a source would mean another case to each.
 class ChoiceSource {
  public:
   /// Endless; the same seed gives the same answers on every machine.

@@ -20,7 +20,8 @@ struct Surface {
 
 /// Two tents, or valleys, one over the other: smoothing moves the ridge of the coarser one more, through the other.
 Surface tents(ChoiceSource& source) {
-  const double slope = std::ldexp(source.coin() ? 1.0 : -1.0, source.range(-3, 3));
+  const int steepness = source.range(-3, 3);
+  const double slope = std::ldexp(source.coin() ? 1.0 : -1.0, steepness);
   const double gap = std::ldexp(1.0, -source.range(0, 20));
   Surface surface;
   std::vector<Vec3> points;

@@ -70,7 +70,8 @@ Positions to_plane(ChoiceSource& source, const StepWorld& /*world*/, const Posit
 
 /// About the centre, by a factor that may be negative (inside out) or enormous.
 Positions explode(ChoiceSource& source, const StepWorld& /*world*/, const Positions& x) {
-  const double factor = std::ldexp(source.coin() ? -1.0 : 1.0, source.range(0, 40));
+  const int exponent = source.range(0, 40);
+  const double factor = std::ldexp(source.coin() ? -1.0 : 1.0, exponent);
   const Eigen::RowVector3d centre = centre_of(x);
   return (factor * (x.rowwise() - centre)).rowwise() + centre;
 }
@@ -100,7 +101,8 @@ Positions anywhere(ChoiceSource& source, const StepWorld& /*world*/, const Posit
   ChoiceSource noise = ChoiceSource::from_seed(source.n(1U << 16));
   Positions candidate = x;
   for (double& coordinate : candidate.reshaped()) {
-    coordinate = std::ldexp(noise.signed_real(), noise.range(-1074, 999));
+    const int exponent = noise.range(-1074, 999);
+    coordinate = std::ldexp(noise.signed_real(), exponent);
   }
   return candidate;
 }

@@ -71,7 +71,10 @@ MotionQuery rounded_contact(ChoiceSource& source, PairKind kind) {
   MotionQuery query = to_query(kind, motion_of(kind, contact), -24);
   // Coordinates below 2^6 in units of 2^-24 hold 30 bits; an offset with a full mantissa, or beyond 2^29, drops some.
   Vec3 offset;
-  for (auto& coordinate : offset) coordinate = std::ldexp(source.signed_real(), source.range(0, 40));
+  for (auto& coordinate : offset) {
+    const int exponent = source.range(0, 40);
+    coordinate = std::ldexp(source.signed_real(), exponent);
+  }
   for (auto* x : {&query.x_t0, &query.x_t1}) {
     for (auto& point : *x) point += offset;
   }

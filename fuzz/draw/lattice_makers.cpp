@@ -47,7 +47,8 @@ MotionQuery lattice_ulp(ChoiceSource& source, PairKind kind) {
   if (source.coin()) {
     query = to_query(kind, random_motion(source, static_cast<std::uint32_t>(source.range(1, 3))));
   } else {
-    query = contact(source, kind, choose_any_time(source), choose_any_place(source), Grid::kLattice);
+    const ContactPlace place_of = choose_any_place(source);
+    query = contact(source, kind, choose_any_time(source), place_of, Grid::kLattice);
   }
   nudge(source, query, 3);
   return query;
@@ -86,7 +87,10 @@ MotionQuery near_coplanar(ChoiceSource& source, PairKind kind) {
   for (auto& vector : plane) vector *= flatness;
   LatticeMotion motion;
   for (auto* x : {&motion.x_t0, &motion.x_t1}) {
-    for (auto& point : *x) point = choose_in_plane(source, plane, kSmallRadius) + choose_point(source, 1);
+    for (auto& point : *x) {
+      const LatticePoint beside = choose_point(source, 1);
+      point = choose_in_plane(source, plane, kSmallRadius) + beside;
+    }
   }
   return to_query(kind, motion);
 }

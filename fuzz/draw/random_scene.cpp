@@ -13,8 +13,10 @@ class SceneText {
  public:
   explicit SceneText(ChoiceSource& source) : source_(source), unit_m_(std::ldexp(1.0, source.range(0, 4) - 3)) {
     if (source.coin()) {
-      for (double& coordinate : offset_m_)
-        coordinate = static_cast<double>(source.zigzag(2)) * std::ldexp(1.0, source.range(0, 12));
+      for (double& coordinate : offset_m_) {
+        const auto multiple = static_cast<double>(source.zigzag(2));
+        coordinate = std::ldexp(multiple, source.range(0, 12));
+      }
     }
   }
 
@@ -24,6 +26,11 @@ class SceneText {
   void place(std::string_view key, double x, double y, double z) {
     line(std::string(key) + " = " +
          triple(x * unit_m_ + offset_m_[0], y * unit_m_ + offset_m_[1], z * unit_m_ + offset_m_[2]));
+  }
+  /// Up to `size` away from the middle.
+  void place_beside(std::string_view key, double size, double z) {
+    const double y = jitter(size), x = jitter(size);
+    place(key, x, y, z);
   }
   void speed(double x, double y, double z) { line("velocity_m_s = " + triple(x * unit_m_, y * unit_m_, z * unit_m_)); }
 
@@ -55,7 +62,8 @@ class SceneText {
     line("sheet = {nx = " + n + ", ny = " + n + ", width_m = " + decimal(side * unit_m_) +
          ", height_m = " + decimal(side * unit_m_) + "}");
     place("position_m", x, y, z);
-    speed(jitter(2), jitter(2), speed_z);
+    const double speed_y = jitter(2), speed_x = jitter(2);
+    speed(speed_x, speed_y, speed_z);
     value("density_kg_m2", 0.2);
     value("stretch_n_m", 10 * source_.range(1, 6));
     if (source_.coin()) value("shear_n_m", 4);
@@ -88,11 +96,15 @@ class SceneText {
     value("time_s", time_s);
     place("position_m", x, y, z);
   }
+  void key_beside(double time_s, double size, double z) {
+    const double y = jitter(size), x = jitter(size);
+    key(time_s, x, y, z);
+  }
   void ground(double z) {
     line("[[body]]");
     line("name = \"ground\"");
     line("sheet = {nx = 2, ny = 2, width_m = " + decimal(6 * unit_m_) + ", height_m = " + decimal(6 * unit_m_) + "}");
-    place("position_m", jitter(0.1), jitter(0.1), z);
+    place_beside("position_m", 0.1, z);
   }
 
   double jitter(double size) { return size * source_.signed_real(); }
@@ -121,17 +133,18 @@ class SceneText {
 };
 
 void fall(SceneText& scene) {
-  scene.cloth(scene.source().range(2, 9), 1, 0, 0, 0.6, scene.jitter(8));
+  const double speed = scene.jitter(8);
+  scene.cloth(scene.source().range(2, 9), 1, 0, 0, 0.6, speed);
   scene.body_shape(0.5);
-  scene.place("position_m", scene.jitter(0.3), scene.jitter(0.3), 0);
+  scene.place_beside("position_m", 0.3, 0);
   if (scene.source().coin()) scene.ground(-0.4);
 }
 
 void stack(SceneText& scene) {
   const int layers = scene.source().range(2, 5);
   for (int layer = 0; layer < layers; ++layer) {
-    scene.cloth(scene.source().range(2, 5), 1, scene.jitter(0.1), scene.jitter(0.1), 0.05 + 0.02 * layer,
-                scene.jitter(6));
+    const double speed = scene.jitter(6), y = scene.jitter(0.1), x = scene.jitter(0.1);
+    scene.cloth(scene.source().range(2, 5), 1, x, y, 0.05 + 0.02 * layer, speed);
   }
   scene.ground(0);
 }
@@ -141,13 +154,14 @@ void pinch(SceneText& scene) {
   const double last_s = 0.1 * scene.source().range(2, 10), overlap = scene.jitter(0.2);
   for (const double side : {-1.0, 1.0}) {
     scene.body_shape(0.6);
-    scene.key(0, scene.jitter(0.1), scene.jitter(0.1), side * 0.5);
-    scene.key(last_s, scene.jitter(0.2), scene.jitter(0.2), side * (0.3 + overlap));
+    scene.key_beside(0, 0.1, side * 0.5);
+    scene.key_beside(last_s, 0.2, side * (0.3 + overlap));
   }
 }
 
 void fling(SceneText& scene) {
-  scene.cloth(scene.source().range(3, 9), 1, 0, 0, 0.5, scene.jitter(4));
+  const double speed = scene.jitter(4);
+  scene.cloth(scene.source().range(3, 9), 1, 0, 0, 0.5, speed);
   scene.line("[[cloth.pin]]");
   scene.line(scene.source().coin() ? "edge = \"top\"" : "edge = \"left\"");
   if (scene.source().coin()) scene.value("release_s", 0.3);
@@ -156,9 +170,10 @@ void fling(SceneText& scene) {
   for (int i = 1; i <= 3; ++i) {
     scene.line("[[cloth.pin.key]]");
     scene.value("time_s", 0.15 * i);
+    const double y = scene.jitter(reach), x = scene.jitter(reach);
     const std::string z = i % 2 == 1 ? "-" : "";
-    scene.line("position_m = [" + std::to_string(scene.jitter(reach)) + ", " + std::to_string(scene.jitter(reach)) +
-               ", " + z + std::to_string(reach) + "]");
+    scene.line("position_m = [" + std::to_string(x) + ", " + std::to_string(y) + ", " + z + std::to_string(reach) +
+               "]");
   }
   if (scene.source().coin()) scene.ground(-0.7);
 }
@@ -166,14 +181,16 @@ void fling(SceneText& scene) {
 void crowd(SceneText& scene) {
   const int count = scene.source().range(2, 4);
   for (int i = 0; i < count; ++i) {
-    scene.cloth(scene.source().range(1, 3), 0.4, scene.jitter(0.2), scene.jitter(0.2), 0.3 * i, scene.jitter(60));
+    const double speed = scene.jitter(60), y = scene.jitter(0.2), x = scene.jitter(0.2);
+    scene.cloth(scene.source().range(1, 3), 0.4, x, y, 0.3 * i, speed);
   }
   const int bodies = scene.source().range(1, 2);
   for (int i = 0; i < bodies; ++i) {
     scene.body_shape(0.2);
     const double side = i == 0 ? -1 : 1;
     scene.key(0, side, 0, 0.15 + 0.3 * i);
-    scene.key(0.05 * scene.source().range(1, 12), -side, scene.jitter(0.5), 0.15 + 0.3 * i + scene.jitter(0.5));
+    const double z = 0.15 + 0.3 * i + scene.jitter(0.5), y = scene.jitter(0.5);
+    scene.key(0.05 * scene.source().range(1, 12), -side, y, z);
   }
 }
 
@@ -183,12 +200,14 @@ void carry(SceneText& scene) {
   scene.line(scene.source().coin() ? "edge = \"right\"" : "vertices = [0, 1]");
   if (scene.source().coin()) scene.value("release_s", 0.5);
   scene.body_shape(0.5);
-  scene.key(0, scene.jitter(0.2), scene.jitter(0.2), scene.source().coin() ? 1 : 0.2);
+  const double first_z = scene.source().coin() ? 1 : 0.2;
+  scene.key_beside(0, 0.2, first_z);
   scene.line("rotation_deg = [" + std::to_string(scene.jitter(90)) + ", 0.0, 0.0]");
-  scene.key(0.1 * scene.source().range(2, 10), scene.jitter(1), scene.jitter(1), scene.jitter(1));
+  const double z = scene.jitter(1), y = scene.jitter(1), x = scene.jitter(1);
+  scene.key(0.1 * scene.source().range(2, 10), x, y, z);
   scene.line("rotation_deg = [0.0, " + std::to_string(scene.jitter(180)) + ", 0.0]");
   scene.body_shape(0.3);
-  scene.place("position_m", scene.jitter(0.5), scene.jitter(0.5), -0.3);
+  scene.place_beside("position_m", 0.5, -0.3);
   if (scene.source().coin()) scene.ground(-0.7);
 }
 

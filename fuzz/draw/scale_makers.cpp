@@ -48,8 +48,8 @@ MotionQuery mixed_coordinates(ChoiceSource& source, PairKind kind, int exponent_
   for (auto* x : {&query.x_t0, &query.x_t1}) {
     for (auto& point : *x) {
       for (auto& coordinate : point) {
-        coordinate = std::ldexp(source.coin() ? source.signed_real() : static_cast<double>(source.zigzag(3)),
-                                static_cast<int>(source.zigzag(static_cast<std::uint32_t>(exponent_radius))));
+        const auto exponent = static_cast<int>(source.zigzag(static_cast<std::uint32_t>(exponent_radius)));
+        coordinate = std::ldexp(source.coin() ? source.signed_real() : static_cast<double>(source.zigzag(3)), exponent);
       }
     }
   }

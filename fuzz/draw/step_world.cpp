@@ -24,8 +24,8 @@ Setting choose_setting(ChoiceSource& source) {
   if (source.coin()) {
     // Up to 2^24 spacings away, where gaps of 2^-30 no longer exist: such settings are given up below.
     for (double& coordinate : setting.offset) {
-      coordinate =
-          static_cast<double>(source.zigzag(3)) * std::ldexp(1.0, setting.scale_exponent + source.range(0, 22));
+      const auto multiple = static_cast<double>(source.zigzag(3));
+      coordinate = std::ldexp(multiple, setting.scale_exponent + source.range(0, 22));
     }
   }
   return setting;

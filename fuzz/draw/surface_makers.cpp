@@ -72,7 +72,8 @@ double choose_gap(ChoiceSource& source) { return std::ldexp(1.0, -source.range(0
 SurfaceDraft sheets(ChoiceSource& source) {
   SurfaceDraft draft;
   draft.gap = choose_gap(source);
-  add_layers(draft, source.range(2, 3), source.range(1, 3), draft.gap);
+  const int cells = source.range(1, 3);
+  add_layers(draft, source.range(2, 3), cells, draft.gap);
   return draft;
 }
 

@@ -68,7 +68,7 @@ TEST(InclusionCcd, KeepsContactsThatRoundingHides) {
   for (int i = 0; i < 200; ++i) {
     const double c = 1 + source.unit_real();
     const auto in_plane = [&](double x, double y) {
-      return Vec3(x + 0.1 * source.unit_real(), y + 0.1 * source.unit_real(), c);
+      return Vec3{x + 0.1 * source.unit_real(), y + 0.1 * source.unit_real(), c};
     };
     const auto corners = [&] {
       return std::array<Vec3, 4>{in_plane(0.3, 0.3), in_plane(0, 0), in_plane(1, 0), in_plane(0, 1)};
@@ -76,8 +76,8 @@ TEST(InclusionCcd, KeepsContactsThatRoundingHides) {
     const auto cross = [&] {
       return std::array<Vec3, 4>{in_plane(0, 0), in_plane(1, 1), in_plane(0, 1), in_plane(1, 0)};
     };
-    const InclusionAnswer vf = inclusion_vf(corners(), corners(), options),
-                          ee = inclusion_ee(cross(), cross(), options);
+    const std::array<Vec3, 4> vf_t0 = corners(), vf_t1 = corners(), ee_t0 = cross(), ee_t1 = cross();
+    const InclusionAnswer vf = inclusion_vf(vf_t0, vf_t1, options), ee = inclusion_ee(ee_t0, ee_t1, options);
     ASSERT_TRUE(vf.collides && vf.toi == 0) << i;
     ASSERT_TRUE(ee.collides && ee.toi == 0) << i;
   }

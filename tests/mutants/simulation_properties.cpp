@@ -32,8 +32,10 @@ std::string scene_text(std::uint64_t seed) {
   text += "friction_static = " + number(0, 5, 0.1) + "\n";
   if (source.coin()) text += "precision = \"float32\"\n";
   text += "[[cloth]]\nsheet = {nx = " + side + ", ny = " + side + ", width_m = 0.4, height_m = 0.4}\n";
-  text += "position_m = [" + number(0, 8, 0.01) + ", " + number(0, 8, 0.01) + ", " + number(31, 36, 0.01) + "]\n";
-  text += "rotation_deg = [0, 0, " + number(0, 45, 1.0) + "]\nvelocity_m_s = [0, 0, " + number(-5, -1, 1.0) + "]\n";
+  const std::string z = number(31, 36, 0.01), y = number(0, 8, 0.01), x = number(0, 8, 0.01);
+  text += "position_m = [" + x + ", " + y + ", " + z + "]\n";
+  const std::string speed = number(-5, -1, 1.0), angle = number(0, 45, 1.0);
+  text += "rotation_deg = [0, 0, " + angle + "]\nvelocity_m_s = [0, 0, " + speed + "]\n";
   text += "density_kg_m2 = 2\nstretch_n_m = 15\nshear_n_m = 5\ndamping_ratio = 0.1\n";
   text += "[[body]]\nname = \"ball\"\nsphere = {radius_m = 0.15, subdivisions = 1}\n";
   text +=
