@@ -272,10 +272,7 @@ void Driver::take_done(Team& team, const Event& done) {
     is_dirty_ = true;
     const std::pair<std::string, std::string> key{property.streams[static_cast<std::size_t>(job.stream)], job.failure};
     shares_[p].being_kept.erase(key);
-    Finding& finding = property.findings.at(key);
-    // A lower case may have failed meanwhile: then that one is kept instead.
-    const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
-    if (finding.number == job.number) finding.file = kept_name(*properties_[p], stream, job.failure);
+    take_kept(job);
     return;
   }
   shares_[p].seconds += done.seconds - shares_[p].unit_seconds;
@@ -310,6 +307,14 @@ void Driver::take_unit(Team& team) {
     ++place->second.count;
     if (failure.number < place->second.number) place->second = {place->second.count, failure.number, {}};
   }
+}
+
+/// The case is written. A lower one may have failed meanwhile: then that one is kept instead.
+void Driver::take_kept(const Job& job) {
+  const auto p = static_cast<std::size_t>(job.property);
+  const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
+  Finding& finding = ledger_.properties[p].findings.at({stream.name, job.failure});
+  if (finding.number == job.number) finding.file = kept_name(*properties_[p], stream, job.failure);
 }
 
 void Driver::fail_of_worker(const Death& death, const std::string& what_for) const {
@@ -358,7 +363,7 @@ void Driver::take_death_of_keeping(Team& team, const Job& job, const Death& deat
   const std::pair<std::string, std::string> key{stream.name, job.failure};
   shares_[p].being_kept.erase(key);
   if (team.worker->progress().has_kept) {
-    ledger_.properties[p].findings.at(key).file = kept_name(*properties_[p], stream, job.failure);
+    take_kept(job);
     is_dirty_ = true;
   } else if (!death.is_abandoned && !shares_[p].lost.insert(key).second) {
     fail_of_worker(death, "keep");
@@ -375,10 +380,7 @@ void Driver::take_broken_channel(Team& team) {
   Share& share = shares_[p];
   const auto [stream, number] = place_of(job, team.worker->progress(), properties_[p]->streams());
   if (job.kind == Job::Kind::kKeep) {  // as above: what was written first, if anything was, stays
-    if (team.worker->progress().has_kept) {
-      property.findings.at({property.streams[stream], job.failure}).file =
-          kept_name(*properties_[p], properties_[p]->streams()[stream], job.failure);
-    }
+    if (team.worker->progress().has_kept) take_kept(job);
     share.being_kept.erase({property.streams[stream], job.failure});
   }
   auto [place, is_new] =

@@ -59,6 +59,7 @@ class Driver {
   void take_done(Team& team, const Event& done);
   void take_unit(Team& team);
   void take_death(Team& team);
+  void take_kept(const Job& job);
   void take_death_of_keeping(Team& team, const Job& job, const Death& death);
   [[noreturn]] void fail_of_worker(const Death& death, const std::string& what_for) const;
   void take_broken_channel(Team& team);

@@ -168,6 +168,56 @@ TEST(Driver, CrashesAndHangsAreFindingsAndNotTheEnd) {
   EXPECT_EQ(ledger.findings.at({"one", "hung"}).count, 2);
 }
 
+/// Three cases in two workers: the lowest fails last, like the one that dies while it is made simpler.
+class Overtaken final : public Property {
+ public:
+  explicit Overtaken(fs::path folder) : Property("overtaken", "is kept lowest"), folder_(std::move(folder)) {
+    streams_ = {{"one", 0, 1}};
+  }
+  Outcome run(const Stream& stream, ChoiceSource source) override {
+    const std::int64_t number = number_of(stream, source);
+    if (number == 0) await("being-shrunk");
+    if (number == 2) reach("lowest-is-known");  // given to the worker that has told of case 0
+    return {{1, number < 2 ? 1 : 0, {}, 0}, number < 2 ? "unlucky" : ""};
+  }
+  std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string&,
+                   bool shrunk) override {
+    if (shrunk && number_of(stream, source) == 1) {
+      reach("being-shrunk");
+      await("lowest-is-known");
+      std::raise(SIGSEGV);
+    }
+    return origin;
+  }
+
+ private:
+  static std::int64_t number_of(const Stream& stream, ChoiceSource source) {
+    const auto drawn = [](ChoiceSource from) { return from.n(1U << 30); };
+    std::int64_t number = 0;
+    while (drawn(ChoiceSource::from_seed(case_seed(1, stream, number))) != drawn(source)) ++number;
+    return number;
+  }
+  void reach(const char* mark) const { io::write_atomically(folder_ / mark, ""); }
+  void await(const char* mark) const {
+    while (!fs::exists(folder_ / mark)) usleep(1000);
+  }
+
+  fs::path folder_;
+};
+
+TEST(Driver, NamesTheFileOfNoCaseButTheLowest) {
+  const TemporaryFolder folder;
+  Properties properties;
+  properties.push_back(std::make_unique<Overtaken>(folder.path()));
+  DriverOptions options = options_for(folder.path() / "campaign", 3);
+  options.jobs = 2;
+  run_all(properties, options);
+  const PropertyLedger ledger = parse_ledger(slurp(options.folder / kLedgerFile), "ledger").properties[0];
+  const Finding& finding = ledger.findings.at({"one", "unlucky"});
+  EXPECT_EQ(finding.number, 0);
+  EXPECT_EQ(slurp(options.folder / finding.file), "overtaken:one:1:0");
+}
+
 /// A unit of cases that take a millisecond, until one does something else. Few are ahead of that one: on a busy machine
 /// the campaigns of run_out_of_time() come to a few dozen.
 class Slow final : public Property {
