@@ -61,11 +61,8 @@ void ExactWatch::watch_gap(const Positions& x, const sim::CollisionStepReport& r
   const io::Points points = sim::points_of(x);
   const auto near_pairs = [&](double distance_m) { return verify::near_pairs(topology_, points, distance_m); };
   double& gap_m = trial_.report().gap_at_least_m;
-  if (gap_m > 0 && near_pairs(gap_m).empty()) return;
-  do {
-    gap_m *= kGapShrink;
-  } while (gap_m > 0 && !near_pairs(gap_m).empty());
-  if (gap_m >= tolerance_m_) return;
+  while (gap_m > 0 && !near_pairs(gap_m).empty()) gap_m *= kGapShrink;
+  if (gap_m >= tolerance_m_) return;  // no step so far has ended so near
   std::set<std::pair<PairKind, std::array<std::int32_t, 2>>> named;
   for (const Collision& pair : report.below_tolerance) named.insert({pair.kind, {pair.first, pair.second}});
   for (const verify::Violation& near : near_pairs(tolerance_m_)) {

@@ -91,6 +91,8 @@ TEST(ExactWatch, SeesWhatAStepMustNotDo) {
   EXPECT_THROW(watch.step(scene.x, scene.lowered(2), scene.report), CriterionFailed) << "passes through";
   EXPECT_THROW(watch.step(scene.x, scene.lowered(1), scene.report), CriterionFailed) << "touches at the end";
   EXPECT_THROW(watch.step(scene.x, scene.lowered(1 - 1e-4), scene.report), CriterionFailed) << "near, and not named";
+  EXPECT_THROW(watch.step(scene.x, scene.lowered(1 - 2e-4), scene.report), CriterionFailed)
+      << "not named either, where an earlier step ended nearer";
   sim::CollisionStepReport stopped;
   stopped.status = sim::StepStatus::kStopped;
   EXPECT_THROW(watch.step(scene.x, scene.x, stopped), CriterionFailed);
