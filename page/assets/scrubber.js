@@ -28,6 +28,7 @@ class Scrubber {
   start() {
     const { min, max } = this.slider;
     const begin = Number(min), length = Number(max) - begin;
+    if (length === 0) return; // one frame: there is nothing to play
     let at = Number(this.slider.value) >= Number(max) ? begin : Number(this.slider.value);
     let last = performance.now();
     const run = ++Scrubber.runs;

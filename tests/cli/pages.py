@@ -227,6 +227,15 @@ class Pages(unittest.TestCase):
         self.browser.wait_for("document.querySelector('.view').dataset.shown !== '#frame=3'")
         self.assertEqual(self.text("[data-do=play]"), "Pause")
 
+    def test_player_of_one_frame(self):
+        page = self.page("still.html", 0, "view", self.sheets[2], "-o")
+        self.browser.open(page, "#frame=0")
+        still = self.screenshot("still.png")
+        self.browser.press(" ")
+        self.browser.settle()
+        self.assertEqual(self.text("[data-do=play]"), "Play", "there is nothing to play")
+        self.assertEqual(self.screenshot("still-played.png"), still)
+
     def test_conformance(self):
         artifacts = os.path.join(self.folder, "artifacts")
         run = subprocess.run([program, "fuzz", "--plugin", plugin, "--cases", "1", "--jobs", "1", "--artifacts", artifacts],
