@@ -5,24 +5,21 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace selvage::io {
 namespace {
 
+bool are_digits(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char letter) { return letter >= '0' && letter <= '9'; });
+}
+
 /// A natural number as 32-bit digits, least significant first, without leading zeros.
 class Natural {
  public:
-  /// Nothing unless `digits` is 1 to kMostDigits decimal digits.
-  static std::optional<Natural> parse(std::string_view digits) {
-    if (digits.empty() || digits.size() > kMostDigits) return std::nullopt;
-    Natural number;
-    for (const char digit : digits) {
-      if (digit < '0' || digit > '9') return std::nullopt;
-      number.multiply_add(10, static_cast<std::uint32_t>(digit - '0'));
-    }
-    return number;
+  /// Of decimal digits.
+  explicit Natural(std::string_view digits) {
+    for (const char digit : digits) multiply_add(10, static_cast<std::uint32_t>(digit - '0'));
   }
 
   [[nodiscard]] bool is_zero() const { return limbs_.empty(); }
@@ -105,11 +102,11 @@ RationalFault divide(Natural n, Natural d, double& value) {
 RationalFault parse_rational(std::string_view numerator, std::string_view denominator, double& value) {
   const bool is_negative = numerator.starts_with('-');
   if (is_negative || numerator.starts_with('+')) numerator.remove_prefix(1);
-  const std::optional<Natural> n = Natural::parse(numerator);
-  const std::optional<Natural> d = Natural::parse(denominator);
-  if (!n || !d) return RationalFault::kSyntax;
-  if (d->is_zero()) return RationalFault::kZeroDenominator;
-  const RationalFault fault = divide(*n, *d, value);
+  if (!are_digits(numerator) || !are_digits(denominator)) return RationalFault::kSyntax;
+  if (std::max(numerator.size(), denominator.size()) > kMostDigits) return RationalFault::kManyDigits;
+  const Natural n(numerator), d(denominator);
+  if (d.is_zero()) return RationalFault::kZeroDenominator;
+  const RationalFault fault = divide(n, d, value);
   if (is_negative && value != 0) value = -value;
   return fault;
 }

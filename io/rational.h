@@ -8,7 +8,8 @@ namespace selvage::io {
 
 enum class RationalFault {
   kNone,
-  kSyntax,  ///< no integer over a positive integer, or more than kMostDigits
+  kSyntax,      ///< no integer over a positive integer
+  kManyDigits,  ///< more than kMostDigits in one of them
   kZeroDenominator,
   kNotDouble,  ///< between two doubles, or beyond the largest
 };
