@@ -70,7 +70,8 @@ class NpzSequence final : public SequenceReader {
     if (frame >= frame_count_) throw std::out_of_range(frame_name(frame));
     const std::uint64_t frame_size = header_.data_size / frame_count_;
     const std::string data = positions_->read(header_.data_offset + frame * frame_size, frame_size);
-    return {decode_npy_points(header_, data, frame_name(frame)), triangles_, groups_, precision()};
+    const std::string place = member_name("V") + ": frame " + std::to_string(frame);
+    return {decode_npy_points(header_, data, place), triangles_, groups_, precision()};
   }
 
  private:
