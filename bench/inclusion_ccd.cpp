@@ -10,7 +10,7 @@ namespace {
 using Points = std::array<Vec3, 4>;
 using Range = std::array<double, 2>;
 
-/// Ranges of t, u, v. Their ends are multiples of 2^-kMaxDepth, so that 1 - t and 1 - u - v are exact.
+/// Ranges of t, u, v. Their ends are multiples of kLeastWidth, so that 1 - t and 1 - u - v are exact.
 struct DomainBox {
   std::array<Range, 3> range;
 };

@@ -15,7 +15,7 @@ constexpr double kRoughness = 0.05;  // of the gap, up and down
 constexpr double kWave = 0.05, kDrift = 0.002;
 constexpr double kTau = 2 * std::numbers::pi;
 
-/// In [-1, 1], from the number alone (the finisher of SplitMix64: Steele, Lea, Flood 2014).
+/// In [-1, 1), from the number alone (the finisher of SplitMix64: Steele, Lea, Flood 2014).
 double noise(std::uint64_t n) {
   n += 0x9e3779b97f4a7c15;
   n = (n ^ n >> 30) * 0xbf58476d1ce4e5b9;
@@ -40,7 +40,7 @@ Point drift(const Point& p) {
           kDrift * std::cos(kTau * (p[0] - 0.4 * p[1]))};
 }
 
-/// The third row of the rotation by the quaternion (1, 2, 3, 4) / sqrt(30) is where layers are stacked.
+/// The rotation by the quaternion (1, 2, 3, 4) / sqrt(30); layers are stacked along its third column.
 constexpr std::array<Point, 3> kRotation = {
     {{-20. / 30, 4. / 30, 22. / 30}, {20. / 30, -10. / 30, 20. / 30}, {10. / 30, 28. / 30, 4. / 30}}};
 

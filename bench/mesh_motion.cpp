@@ -17,7 +17,7 @@ Positions positions(const io::Points& points) {
   return V;
 }
 
-/// In [-1, 1), from the bits of the arguments alone (the finalizer of SplitMix64).
+/// In [-1, 1), from the bits of the arguments alone (the finaliser of SplitMix64 without its first shift).
 double noise(int i, int j, int channel) {
   auto z = (static_cast<std::uint64_t>(i) << 40) ^ (static_cast<std::uint64_t>(j) << 16) ^
            static_cast<std::uint64_t>(channel);
