@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/broad_bench.h"
+#include "cli/arguments/list_option.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
@@ -102,13 +103,11 @@ void add_bench_broad_command(CLI::App& bench, Job& job) {
   broad.add_option("--largest", arguments->largest, "Faces of the largest sheet")
       ->check(CLI::Range(10, 10'000'000))
       ->capture_default_str();
-  broad
-      .add_option("--pleats", arguments->pleat_advances,
-                  "How far an edge takes a sheet along, in edges: 0.1 is 10 layers")
-      ->delimiter(',')
+  add_list(broad, "--pleats", arguments->pleat_advances,
+           "How far an edge takes a sheet along, in edges: 0.1 is 10 layers")
       ->check(number_between(0.01, 1))
       ->capture_default_str();
-  broad.add_option("--threads", arguments->options.thread_counts, "Numbers of threads")
+  add_list(broad, "--threads", arguments->options.thread_counts, "Numbers of threads")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   broad.add_option("--sample", arguments->options.sampled, "Vertices and edges compared with brute force")

@@ -91,9 +91,10 @@ void add_bench_ccd_command(CLI::App& bench, Job& job) {
   const auto arguments = std::make_shared<CcdArguments>();
   ccd.add_option("FRAME_T0", arguments->frame_t0, "Mesh at t = 0 (.obj, .ply)");
   ccd.add_option("FRAME_T1", arguments->frame_t1, "The same mesh at t = 1");
-  ccd.add_option("--truth", arguments->truth, "BOXES VERDICTS: published pairs and which of them touch (JSON lists)")
+  ccd.add_option("--truth", arguments->truth, "Published pairs and which of them touch (JSON lists); may be repeated")
       ->type_size(2)
-      ->expected(1, 64);
+      ->allow_extra_args(false)
+      ->type_name("BOXES VERDICTS");
   ccd.add_option("--sheet", arguments->sheet, "Vertices along one side of the crumpled sheet")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();

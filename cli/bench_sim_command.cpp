@@ -7,6 +7,7 @@
 #include "bench/sim_bench.h"
 #include "bench/sim_scenes.h"
 #include "cli/arguments/choice.h"
+#include "cli/arguments/list_option.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "io/atomic_file.h"
@@ -86,13 +87,11 @@ void add_bench_sim_command(CLI::App& bench, Job& job) {
   add_choices(sim, "--solvers", options.solvers,
               {{bench::solver_name(sim::Solver::kExplicit), sim::Solver::kExplicit},
                {bench::solver_name(sim::Solver::kImplicit), sim::Solver::kImplicit}},
-              "explicit (default), implicit, or a list of them; the first is the baseline");
-  sim.add_option("--growth", options.growth_nodes, "Nodes along a side of the sheets that grow")
-      ->delimiter(',')
+              "explicit (default), implicit, or a list of them with commas; the first is the baseline");
+  add_list(sim, "--growth", options.growth_nodes, "Nodes along a side of the sheets that grow")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
-  sim.add_option("--threads", options.thread_counts, "Numbers of threads, for growth")
-      ->delimiter(',')
+  add_list(sim, "--threads", options.thread_counts, "Numbers of threads, for growth")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   sim.add_option("--steps", options.growth_steps, "Collision steps of each sheet that grows")

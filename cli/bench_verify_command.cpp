@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bench/verify_bench.h"
+#include "cli/arguments/list_option.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
@@ -64,15 +65,13 @@ void add_bench_verify_command(CLI::App& bench, Job& job) {
                   "clean and with planted intersections. Exit code 1 if they find different pairs.",
                   "selvage bench verify --faces 50000,500000 --motion --json out.json");
   const auto arguments = std::make_shared<VerifyBenchArguments>();
-  verify.add_option("--faces", arguments->options.faces, "Faces of the sheets")
-      ->delimiter(',')
+  add_list(verify, "--faces", arguments->options.faces, "Faces of the sheets")
       ->check(CLI::Range(100, 20'000'000))
       ->capture_default_str();
   verify.add_option("--layers", arguments->options.layers, "Layers (default: 10 below 100,000 faces, 20 above)")
       ->check(CLI::Range(2, 1000));
   verify.add_flag("--motion", arguments->options.motion, "Measure the check of the motion between two frames too");
-  verify.add_option("--threads", arguments->options.thread_counts, "Numbers of threads")
-      ->delimiter(',')
+  add_list(verify, "--threads", arguments->options.thread_counts, "Numbers of threads")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   verify.add_option("--repeat", arguments->options.repeat, "Timed passes")

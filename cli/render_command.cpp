@@ -10,6 +10,7 @@
 
 #include "cli/arguments/choice.h"
 #include "cli/arguments/hidden_groups.h"
+#include "cli/arguments/list_option.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/sequence_argument.h"
@@ -75,9 +76,7 @@ void add_render_command(CLI::App& program, Job& job) {
           },
           "", ""));
   add_hide(command, arguments->hidden);
-  CLI::Option* frames = command.add_option("--frames", arguments->frames, "Frames to draw, as 0,40,80")
-                            ->delimiter(',')
-                            ->check(whole_number());
+  CLI::Option* frames = add_list(command, "--frames", arguments->frames, "Frames to draw")->check(whole_number());
   command.add_option("--tiles", arguments->tiles, "How many frames, spread evenly in time")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()

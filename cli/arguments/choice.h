@@ -12,6 +12,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/arguments/list_option.h"
+
 namespace selvage::cli {
 
 template <typename Chosen>
@@ -53,7 +55,7 @@ void add_choice(CLI::App& command, const std::string& name, Chosen& value,
   command.add_option_function<std::string>(name, choose, help)->type_name(words_of(choices));
 }
 
-/// The same for a list, with commas or spaces between the words.
+/// The same for a list.
 template <typename Value>
 void add_choices(CLI::App& command, const std::string& name, std::vector<Value>& values,
                  const Choices<std::type_identity_t<Value>>& choices, const std::string& help) {
@@ -61,9 +63,7 @@ void add_choices(CLI::App& command, const std::string& name, std::vector<Value>&
     values.clear();
     for (const std::string& word : words) values.push_back(meaning_of(word, name, choices));
   };
-  command.add_option_function<std::vector<std::string>>(name, choose, help)
-      ->delimiter(',')
-      ->type_name(words_of(choices));
+  as_list(command.add_option_function<std::vector<std::string>>(name, choose, help))->type_name(words_of(choices));
 }
 
 }  // namespace selvage::cli

@@ -97,6 +97,26 @@ TEST(Options, AFrameIsAWholeNumber) {
   }
 }
 
+// A list took all the words that followed, and the files of the command with them.
+TEST(Options, AListTakesOneWordAUse) {
+  const std::vector<std::vector<std::string>> files_are_missing = {
+      {"render", "--frames", "0,1", "none", "-o", "a.png"},
+      {"render", "--frames", "0", "--frames", "1,2", "none", "-o", "a.png"},
+      {"bench", "broad", "--threads", "1,2", "none.obj", "none.obj"},
+      {"bench", "broad", "--threads", "1", "--threads", "2", "none.obj", "none.obj"},
+      {"bench", "broad", "--pleats", "0.2,0.1", "none.obj", "none.obj"},
+      {"bench", "ccd", "--truth", "boxes", "verdicts", "none.obj", "none.obj"},
+      {"bench", "ccd", "--truth", "boxes", "verdicts", "--truth", "more", "still", "none.obj", "none.obj"},
+  };
+  for (const auto& arguments : files_are_missing) {
+    const auto result = run_program(arguments);
+    EXPECT_EQ(result.exit_code, 4) << arguments[0] << " " << arguments[1] << result.out << result.err;
+    EXPECT_NE(result.err.find("none"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run_program({"bench", "verify", "--faces", "100", "200", "--repeat", "1"}).exit_code, 2);
+  EXPECT_EQ(run_program({"bench", "verify", "--threads", "1", "2", "--faces", "100", "--repeat", "1"}).exit_code, 2);
+}
+
 TEST(Options, HelpIsPlainText) {
   for (const char* command :
        {"bench", "convert", "doctor", "fuzz", "merge", "render", "replay", "sim", "subdivide", "verify", "view"}) {
