@@ -42,7 +42,8 @@ class FrameCheck {
     void operator()(Tally& tally, std::int64_t apart_count) const { tally.pairs.overlap += apart_count; }
     void operator()(Tally& tally, std::int32_t f, std::int32_t g, bool apart) const {
       const Topology& topology = check.topology_;
-      if (tally.is_exempt(topology, topology.face_labels, f, topology.face_labels, g)) return;
+      if (tally.is_exempt(topology, check.options_.check_bodies, topology.face_labels, f, topology.face_labels, g))
+        return;
       ++tally.pairs.overlap;
       if (!apart) {
         check.check_pair(f, g, tally);

@@ -99,7 +99,7 @@ class MotionCheck {
                          const auto [a, b, c, d] = ee_vertices(e, f);
                          if (a == c || a == d || b == c || b == d) return;
                          const std::vector<Label>& labels = topology_.edge_labels;
-                         if (tally.is_exempt(topology_, labels, e, labels, f)) return;
+                         if (tally.is_exempt(topology_, options_.check_bodies, labels, e, labels, f)) return;
                          ++tally.pairs.ee;
                          decide(EventKind::kEe, e, f, tally);
                        });
@@ -107,16 +107,17 @@ class MotionCheck {
                                              [&](std::int32_t v) { return boxes(Vertices<1>{v}); });
     const PartTrees<ElementTree<2>> faces(topology_.faces, lattices,
                                           [&](std::int32_t f) { return boxes(topology_.triangles[at(f)]); });
-    vertices.tally_between(faces, options_.check_bodies, options_.max_violations, tally_,
-                           [&](Tally& tally, std::int32_t v, std::int32_t f) {
-                             const auto& [a, b, c] = topology_.triangles[at(f)];
-                             if (v == a || v == b || v == c) return;
-                             if (tally.is_exempt(topology_, topology_.vertex_labels, v, topology_.face_labels, f)) {
-                               return;
-                             }
-                             ++tally.pairs.vf;
-                             decide(EventKind::kVf, v, f, tally);
-                           });
+    vertices.tally_between(
+        faces, options_.check_bodies, options_.max_violations, tally_,
+        [&](Tally& tally, std::int32_t v, std::int32_t f) {
+          const auto& [a, b, c] = topology_.triangles[at(f)];
+          if (v == a || v == b || v == c) return;
+          if (tally.is_exempt(topology_, options_.check_bodies, topology_.vertex_labels, v, topology_.face_labels, f)) {
+            return;
+          }
+          ++tally.pairs.vf;
+          decide(EventKind::kVf, v, f, tally);
+        });
   }
 
   void check_faces(const std::vector<std::int32_t>& faces) {

@@ -33,7 +33,7 @@ void visit_near_pairs(const Topology& topology, std::span<const Point> V, double
   vertices.tally_between(faces, check_bodies, limit, tally, [&](Tally& chunk, std::int32_t v, std::int32_t f) {
     const auto [a, b, c] = face(f);
     if (v == a || v == b || v == c) return;
-    if (chunk.is_exempt(topology, topology.vertex_labels, v, topology.face_labels, f)) return;
+    if (chunk.is_exempt(topology, check_bodies, topology.vertex_labels, v, topology.face_labels, f)) return;
     visit(EventKind::kVf, v, f, std::array<Point, 4>{at(v), at(a), at(b), at(c)}, chunk);
   });
   edges.tally_within(check_bodies, limit, tally, [&](Tally& chunk, std::int32_t e, std::int32_t f) {
@@ -41,7 +41,7 @@ void visit_near_pairs(const Topology& topology, std::span<const Point> V, double
     const auto [a, b] = edge(e);
     const auto [c, d] = edge(f);
     if (a == c || a == d || b == c || b == d) return;
-    if (chunk.is_exempt(topology, topology.edge_labels, e, topology.edge_labels, f)) return;
+    if (chunk.is_exempt(topology, check_bodies, topology.edge_labels, e, topology.edge_labels, f)) return;
     visit(EventKind::kEe, e, f, std::array<Point, 4>{at(a), at(b), at(c), at(d)}, chunk);
   });
 }

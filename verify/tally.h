@@ -93,11 +93,11 @@ class Tally {
   void add(const Hit& hit);
   void add(const Tally& other);
   /// Counts a pair of elements with these labels if an exemption covers it: then it is not to be checked.
-  bool is_exempt(const Topology& topology, const std::vector<Label>& labels_i, std::int32_t i,
+  bool is_exempt(const Topology& topology, bool check_bodies, const std::vector<Label>& labels_i, std::int32_t i,
                  const std::vector<Label>& labels_j, std::int32_t j) {
     if (topology.exemptions.empty()) return false;
-    const std::int32_t rule =
-        topology.exemptions.exemption(labels_i[static_cast<std::size_t>(i)], labels_j[static_cast<std::size_t>(j)]);
+    const std::int32_t rule = topology.exemptions.exemption(labels_i[static_cast<std::size_t>(i)],
+                                                            labels_j[static_cast<std::size_t>(j)], check_bodies);
     if (rule >= 0) count_exempted(static_cast<std::size_t>(rule));
     return rule >= 0;
   }

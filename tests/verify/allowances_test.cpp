@@ -99,6 +99,33 @@ TEST(Allowances, WithEverythingAllowedNothingIsClean) {
   }
 }
 
+// An edge that both hold was checked against the body's own edges, though no two faces were owed it.
+TEST(Allowances, APairIsLeftOutWherePartOfItIsExemptAndTheRestOfBodiesAlone) {
+  const auto frame = [](double z) {  // two faces of a body, a face of cloth sewn to an edge of the first
+    io::MeshData mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, z}, {0.9, 0.9, z}, {0.2, 0.2, z + 1}, {2, 2, 0}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {1, 2, 6}};
+    mesh.groups = {{"body", io::Group::Role::kBody, 0, 2}, {"cloth", io::Group::Role::kCloth, 2, 3}};
+    return mesh;
+  };
+  SequenceOptions options;
+  options.gap = true;
+  options.check.min_distance = 5;
+  const Frames through({frame(0.5), frame(-2.5)});
+  EXPECT_EQ(check_sequence(through, options).verdict, Verdict::kViolated);
+  options.rules.exempt = {{"body", "cloth"}};
+  const SequenceReport exempt = check_sequence(through, options);
+  EXPECT_EQ(exempt.verdict, Verdict::kUnknown);
+  EXPECT_EQ(exempt.unchecked.size(), 3U) << "two frames and a motion";
+  EXPECT_EQ(exempt.violations_total.total(), 0);
+  EXPECT_FALSE(exempt.gap);
+  EXPECT_EQ(exempt.pairs.vf + exempt.pairs.ee, 0);
+  ASSERT_EQ(exempt.exempted.size(), 1U);
+  EXPECT_GT(exempt.exempted[0].pairs, 0);
+  options.check.check_bodies = true;
+  EXPECT_EQ(check_sequence(through, options).verdict, Verdict::kViolated) << "the bodies meet each other";
+}
+
 TEST(Allowances, WeldingClosesASeamThatNeverOpens) {
   const io::MeshData mesh = split_sheet();
   EXPECT_EQ(check({mesh, mesh}, {}).verdict, Verdict::kViolated) << "duplicate vertices touch";

@@ -1,6 +1,7 @@
 // Pairs of faces that may touch because the user says so ("sewn together"), and what that means for edges and vertices.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -26,13 +27,14 @@ struct Exemption {
 using Label = std::int32_t;
 inline constexpr Label kNoLabel = 0;  ///< held by no face
 
-/// A pair of elements is exempt only if every pair of faces that hold them is. So whatever two faces are still owed a
-/// check, all their vertices and edges are.
+/// A pair of elements is exempt only if every pair of faces that hold them is exempt or, where bodies are not checked,
+/// of two bodies. So whatever two faces are still owed a check, all their vertices and edges are; and where none are,
+/// no pair of elements is.
 class ExemptionTable {
  public:
   ExemptionTable() = default;
-  /// REQUIRES ranges within [0, face_count].
-  ExemptionTable(std::span<const Exemption> exemptions, std::size_t face_count);
+  /// REQUIRES ranges within [0, face_count], and `is_body` empty (no face is) or one flag a face.
+  ExemptionTable(std::span<const Exemption> exemptions, std::span<const std::uint8_t> is_body, std::size_t face_count);
 
   [[nodiscard]] bool empty() const { return rule_count_ == 0; }
   [[nodiscard]] std::size_t rule_count() const { return rule_count_; }
@@ -43,24 +45,28 @@ class ExemptionTable {
   /// To be called once after the last unite() and before exemption().
   void close();
 
-  /// The first exemption that a pair of elements falls under, -1 where it is to be checked.
-  [[nodiscard]] std::int32_t exemption(Label x, Label y) const {
-    return table_[static_cast<std::size_t>(x) * members_.size() + static_cast<std::size_t>(y)];
+  /// The first exemption that a pair of elements falls under, -1 where it falls under none: then it is to be checked,
+  /// unless only bodies hold both and bodies are not.
+  [[nodiscard]] std::int32_t exemption(Label x, Label y, bool check_bodies) const {
+    return tables_[check_bodies ? 1 : 0][static_cast<std::size_t>(x) * members_.size() + static_cast<std::size_t>(y)];
   }
 
-  /// A label is a row of a square table: 16 MiB of it. Groups would have to meet in thousands of ways to reach this.
+  /// A label is a row of two square tables: 16 MiB of each. Groups would have to meet in thousands of ways to reach
+  /// this.
   static constexpr std::size_t kMostLabels = 2048;
 
  private:
   Label label_of(std::vector<std::int32_t> classes);
+  [[nodiscard]] std::vector<std::int32_t> table(bool check_bodies) const;
 
   std::size_t rule_count_ = 0;
   std::vector<std::vector<std::uint8_t>> in_a_, in_b_;  // by class of faces, then by exemption
+  std::vector<std::uint8_t> is_body_;                   // by class of faces
   std::vector<Label> face_labels_;
   std::vector<std::vector<std::int32_t>> members_;  // of each label: classes of faces, ascending
   std::map<std::vector<std::int32_t>, Label> labels_;
   std::map<std::pair<Label, Label>, Label> unions_;
-  std::vector<std::int32_t> table_;
+  std::array<std::vector<std::int32_t>, 2> tables_;  // without bodies, and with them
 };
 
 }  // namespace selvage::verify

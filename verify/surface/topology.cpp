@@ -157,7 +157,7 @@ Topology make_topology(const Surface& surface, std::size_t vertex_count) {
     const auto vertex = static_cast<std::int32_t>(v);
     if (is_held[v] == 0 && representative(surface, vertex) == vertex) ++topology.unreferenced_vertices;
   }
-  topology.exemptions = ExemptionTable(surface.exemptions, surface.triangles.size());
+  topology.exemptions = ExemptionTable(surface.exemptions, surface.is_body, surface.triangles.size());
   if (!topology.exemptions.empty()) label_elements(surface, sides, topology);
   return topology;
 }
@@ -180,7 +180,8 @@ bool owes_pairs(const Topology& topology, bool check_bodies) {
     for (const auto& [y, y_count] : counts) {
       const bool has_pair = x_count > 1 || x < y || y < x;
       const bool is_left_out = x.is_body && y.is_body && !check_bodies;
-      const bool is_exempt = !topology.exemptions.empty() && topology.exemptions.exemption(x.label, y.label) >= 0;
+      const bool is_exempt =
+          !topology.exemptions.empty() && topology.exemptions.exemption(x.label, y.label, check_bodies) >= 0;
       if (has_pair && !is_left_out && !is_exempt) return true;
     }
   }

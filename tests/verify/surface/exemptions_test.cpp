@@ -31,12 +31,18 @@ std::int32_t face_rule(const std::vector<Exemption>& exemptions, std::int32_t f,
   return -1;
 }
 
-/// A pair is exempt if all pairs of faces that hold the two are; counted under the first rule among them.
-std::int32_t pair_rule(const std::vector<Exemption>& exemptions, const std::set<std::int32_t>& faces_x,
-                       const std::set<std::int32_t>& faces_y) {
+/// A pair is exempt if all pairs of faces that hold the two are, or are of bodies that are not checked; counted under
+/// the first rule among them.
+std::int32_t pair_rule(const std::vector<Exemption>& exemptions, const std::vector<std::uint8_t>& unchecked_bodies,
+                       const std::set<std::int32_t>& faces_x, const std::set<std::int32_t>& faces_y) {
   auto first = static_cast<std::int32_t>(exemptions.size());
   for (const std::int32_t f : faces_x) {
-    for (const std::int32_t g : faces_y) first = std::min(first, face_rule(exemptions, f, g));
+    for (const std::int32_t g : faces_y) {
+      const std::int32_t rule = face_rule(exemptions, f, g);
+      const bool bodies =
+          unchecked_bodies[static_cast<std::size_t>(f)] != 0 && unchecked_bodies[static_cast<std::size_t>(g)] != 0;
+      if (rule >= 0 || !bodies) first = std::min(first, rule);
+    }
   }
   return first;
 }
@@ -86,35 +92,43 @@ TEST(Exemptions, CoverAPairOnlyIfTheyCoverAllFacesThatHoldIt) {
     const std::vector<Exemption> exemptions = random_exemptions(random, face_count);
     std::vector<std::uint8_t> is_ignored(mesh.triangles.size());
     for (auto& flag : is_ignored) flag = random() % 5 == 0 ? 1 : 0;
-    const Topology topology = make_topology({mesh.triangles, {}, is_ignored, exemptions}, mesh.points.size());
+    const bool check_bodies = round % 2 == 0;
+    std::vector<std::uint8_t> is_body(mesh.triangles.size());
+    for (auto& flag : is_body) flag = random() % 4 == 0 ? 1 : 0;
+    const std::vector<std::uint8_t> unchecked_bodies =
+        check_bodies ? std::vector<std::uint8_t>(is_body.size(), 0) : is_body;
+    const Topology topology = make_topology({mesh.triangles, is_body, is_ignored, exemptions}, mesh.points.size());
     const auto vertex_faces = holders(topology, vertices, is_ignored),
                edge_faces = holders(topology, topology.edges, is_ignored);
+    const auto expect_rule = [&](Label x, Label y, const std::set<std::int32_t>& faces_x,
+                                 const std::set<std::int32_t>& faces_y) {
+      const std::int32_t rule = pair_rule(exemptions, unchecked_bodies, faces_x, faces_y);
+      ASSERT_EQ(topology.exemptions.exemption(x, y, check_bodies), rule);
+      ++(rule < 0 ? owed : exempt);
+    };
+    // Of the pairs of these two kinds of parts, two of bodies are left out whatever may touch.
+    const auto for_pairs = [&](const Parts& a, const Parts& b, const auto& visit) {
+      for (const auto& [x, y] : {std::pair(&a.cloth, &b.cloth), std::pair(&a.cloth, &b.body),
+                                 std::pair(&a.body, &b.cloth), std::pair(&a.body, &b.body)}) {
+        if (x == &a.body && y == &b.body && !check_bodies) continue;
+        for (const std::int32_t i : *x) {
+          for (const std::int32_t j : *y) visit(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+        }
+      }
+    };
     bool owes = false;
-    for (const std::int32_t f : topology.faces.cloth) {
-      for (const std::int32_t g : topology.faces.cloth) {
-        const std::int32_t rule = face_rule(exemptions, f, g);
-        const Label x = topology.face_labels[static_cast<std::size_t>(f)],
-                    y = topology.face_labels[static_cast<std::size_t>(g)];
-        ASSERT_EQ(topology.exemptions.exemption(x, y), rule);
-        owes = owes || (f != g && rule < 0);
-      }
-      for (const std::int32_t v : topology.vertices.cloth) {
-        const std::int32_t rule = pair_rule(exemptions, vertex_faces[static_cast<std::size_t>(v)], {f});
-        const Label x = topology.vertex_labels[static_cast<std::size_t>(v)],
-                    y = topology.face_labels[static_cast<std::size_t>(f)];
-        ASSERT_EQ(topology.exemptions.exemption(x, y), rule) << v << " " << f;
-        ++(rule < 0 ? owed : exempt);
-      }
-    }
-    EXPECT_EQ(owes_pairs(topology, false), owes);
-    for (const std::int32_t d : topology.edge_parts.cloth) {
-      for (const std::int32_t e : topology.edge_parts.cloth) {
-        const auto i = static_cast<std::size_t>(d), j = static_cast<std::size_t>(e);
-        const std::int32_t rule = pair_rule(exemptions, edge_faces[i], edge_faces[j]);
-        ASSERT_EQ(topology.exemptions.exemption(topology.edge_labels[i], topology.edge_labels[j]), rule);
-        ++(rule < 0 ? owed : exempt);
-      }
-    }
+    for_pairs(topology.faces, topology.faces, [&](std::size_t f, std::size_t g) {
+      const std::int32_t rule = face_rule(exemptions, static_cast<std::int32_t>(f), static_cast<std::int32_t>(g));
+      ASSERT_EQ(topology.exemptions.exemption(topology.face_labels[f], topology.face_labels[g], check_bodies), rule);
+      owes = owes || (f != g && rule < 0);
+    });
+    EXPECT_EQ(owes_pairs(topology, check_bodies), owes);
+    for_pairs(topology.vertices, topology.faces, [&](std::size_t v, std::size_t f) {
+      expect_rule(topology.vertex_labels[v], topology.face_labels[f], vertex_faces[v], {static_cast<std::int32_t>(f)});
+    });
+    for_pairs(topology.edge_parts, topology.edge_parts, [&](std::size_t d, std::size_t e) {
+      expect_rule(topology.edge_labels[d], topology.edge_labels[e], edge_faces[d], edge_faces[e]);
+    });
   }
   EXPECT_GT(exempt, 5000);  // neither side of the comparison is empty
   EXPECT_GT(owed, 5000);
@@ -126,7 +140,7 @@ TEST(Exemptions, AVertexThatAFaceWithoutEdgesHoldsIsOwedWhatThatFaceIs) {
   const std::vector<Exemption> exemptions = {{{{0, 1}}, {{1, 2}}}};  // not of the face that is the point 0
   const Topology topology = make_topology({triangles, {}, {}, exemptions, representatives}, 8);
   const auto rule = [&](std::size_t v) {
-    return topology.exemptions.exemption(topology.vertex_labels[v], topology.face_labels[1]);
+    return topology.exemptions.exemption(topology.vertex_labels[v], topology.face_labels[1], false);
   };
   EXPECT_EQ(rule(0), -1);
   EXPECT_EQ(rule(1), 0);
