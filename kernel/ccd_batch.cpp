@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "kernel/assert.h"
 #include "kernel/canonical_order.h"
 #include "kernel/ccd_answer.h"
 #include "kernel/ccd_detail.h"
@@ -100,6 +101,7 @@ struct CcdBatch::Impl {
 CcdBatch::CcdBatch(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
                    std::size_t query_count) {
   const FpEnvGuard guard;
+  SELVAGE_REQUIRE(V_t0.rows() == mesh.vertex_count && V_t1.rows() == mesh.vertex_count);
   auto impl = std::make_unique<Impl>(Impl{mesh, V_t0, V_t1, options, std::nullopt});
   if (validate(options) == InputError::kNone &&
       query_count * kVerticesPerQuery >= static_cast<std::size_t>(V_t0.rows()) && query_count > 0) {

@@ -30,7 +30,8 @@ struct BatchReport {
 class CcdBatch {
  public:
   /// O(#V): copies the positions, and prepares them unless `query_count`, the number of queries to come, is so low that
-  /// it does not pay. The mesh must outlive the batch. Positions outside the domain are answered as by single queries.
+  /// it does not pay. REQUIRES one position a vertex of the mesh, which must outlive the batch. Positions outside the
+  /// domain are answered as by single queries.
   CcdBatch(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
            std::size_t query_count);
   CcdBatch(const Mesh&&, const PositionsRef&, const PositionsRef&, const CcdOptions&, std::size_t) = delete;

@@ -44,6 +44,13 @@ TEST(Requirements, AreAskedBeforeAnythingIsProved) {
   EXPECT_DEATH(static_cast<void>(find_proximities(mesh, hierarchy, bad, 0.1)),
                "is called without what it requires: validate");
   EXPECT_DEATH(static_cast<void>(BoxHierarchy(mesh).candidates()), "candidates is called without");
+  for (const Eigen::Index rows : {0, 5, 7}) {  // for 6 vertices
+    const Positions other = Positions::Random(rows, 3);
+    for (const std::size_t queries : {0U, 100U}) {  // one after another, and in lanes
+      EXPECT_DEATH(static_cast<void>(CcdBatch(mesh, other, V, {}, queries)), "CcdBatch is called without .*rows");
+      EXPECT_DEATH(static_cast<void>(CcdBatch(mesh, V, other, {}, queries)), "CcdBatch is called without .*rows");
+    }
+  }
   for (const std::size_t flags : {1U, 5U, 7U}) {  // of 6 vertices
     const std::vector<std::uint8_t> active(flags, 1);
     EXPECT_DEATH(static_cast<void>(find_collisions(mesh, hierarchy, V, V, {}, active)),
