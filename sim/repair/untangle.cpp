@@ -4,9 +4,11 @@
 
 #include "kernel/assert.h"
 #include "kernel/fp_env.h"
+#include "sim/contact/contact_table.h"
 #include "sim/repair/approach_start.h"
 #include "sim/repair/body_return.h"
 #include "sim/repair/membrane.h"
+#include "sim/step_input.h"
 
 namespace selvage::sim {
 
@@ -22,6 +24,9 @@ UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const Collision
                         const UntangleOptions& options, const FindIntersections& find) {
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(options.gap_m > 0);
+  const CollisionOptions certified = step_options(options);
+  SELVAGE_REQUIRE(validate_step_input(mesh, certified, V, V, bodies, kRepairStep_s) == InputError::kNone);
+  SELVAGE_REQUIRE(ContactTable(mesh, certified, options.surfaces).error() == InputError::kNone);
   const SurfaceParts parts(mesh);
   UntangleState state{mesh, bodies, options, find, parts, parts.cloth_flags(bodies), V, V};
   UntangleReport report;

@@ -1,8 +1,10 @@
 // What the parts of untangle() share: the positions so far, and a judge that counts.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
+#include "kernel/assert.h"
 #include "sim/contact/surface_parts.h"
 #include "sim/repair/untangle.h"
 #include "sim/response/step_motion.h"
@@ -29,9 +31,13 @@ struct UntangleState {
   [[nodiscard]] CollisionStep make_step() const { return {mesh, step_options(options), options.surfaces}; }
   [[nodiscard]] bool may_judge() const { return rounds < kMaxUntangleRounds; }
 
+  /// REQUIRES a find() that names faces of the mesh.
   [[nodiscard]] std::vector<FacePair> judge(const Positions& at) {
     ++rounds;
-    return find(at);
+    std::vector<FacePair> found = find(at);
+    const auto is_face = [&](FaceId f) { return f >= 0 && static_cast<std::size_t>(f) < mesh.faces.size(); };
+    SELVAGE_REQUIRE(std::ranges::all_of(found, [&](const FacePair& p) { return is_face(p[0]) && is_face(p[1]); }));
+    return found;
   }
   /// Of the pairs, those of two faces of cloth, or those with one of a body.
   [[nodiscard]] std::vector<FacePair> only(std::vector<FacePair> pairs, bool with_body) const {

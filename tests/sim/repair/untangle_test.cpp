@@ -2,6 +2,7 @@
 #include "sim/repair/untangle.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <xmmintrin.h>
@@ -77,6 +78,45 @@ TEST(Untangle, WhatIsCleanIsReturnedAsItIs) {
   EXPECT_EQ(result.x, scene.V_t0);
   EXPECT_EQ(result.report.rounds, 1);
   EXPECT_EQ(defect_of(scene, result), "");
+}
+
+TEST(Untangle, WhatACollisionStepRefusesIsAskedBeforeAnythingMoves) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const StepScene sound = interpenetrating_layers();
+  const auto attempt = [](const StepScene& scene, const UntangleOptions& options, const FindIntersections& find) {
+    const StepScene whole = interpenetrating_layers();
+    static_cast<void>(untangle(whole.mesh(), scene.V_t0, scene.bodies(), options, find));
+  };
+  const FindIntersections judge = exact_judge(sound);
+  const auto expect_refused = [&](const auto& spoil) {
+    StepScene scene = sound;
+    UntangleOptions options;
+    spoil(scene, options);
+    EXPECT_DEATH(attempt(scene, options, judge), "untangle is called without what it requires");
+  };
+  expect_refused([](StepScene&, UntangleOptions& options) { options.gap_m = 0; });
+  expect_refused([](StepScene&, UntangleOptions& options) { options.gap_m = kNan; });
+  expect_refused([](StepScene&, UntangleOptions& options) { options.tolerance_m = kNan; });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.inverse_mass.clear(); });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.inverse_mass.resize(3); });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.inverse_mass[0] = -1; });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.body.resize(2); });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.V_t0 = Positions(scene.V_t0.topRows(5)); });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.V_t0(0, 0) = kNan; });
+  expect_refused([](StepScene& scene, UntangleOptions&) { scene.V_t0(0, 0) = 1e305; });
+  expect_refused([](StepScene& scene, UntangleOptions& options) {
+    scene.V_t0(0, 0) = 0.1;
+    options.precision = CollisionOptions::Precision::kFloat32;
+  });
+  expect_refused([](StepScene&, UntangleOptions& options) {
+    options.surfaces.properties = {{}};
+    options.surfaces.surface_of_vertex = {0};
+  });
+  const auto last = static_cast<FaceId>(sound.triangles.size()) - 1;
+  for (const FacePair& beyond : {FacePair{0, last + 1}, FacePair{-1, 0}}) {
+    const FindIntersections lies = [beyond](const Positions&) { return std::vector<FacePair>{beyond}; };
+    EXPECT_DEATH(attempt(sound, {}, lies), "judge is called without what it requires: .*is_face");
+  }
 }
 
 TEST(Untangle, LayersThatInterpenetrate) { expect_repaired(interpenetrating_layers(), 0.02); }
