@@ -87,6 +87,8 @@ std::vector<QueryClass> make_classes() {
       {'G', 1, "any-exponent", mixed_by(900), Bands{HitBand{0.05, 0.35}, HitBand{0.05, 0.35}, std::nullopt}, false, 64},
       {'I', 3700, "uniform", make::uniform, Bands{HitBand{0.059, 0.08}, HitBand{0.175, 0.236}, std::nullopt}},
       {'J', 22000, "recorded", make::recorded, Bands{HitBand{0.005, 0.06}, HitBand{0.005, 0.06}, std::nullopt}},
+      // The last of all: inputs of the byte engines name a class by its place.
+      {'L', 230, "resting", make::resting, Bands{HitBand{0.717, 0.971}, HitBand{0.719, 0.972}, HitBand{0.655, 0.887}}},
   };
   classes.insert(classes.end(), others.begin(), others.end());
   return classes;
@@ -145,7 +147,7 @@ const std::vector<QueryGroup>& query_groups() {
       {'A', "constructed contacts"},     {'B', "small integers, ulps"},    {'C', "degenerate features"},
       {'D', "in plane, rigid, at rest"}, {'E', "slivers and needles"},     {'F', "short and huge motions"},
       {'G', "scales and exponents"},     {'H', "double and triple roots"}, {'I', "uniform"},
-      {'J', "recorded from cloth"},      {'K', "corners that meet"}};
+      {'J', "recorded from cloth"},      {'K', "corners that meet"},       {'L', "one feature at rest"}};
   return groups;
 }
 

@@ -55,6 +55,12 @@ MotionQuery one_point(ChoiceSource& source, PairKind kind);
 /// The end positions are the start positions in another order: corners that change places pass each other half-way.
 MotionQuery exchange(ChoiceSource& source, PairKind kind);
 
+// resting_makers.cpp
+/// A contact, one in four missed by a unit, of which one feature rests, or all corners but one. What moves does so
+/// along an axis in half of the cases, along the normal of both features in a quarter; in half of them both features
+/// are level in that axis at the touch.
+MotionQuery resting(ChoiceSource& source, PairKind kind);
+
 // scale_makers.cpp: the exponent range
 MotionQuery scaled(ChoiceSource& source, PairKind kind, int exponent_first, int exponent_last);
 /// In units of 2^-1040 to 2^-341, half of them where cubes or squares of coordinates begin to underflow.
