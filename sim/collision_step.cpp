@@ -324,13 +324,14 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
 }
 
 std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
-                                                           const CollisionBodies& bodies, const Vec3& fall) {
+                                                           const CollisionBodies& bodies, const Vec3& fall,
+                                                           const Candidates& pressed) {
   const FpEnvGuard guard;
   Impl& impl = *impl_;
   if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
-  const std::vector<PairProximity> near = impl.proximities.find(V_candidate, fall);
+  const std::vector<PairProximity> near = impl.proximities.find(V_candidate, fall, pressed);
   const auto contacts = make_contacts(near, impl.contacts, V_t0, bodies.inverse_mass, impl.room_of_found);
   return {contacts.begin(), contacts.end()};
 }

@@ -139,7 +139,10 @@ Simulation::Try Simulation::try_step(StepResult& result) {
 
 // Those that a step would press that leads on without springs, and twice as deep as cloth falls in it. What lies on
 // other cloth falls with it there, and is not pressed: find_contacts() is told how far one alone falls. Running the
-// dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s).
+// dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s). Where the dynamics
+// solves for what contacts bear, those that bore a load as well, whatever pressed them: cloth that springs draw around
+// a body was pulled into it by the dynamics and thrown out by the collision step, and moved for ever. Dynamics that
+// sweeps gains nothing by it (docs/simulator-speed.md, *What bears a load is held*).
 std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhases& phases) {
   const PhaseTimer timer(phases.collision), within(phases.within.proximity);
   const double dt_s = clock_.dt_s();
@@ -147,7 +150,8 @@ std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhase
     if (script_.is_scripted(static_cast<VertexId>(i))) continue;
     x.row(i) += dt_s * (v_.row(i) + dt_s * scene_.gravity_m_s2.transpose());
   }
-  return collision_step_.find_contacts(x_, x, script_.bodies(), dt_s * dt_s / 2 * scene_.gravity_m_s2);
+  return collision_step_.find_contacts(x_, x, script_.bodies(), dt_s * dt_s / 2 * scene_.gravity_m_s2,
+                                       scene_.solver == Solver::kImplicit ? pairs_of(loads_) : Candidates());
 }
 
 const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<RepulsionContact>& held, bool is_last,

@@ -164,6 +164,16 @@ std::optional<std::size_t> NearPairs::place(PairKind kind, std::int32_t first, s
   return candidates_.vf.size() + *ee;
 }
 
+std::vector<std::size_t> NearPairs::places(const Candidates& pairs) const {
+  std::vector<std::size_t> result;
+  const auto add = [&](PairKind kind, std::int32_t first, std::int32_t second) {
+    if (const auto at = place(kind, first, second)) result.push_back(*at);
+  };
+  for (const auto& [vertex, face] : pairs.vf) add(PairKind::kVf, vertex, face);
+  for (const auto& [a, b] : pairs.ee) add(PairKind::kEe, a, b);
+  return result;
+}
+
 Candidates NearPairs::candidates(const std::vector<std::size_t>& pairs) const {
   Candidates result;
   for (const std::size_t i : pairs) {

@@ -40,6 +40,8 @@ class NearPairs {
   [[nodiscard]] bool is_pair(std::size_t i, PairKind kind, std::int32_t first, std::int32_t second) const;
   /// Nothing if it is none of them. O(log #pairs).
   [[nodiscard]] std::optional<std::size_t> place(PairKind kind, std::int32_t first, std::int32_t second) const;
+  /// Of those of `pairs` that are among them; ascending.
+  [[nodiscard]] std::vector<std::size_t> places(const Candidates& pairs) const;
   [[nodiscard]] Candidates candidates(const std::vector<std::size_t>& pairs) const;
 
  private:

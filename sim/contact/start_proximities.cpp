@@ -43,9 +43,10 @@ void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
   known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
 }
 
-std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const Vec3& fall) {
-  std::vector<std::size_t> found, known;
-  std::ranges::set_difference(near_.approaching(V_t0_, V_t1, fall), known_, std::back_inserter(found));
+std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const Vec3& fall, const Candidates& pressed) {
+  std::vector<std::size_t> repelling, found, known;
+  std::ranges::set_union(near_.approaching(V_t0_, V_t1, fall), near_.places(pressed), std::back_inserter(repelling));
+  std::ranges::set_difference(repelling, known_, std::back_inserter(found));
   count_ += std::ssize(found);
   decide(found);
   std::ranges::set_union(known_, found, std::back_inserter(known));

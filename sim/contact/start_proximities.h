@@ -19,14 +19,15 @@ class StartProximities {
   void start(BoxHierarchy& hierarchy, const Positions& V_t0, const std::vector<std::uint8_t>& surface);
 
   /// The pairs that repel in a motion from V_t0 to V_t1 and were not among the answers since start(): nearer than
-  /// kContactReach times their thickness at V_t0, approaching, given `fall` (near_pairs.h), and local
-  /// (local_proximities.h).
-  [[nodiscard]] std::vector<PairProximity> find(const Positions& V_t1, const Vec3& fall = Vec3::Zero());
+  /// kContactReach times their thickness at V_t0, approaching, given `fall` (near_pairs.h), or of `pressed`, which
+  /// repel whatever the motion is, and local (local_proximities.h).
+  [[nodiscard]] std::vector<PairProximity> find(const Positions& V_t1, const Vec3& fall = Vec3::Zero(),
+                                                const Candidates& pressed = {});
 
   /// Of the pairs of these no answer tells until the next start().
   void leave_out(std::span<const RepulsionContact> contacts);
 
-  /// Pairs since start() that approach, local or not.
+  /// Pairs since start() that repel but for that they need not be local.
   [[nodiscard]] std::int64_t count() const { return count_; }
 
  private:

@@ -153,6 +153,35 @@ TEST(StartProximities, OfClothThatRestsOnClothFindWhatAFallOfOneWouldPress) {
   EXPECT_EQ(found(1.2 * kThickness, {0, 0, -kThickness}), 0U) << "no rest";
 }
 
+TEST(StartProximities, OfThoseThatPressFindWhatIsNearWhateverTheMotion) {
+  const TwoSheets scene;
+  const Mesh mesh = scene.mesh();
+  const ContactTable contacts(mesh, scene.options, {});
+  const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
+  BoxHierarchy hierarchy(mesh);
+  StartProximities near(mesh, contacts);
+  near.start(hierarchy, scene.V_t0, surface);
+  const std::vector<PairProximity> approaching = near.find(scene.V_candidate);
+  Candidates pressed;
+  for (const PairProximity& pair : approaching) {
+    if (pair.kind == PairKind::kVf) pressed.vf.push_back({pair.first, pair.second});
+    if (pair.kind == PairKind::kEe) pressed.ee.push_back({pair.first, pair.second});
+  }
+  ASSERT_GT(approaching.size(), 10U);
+  const Positions apart = 2 * scene.V_t0 - scene.V_candidate;
+  near.start(hierarchy, scene.V_t0, surface);
+  EXPECT_TRUE(near.find(apart).empty());
+  std::vector<Name> found, expected;
+  for (const PairProximity& pair : near.find(apart, Vec3::Zero(), pressed)) found.push_back(name_of(pair));
+  for (const PairProximity& pair : approaching) expected.push_back(name_of(pair));
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(near.find(apart, Vec3::Zero(), pressed).empty()) << "once each";
+  Positions lifted = scene.V_t0;
+  for (VertexId v = scene.upper.begin; v < scene.upper.end; ++v) lifted(v, 2) += 0.1;
+  near.start(hierarchy, lifted, surface);
+  EXPECT_TRUE(near.find(lifted, Vec3::Zero(), pressed).empty()) << "not near";
+}
+
 TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
   const TwoSheets scene;
   const Mesh mesh = scene.mesh();
