@@ -7,11 +7,13 @@
 
 #include "sim/record/run_totals.h"
 #include "tests/sim/exact_step.h"
+#include "tests/sim/physics_support.h"
 #include "tests/sim/small_scene.h"
 
 namespace selvage {
 
 using namespace sim;
+using namespace sim::testbed;
 using testing::small_scene_text;
 using testing::violations;
 
