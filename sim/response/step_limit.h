@@ -4,7 +4,7 @@
 //   kFree     as the response left it;
 //   kLimited  in a ball about V_t0 whose radius is kBallShare of a proved lower bound on the distance from every
 //             feature of the vertex to every other feature at t = 0: two limited vertices' features cannot meet;
-//   kFrozen   x = V_t0, bit for bit: a pair that does not move cannot touch, V_t0 being free of intersections;
+//   kFrozen   x = V_t0: a pair that does not move cannot touch, V_t0 being free of intersections;
 //   kCarried  moved with a scripted body by that body's rigid motion: nothing that moves so can meet the body; with one
 //             that deforms by the motion of the features that it would have met.
 // A pair that still collides raises every cloth vertex of it that it can raise by one level: the lowest ones, and

@@ -29,7 +29,7 @@ class StepMotion {
 
   /// x = V_t0 + displacement on the lattice. At the edge of the domain the displacement is cut to what is left.
   void move(VertexId vertex, const Vec3& displacement);
-  /// x = V_t0, bit for bit.
+  /// x = V_t0; a zero may keep the sign that its candidate had.
   void freeze(VertexId vertex);
 
   /// #V: 1 where the stored position changed since the last take.
