@@ -151,7 +151,7 @@ std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhase
     x.row(i) += dt_s * (v_.row(i) + dt_s * scene_.gravity_m_s2.transpose());
   }
   return collision_step_.find_contacts(x_, x, script_.bodies(), dt_s * dt_s / 2 * scene_.gravity_m_s2,
-                                       scene_.solver == Solver::kImplicit ? pairs_of(loads_) : Candidates());
+                                       dynamics_->solves_for_loads() ? pairs_of(loads_) : Candidates());
 }
 
 const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<RepulsionContact>& held, bool is_last,

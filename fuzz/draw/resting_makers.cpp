@@ -47,8 +47,8 @@ MotionQuery resting(ChoiceSource& source, PairKind kind) {
   if (source.coin()) x.span[0][axis] = x.span[1][axis] = 0;
 
   const Way way = choose_way(source);
-  const LatticePoint normal =
-      x.span[0].cross(x.span[1]);  // below 2^46, and below 2^53 with all that it is multiplied by
+  // Below 2^46, and below 2^53 with all that it is multiplied by.
+  const LatticePoint normal = x.span[0].cross(x.span[1]);
   const auto choose_velocity = [&]() -> LatticePoint {
     if (way == Way::kFree) return choose_point(source, radius);
     if (way == Way::kNormal) return source.zigzag(3) * normal;

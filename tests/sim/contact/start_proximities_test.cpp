@@ -43,6 +43,23 @@ struct TwoSheets : StepScene {
     push(upper, Vec3(0, 0, -0.01));
     options.thickness_m = 0.01;
   }
+  [[nodiscard]] Positions with_upper_lifted(double height_m) const {
+    Positions V = V_t0;
+    V.col(2).segment(upper.begin, upper.end - upper.begin).array() += height_m;
+    return V;
+  }
+};
+
+struct NearTwoSheets {
+  TwoSheets scene;
+  Mesh mesh = scene.mesh();
+  ContactTable contacts{mesh, scene.options, {}};
+  BoxHierarchy hierarchy{mesh};
+  StartProximities near{mesh, contacts};
+
+  void start(const Positions& V_t0) {
+    near.start(hierarchy, V_t0, std::vector<std::uint8_t>(scene.inverse_mass.size(), 1));
+  }
 };
 
 /// How much nearer than its thickness the pair comes, by the kernel's answer.
@@ -154,13 +171,10 @@ TEST(StartProximities, OfClothThatRestsOnClothFindWhatAFallOfOneWouldPress) {
 }
 
 TEST(StartProximities, OfThoseThatPressFindWhatIsNearWhateverTheMotion) {
-  const TwoSheets scene;
-  const Mesh mesh = scene.mesh();
-  const ContactTable contacts(mesh, scene.options, {});
-  const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
-  BoxHierarchy hierarchy(mesh);
-  StartProximities near(mesh, contacts);
-  near.start(hierarchy, scene.V_t0, surface);
+  NearTwoSheets near_sheets;
+  const TwoSheets& scene = near_sheets.scene;
+  StartProximities& near = near_sheets.near;
+  near_sheets.start(scene.V_t0);
   const std::vector<PairProximity> approaching = near.find(scene.V_candidate);
   Candidates pressed;
   for (const PairProximity& pair : approaching) {
@@ -169,36 +183,31 @@ TEST(StartProximities, OfThoseThatPressFindWhatIsNearWhateverTheMotion) {
   }
   ASSERT_GT(approaching.size(), 10U);
   const Positions apart = 2 * scene.V_t0 - scene.V_candidate;
-  near.start(hierarchy, scene.V_t0, surface);
+  near_sheets.start(scene.V_t0);
   EXPECT_TRUE(near.find(apart).empty());
   std::vector<Name> found, expected;
   for (const PairProximity& pair : near.find(apart, Vec3::Zero(), pressed)) found.push_back(name_of(pair));
   for (const PairProximity& pair : approaching) expected.push_back(name_of(pair));
   EXPECT_EQ(found, expected);
   EXPECT_TRUE(near.find(apart, Vec3::Zero(), pressed).empty()) << "once each";
-  Positions lifted = scene.V_t0;
-  for (VertexId v = scene.upper.begin; v < scene.upper.end; ++v) lifted(v, 2) += 0.1;
-  near.start(hierarchy, lifted, surface);
+  const Positions lifted = scene.with_upper_lifted(0.1);
+  near_sheets.start(lifted);
   EXPECT_TRUE(near.find(lifted, Vec3::Zero(), pressed).empty()) << "not near";
 }
 
 TEST(StartProximities, ForgetTheLastStepAndOnlyThat) {
-  const TwoSheets scene;
-  const Mesh mesh = scene.mesh();
-  const ContactTable contacts(mesh, scene.options, {});
-  const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
-  BoxHierarchy hierarchy(mesh);
-  StartProximities near(mesh, contacts);
-  near.start(hierarchy, scene.V_t0, surface);
+  NearTwoSheets near_sheets;
+  const TwoSheets& scene = near_sheets.scene;
+  StartProximities& near = near_sheets.near;
+  near_sheets.start(scene.V_t0);
   const std::size_t count = near.find(scene.V_candidate).size();
   EXPECT_GT(count, 10U);
   EXPECT_TRUE(near.find(scene.V_candidate).empty());
-  near.start(hierarchy, scene.V_t0, surface);  // another try of the same step
+  near_sheets.start(scene.V_t0);  // another try of the same step
   EXPECT_EQ(near.find(scene.V_candidate).size(), count);
   EXPECT_TRUE(near.find(scene.V_t0).empty());
-  Positions lifted = scene.V_t0;
-  for (VertexId v = scene.upper.begin; v < scene.upper.end; ++v) lifted(v, 2) += 0.1;
-  near.start(hierarchy, lifted, surface);
+  const Positions lifted = scene.with_upper_lifted(0.1);
+  near_sheets.start(lifted);
   EXPECT_TRUE(near.find(lifted + (scene.V_candidate - scene.V_t0)).empty());
 }
 
