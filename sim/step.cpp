@@ -139,10 +139,10 @@ Simulation::Try Simulation::try_step(StepResult& result) {
 
 // Those that a step would press that leads on without springs, and twice as deep as cloth falls in it. What lies on
 // other cloth falls with it there, and is not pressed: find_contacts() is told how far one alone falls. Running the
-// dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s). Where the dynamics
-// solves for what contacts bear, those that bore a load as well, whatever pressed them: cloth that springs draw around
-// a body was pulled into it by the dynamics and thrown out by the collision step, and moved for ever. Dynamics that
-// sweeps gains nothing by it (docs/simulator-speed.md, *What bears a load is held*).
+// dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s). And those that
+// pressed in the last step, in the dynamics or behind it, whatever pressed them: what springs press, such as the hem
+// of draped cloth, was pulled in by the dynamics and thrown out by the collision step, in every step or in every other
+// one, and moved for ever (docs/simulator-speed.md, *What pressed is held*).
 std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhases& phases) {
   const PhaseTimer timer(phases.collision), within(phases.within.proximity);
   const double dt_s = clock_.dt_s();
@@ -150,8 +150,7 @@ std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhase
     if (script_.is_scripted(static_cast<VertexId>(i))) continue;
     x.row(i) += dt_s * (v_.row(i) + dt_s * scene_.gravity_m_s2.transpose());
   }
-  return collision_step_.find_contacts(x_, x, script_.bodies(), dt_s * dt_s / 2 * scene_.gravity_m_s2,
-                                       dynamics_->solves_for_loads() ? pairs_of(loads_) : Candidates());
+  return collision_step_.find_contacts(x_, x, script_.bodies(), dt_s * dt_s / 2 * scene_.gravity_m_s2, pressed_);
 }
 
 const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<RepulsionContact>& held, bool is_last,
@@ -175,6 +174,7 @@ const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<
   tried.candidate.topRows(cloth) = tried.end.x;
   tried.held = contacts.count();
   tried.loads = contacts.loads();
+  tried.pressed = contacts.repelled_pairs();
   held_to_the_end_ = std::move(contacts).take_contacts();
   return held_to_the_end_;
 }
@@ -236,6 +236,9 @@ void Simulation::commit(Try& tried) {
     }
   }
   loads_ = had_room(safe.report) ? std::move(tried.loads) : ContactLoads();
+  pressed_ = std::move(tried.pressed);
+  for (const RepulsionContact& contact : safe.met) add_pair(contact, pressed_);
+  sort_pairs(pressed_);
 }
 
 void Simulation::restore(const SimulationState& state) {
@@ -244,6 +247,7 @@ void Simulation::restore(const SimulationState& state) {
   v_ = state.v;
   clock_.restore(state.clock);
   loads_ = state.loads;
+  pressed_ = state.pressed;
 }
 
 }  // namespace selvage::sim

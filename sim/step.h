@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "kernel/candidates.h"
 #include "kernel/fp_env.h"
 #include "sim/base/phase_times.h"
 #include "sim/base/vertex_faces.h"
@@ -27,6 +28,7 @@ struct SimulationState {
   Positions x, v;  ///< #V by 3, m and m/s
   StepClock::State clock;
   ContactLoads loads;  ///< at x
+  Candidates pressed;  ///< the pairs that pressed in the last step
 };
 
 struct StepResult {
@@ -60,7 +62,7 @@ class Simulation {
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Positions& x() const { return x_; }
   [[nodiscard]] const StepClock& clock() const { return clock_; }
-  [[nodiscard]] SimulationState state() const { return {x_, v_, clock_.state(), loads_}; }
+  [[nodiscard]] SimulationState state() const { return {x_, v_, clock_.state(), loads_, pressed_}; }
   void restore(const SimulationState& state);
 
  private:
@@ -72,6 +74,7 @@ class Simulation {
     Motion end;           ///< of the dynamics
     RepulsionCount held;  ///< in the dynamics
     ContactLoads loads;   ///< at its end
+    Candidates pressed;   ///< in it
     CollisionStepResult safe;
   };
   /// Whether a step is short enough then for bodies that turn.
@@ -107,6 +110,7 @@ class Simulation {
   VertexFaces vertex_faces_;
   Positions x_, v_;
   ContactLoads loads_;
+  Candidates pressed_;
   std::vector<RepulsionContact> held_to_the_end_;  ///< by the last run of the dynamics; memory that stays
 };
 

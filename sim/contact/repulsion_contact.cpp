@@ -1,5 +1,7 @@
 #include "sim/contact/repulsion_contact.h"
 
+#include <algorithm>
+
 namespace selvage::sim {
 namespace {
 
@@ -40,6 +42,23 @@ std::optional<RepulsionContact> make_contact(const Collision& collision, const s
   contact.normal = separates ? collision.ccd.normal : Vec3(separation.stableNormalized());
   contact.distance = separation.dot(contact.normal);
   return if_it_acts(contact);
+}
+
+void add_pair(const RepulsionContact& contact, Candidates& pairs) {
+  if (contact.kind == PairKind::kVf) {
+    pairs.vf.push_back({contact.first, contact.second});
+  } else {
+    pairs.ee.push_back({contact.first, contact.second});
+  }
+}
+
+void sort_pairs(Candidates& pairs) {
+  const auto sort_all = [](auto& of_kind) {
+    std::ranges::sort(of_kind);
+    of_kind.erase(std::unique(of_kind.begin(), of_kind.end()), of_kind.end());
+  };
+  sort_all(pairs.vf);
+  sort_all(pairs.ee);
 }
 
 }  // namespace selvage::sim

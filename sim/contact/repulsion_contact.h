@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "kernel/candidates.h"
 #include "kernel/proximities.h"
 #include "sim/contact/contact_properties.h"
 #include "sim/contact/interaction.h"
@@ -35,6 +36,10 @@ struct RepulsionContact {
                                                            const std::array<VertexId, 4>& vertices,
                                                            const ContactProperties& properties, const Positions& V_t0,
                                                            std::span<const double> inverse_mass);
+
+/// Behind the others, which sort_pairs() brings into the order that Candidates has, each once.
+void add_pair(const RepulsionContact& contact, Candidates& pairs);
+void sort_pairs(Candidates& pairs);
 
 struct RepulsionCount {
   std::int64_t repulsions = 0, frictions = 0;  ///< contacts that repelled, and rubbed

@@ -39,7 +39,6 @@ class CentralDifferences : public Dynamics {
   [[nodiscard]] bool holds_contacts(double dt_s, const PositionsRef& x) const override {
     return step_count_in_contact(dt_s, x) > 1;
   }
-  [[nodiscard]] bool solves_for_loads() const override { return false; }
 
   /// v(n+1) of the line above. After an advance() in several internal steps the collision step has changed an average
   /// velocity; the cloth's own at the end of the step is another, which the average must not take the place of: where

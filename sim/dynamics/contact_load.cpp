@@ -28,13 +28,6 @@ const ContactLoad* find_load(const ContactLoads& loads, PairKind kind, std::int3
   return load == end ? nullptr : &*load;
 }
 
-Candidates pairs_of(const ContactLoads& loads) {
-  Candidates result;
-  for (const ContactLoad& load : loads.vf) result.vf.push_back({load.first, load.second});
-  for (const ContactLoad& load : loads.ee) result.ee.push_back({load.first, load.second});
-  return result;
-}
-
 void keep_one_of_each_pair(std::vector<ContactLoad>& loads) {
   std::ranges::stable_sort(loads, {}, pair_of);
   const auto same = [](const ContactLoad& a, const ContactLoad& b) { return pair_of(a) == pair_of(b); };

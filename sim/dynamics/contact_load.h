@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/candidates.h"
 #include "kernel/mesh.h"
 #include "kernel/types.h"
 
@@ -38,9 +37,6 @@ struct ContactLoads {
 /// with one load: what is too much they take back. Null where there is none. O(log loads + those of `first`).
 [[nodiscard]] const ContactLoad* find_load(const ContactLoads& loads, PairKind kind, std::int32_t first,
                                            std::int32_t second, const Mesh& mesh);
-
-/// The pairs that bear them.
-[[nodiscard]] Candidates pairs_of(const ContactLoads& loads);
 
 /// Sorts them as ContactLoads has them. A pair that collided while it was held is held twice; what both bear, the first
 /// does, and the other takes back.

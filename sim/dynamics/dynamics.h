@@ -36,8 +36,6 @@ class Dynamics {
                                  HeldContacts* contacts = nullptr) = 0;
   /// Whether contacts act in advance() from x.
   [[nodiscard]] virtual bool holds_contacts(double dt_s, const PositionsRef& x) const = 0;
-  /// Whether advance() solves for what contacts bear, in place of sweeping over them.
-  [[nodiscard]] virtual bool solves_for_loads() const = 0;
 
   /// Section 7.6: the velocity at the end of a step with contacts, from the positions there and the mean velocity
   /// that the collision step left in motion.v. Rows with inverse mass 0 are kept.

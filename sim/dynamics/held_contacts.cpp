@@ -372,6 +372,16 @@ RepulsionCount HeldContacts::count() const {
   return result;
 }
 
+Candidates HeldContacts::repelled_pairs() const {
+  Candidates result;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const std::size_t place = place_of_[i];
+    if (has_lane(packs_[place / kLanes].ever_repelled, place % kLanes)) add_pair(contacts_[i], result);
+  }
+  sort_pairs(result);
+  return result;
+}
+
 ContactLoads HeldContacts::loads() const { return {loads_of(vf_), loads_of(ee_)}; }
 
 std::vector<ContactLoad> HeldContacts::loads_of(const Kind& kind) const {

@@ -77,8 +77,8 @@ class HeldContacts {
   void hold(const MidstepMotion& step, const std::function<void()>& limit);
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
-  /// contacts()), with the loads that they begin with; and what a contact bore in the last step, so that count() and
-  /// loads() know it.
+  /// contacts()), with the loads that they begin with; and what a contact bore in the last step, so that count(),
+  /// repelled_pairs() and loads() know it.
   [[nodiscard]] std::size_t size() const { return place_of_.size(); }
   [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[i]; }
   struct Load {
@@ -103,6 +103,8 @@ class HeldContacts {
 
   /// Those that repelled, and rubbed, in any step; in one in which all acted again, in either try.
   [[nodiscard]] RepulsionCount count() const;
+  /// The pairs of those that repelled.
+  [[nodiscard]] Candidates repelled_pairs() const;
 
   /// After the last step.
   [[nodiscard]] ContactLoads loads() const;

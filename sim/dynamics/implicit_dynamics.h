@@ -42,7 +42,6 @@ class ImplicitDynamics : public Dynamics {
   DynamicsReport advance(Motion& motion, const PositionsRef& scripted_x_t1, std::span<const double> inverse_mass,
                          double dt_s, HeldContacts* contacts = nullptr) override;
   [[nodiscard]] bool holds_contacts(double, const PositionsRef&) const override { return true; }
-  [[nodiscard]] bool solves_for_loads() const override { return true; }
 
   /// Adds to the velocity at the end what the collision step changed in the mean velocity. REQUIRES advance() before.
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;

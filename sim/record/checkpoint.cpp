@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 12\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 13\n";
 
 template <class Number>
 void put(std::string& bytes, const Number& number) {
@@ -25,14 +25,23 @@ void put(std::string& bytes, const Positions& x) {
   bytes += bytes_of(x);
 }
 
+template <class Item>
+void put_all(std::string& bytes, const std::vector<Item>& items) {
+  put(bytes, static_cast<std::int64_t>(items.size()));
+  for (const Item& item : items) put(bytes, item);
+}
+
 static_assert(sizeof(ContactLoad) == 2 * sizeof(std::int32_t) + 4 * sizeof(double),
               "padding would be written as it is");
 
 void put(std::string& bytes, const ContactLoads& loads) {
-  for (const std::vector<ContactLoad>* const of_kind : {&loads.vf, &loads.ee}) {
-    put(bytes, static_cast<std::int64_t>(of_kind->size()));
-    for (const ContactLoad& load : *of_kind) put(bytes, load);
-  }
+  put_all(bytes, loads.vf);
+  put_all(bytes, loads.ee);
+}
+
+void put(std::string& bytes, const Candidates& pairs) {
+  put_all(bytes, pairs.vf);
+  put_all(bytes, pairs.ee);
 }
 
 void put(std::string& bytes, const SceneIdentity& scene) {
@@ -84,11 +93,18 @@ class Source {
     const std::string_view data = take(rows * kRowBytes);
     if (!data.empty()) std::memcpy(x.data(), data.data(), data.size());
   }
+  template <class Item>
+  void get_all(std::vector<Item>& items) {
+    items.resize(count(sizeof(Item)));
+    for (Item& item : items) get(item);
+  }
   void get(ContactLoads& loads) {
-    for (std::vector<ContactLoad>* const of_kind : {&loads.vf, &loads.ee}) {
-      of_kind->resize(count(sizeof(ContactLoad)));
-      for (ContactLoad& load : *of_kind) get(load);
-    }
+    get_all(loads.vf);
+    get_all(loads.ee);
+  }
+  void get(Candidates& pairs) {
+    get_all(pairs.vf);
+    get_all(pairs.ee);
   }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
 
@@ -113,6 +129,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   put(bytes, checkpoint.state.x);
   put(bytes, checkpoint.state.v);
   put(bytes, checkpoint.state.loads);
+  put(bytes, checkpoint.state.pressed);
   for_each_total(checkpoint.totals, [&](const char*, const auto& field) { put(bytes, field); });
   put(bytes, fnv1a(bytes));
   io::write_atomically(file, bytes);
@@ -136,6 +153,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file) {
   source.get(checkpoint.state.x);
   source.get(checkpoint.state.v);
   source.get(checkpoint.state.loads);
+  source.get(checkpoint.state.pressed);
   for_each_total(checkpoint.totals, [&](const char*, auto& field) { source.get(field); });
   std::uint64_t checksum = 0;
   source.get(checksum);
