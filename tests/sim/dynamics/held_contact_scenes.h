@@ -48,6 +48,7 @@ struct OneContact {
   Eigen::Index cloth_count;
   LaneVectors x, v;
   ContactLoads loads;
+  Candidates repelled;
 
   OneContact(const RandomPair& pair, Eigen::Index cloth_vertices) : V_t0(4, 3), cloth_count(cloth_vertices) {
     for (Eigen::Index i = 0; i < 4; ++i) V_t0.row(i) = pair.x_t0[static_cast<std::size_t>(i)];
@@ -58,7 +59,8 @@ struct OneContact {
     for (Eigen::Index i = 0; i < cloth_count; ++i) v.row(i) = pair.displacement[static_cast<std::size_t>(i)];
   }
 
-  /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with.
+  /// One step of a collision step of one, which begins with a load. Leaves the load that it ends with, and its pair if
+  /// it repelled.
   RepulsionCount step(double load_m_s2 = 0, int sweeps = 1, const Vec3& friction_m_s2 = Vec3::Zero()) {
     for (Eigen::Index i = 0; i < cloth_count; ++i) x.row(i) += kHeldStep * v.row(i);
     const std::vector<RepulsionContact> contacts{contact};
@@ -70,6 +72,7 @@ struct OneContact {
     HeldContacts held(contacts, begun, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
     act(held, {kHeldStep, 1, x, v});
     loads = held.loads();
+    repelled = held.repelled_pairs();
     return held.count();
   }
 

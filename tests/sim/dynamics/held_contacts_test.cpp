@@ -1,4 +1,5 @@
 // What held contacts press, rub, bear and learn.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/property.h"
@@ -16,6 +17,7 @@ struct Column {
   Ground ground{faces(), inverse_mass()};
   std::vector<RepulsionContact> contacts;
   ContactLoads loads;
+  Candidates repelled;
   LaneVectors x, v;
   double highest = 0, lowest = 1;  ///< of the distances of neighbours over the thickness, ever
 
@@ -78,6 +80,7 @@ struct Column {
       }
     }
     loads = held.loads();
+    repelled = held.repelled_pairs();
   }
 };
 
@@ -99,6 +102,7 @@ TEST(HeldContacts, ComeNoNearerThanTheThicknessAndAddNeitherMomentumNorEnergy) {
     }
     RC_CLASSIFY(count.repulsions > 0);
     if (count.repulsions > 0) RC_ASSERT(one.distance() >= std::min(kHeldThickness, one.contact.distance) - 1e-12);
+    RC_ASSERT(std::ssize(one.repelled.vf) + std::ssize(one.repelled.ee) == count.repulsions);
   });
 }
 
@@ -349,7 +353,18 @@ TEST(HeldContacts, KeepTheLimitOfALever) {
     const double moved = x.row(0).z() - V(0, 2);
     EXPECT_NEAR(moved, kMaxLever * kMaxLever / kLever * kRise, 1e-3 * kRise) << sweeps;
     EXPECT_TRUE(held.loads().empty());
+    EXPECT_EQ(held.repelled_pairs(), (Candidates{{{0, 0}}, {}})) << "it pressed, though it remembers nothing";
   }
+}
+
+TEST(HeldContacts, NameThePairsThatRepelledOnceEachAndSorted) {
+  Column column;
+  std::ranges::reverse(column.contacts);
+  column.contacts.push_back(column.contacts.front());  // a pair that collided while it was held is held twice
+  column.step(1);
+  Candidates all;
+  for (int i = 0; i < Column::kCount; ++i) all.vf.push_back({i, i});
+  EXPECT_EQ(column.repelled, all);
 }
 
 TEST(HeldContacts, StickWithinTheConeAndSlideBeyond) {
