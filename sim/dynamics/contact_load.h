@@ -15,6 +15,7 @@ struct ContactLoad {
   std::int32_t first, second;                ///< vertex and face, or edges
   double acceleration_m_s2;                  ///< of the pair's relative motion, > 0
   std::array<double, 3> friction_m_s2 = {};  ///< of the same, across the contact's direction, if the pair did not turn
+  friend bool operator==(const ContactLoad&, const ContactLoad&) = default;
 };
 
 /// Of all contacts; each list is sorted by first and second.
@@ -30,6 +31,7 @@ struct ContactLoads {
   std::vector<ContactLoad> vf, ee;
 
   [[nodiscard]] bool empty() const { return vf.empty() && ee.empty(); }
+  friend bool operator==(const ContactLoads&, const ContactLoads&) = default;
 };
 
 /// That of the pair; else that of the vertex on a face that shares a corner. Over an edge or a corner of the surface a

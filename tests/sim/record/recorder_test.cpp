@@ -63,6 +63,30 @@ TEST_F(RecorderTest, KeepsTheWholeClockInCheckpoints) {
   EXPECT_EQ(read->state.clock, written.state.clock);
 }
 
+TEST_F(RecorderTest, KeepsTheStateInCheckpoints) {
+  Simulation simulation(scene_);
+  while (simulation.state().loads.vf.empty() || simulation.state().pressed.ee.empty()) {
+    ASSERT_LT(simulation.clock().state().frame, 30);
+    (void)simulation.step();
+  }
+  Checkpoint written;
+  written.state = simulation.state();
+  const SimulationState& state = written.state;
+  const std::filesystem::path file = folder_.path() / "checkpoint.bin";
+  write_checkpoint(file, written);
+  const auto read = read_checkpoint(file);
+  ASSERT_TRUE(read.has_value());
+  Simulation resumed(scene_);
+  resumed.restore(read->state);
+  for (const SimulationState& kept : {read->state, resumed.state()}) {
+    EXPECT_EQ(kept.x, state.x);
+    EXPECT_EQ(kept.v, state.v);
+    EXPECT_EQ(kept.clock, state.clock);
+    EXPECT_EQ(kept.loads, state.loads);
+    EXPECT_EQ(kept.pressed, state.pressed);
+  }
+}
+
 TEST_F(RecorderTest, KeepsInCheckpointsOfWhatSceneTheyAre) {
   const std::filesystem::path file = folder_.path() / "checkpoint.bin";
   for (const Quality quality : {Quality::kDraft, Quality::kFull}) {
