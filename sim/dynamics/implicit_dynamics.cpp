@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kernel/assert.h"
+#include "sim/base/keep_largest.h"
 #include "sim/base/parallel.h"
 #include "sim/dynamics/drag_steps.h"
 #include "sim/dynamics/scripted_ends.h"
@@ -45,8 +46,7 @@ void add_stage(const StageReport& stage, DynamicsReport& report) {
   report.newton_rounds += stage.newton_rounds;
   report.cg_iterations += stage.cg_iterations;
   report.unconverged += stage.converged ? 0 : 1;
-  // Written so that NaN is kept.
-  if (!(stage.residual_m <= report.residual_m)) report.residual_m = stage.residual_m;
+  keep_largest(stage.residual_m, report.residual_m);
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
+#include "sim/base/keep_largest.h"
 #include "sim/response/travel_limit.h"
 
 namespace selvage::sim {
@@ -32,8 +32,7 @@ void RunTotals::add(const StepResult& step) {
   newton_rounds += step.dynamics.newton_rounds;
   cg_iterations += step.dynamics.cg_iterations;
   unconverged_solves += step.dynamics.unconverged;
-  const double residual_m = step.dynamics.residual_m;
-  if (std::isnan(residual_m) || residual_m > largest_residual_m) largest_residual_m = residual_m;  // NaN stays
+  keep_largest(step.dynamics.residual_m, largest_residual_m);
   if (step.most_strained.strain > largest_strain) {
     largest_strain = step.most_strained.strain;
     largest_strain_at_s = step.end_s;
