@@ -39,6 +39,31 @@ void look(const Simulation& simulation, VertexId first, VertexId count, Lying& l
   lying.fastest_rise_m_s = std::max(lying.fastest_rise_m_s, state.v.col(2).segment(first, count).maxCoeff());
 }
 
+/// A sheet of 0.6 m that falls on a ball and hangs down to the ground.
+struct Drape {
+  std::string vertices, thickness_m, turned_deg;
+  std::string longest_step;  ///< a line of the scene; a frame without
+};
+
+/// What moves most in a frame of the last of so many seconds, m.
+double most_in_a_frame_m(const Drape& drape, std::int64_t seconds) {
+  Simulation simulation(parse_scene(
+      "gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 1\n[time]\nframes_per_s = 30\nduration_s = " + std::to_string(seconds) +
+          "\n" + drape.longest_step + "[collision]\nthickness_m = " + drape.thickness_m +
+          "\nfriction_static = 0.5\nfriction_kinetic = 0.4\n[[cloth]]\nsheet = {nx = " + drape.vertices + ", ny = " +
+          drape.vertices + ", width_m = 0.6, height_m = 0.6}\nposition_m = [0, 0, 0.32]\nrotation_deg = [0, 0, " +
+          drape.turned_deg + "]\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\n" +
+          "damping_ratio = 0.1\n[[body]]\nsphere = {radius_m = 0.15}\nposition_m = [0, 0, 0.15]\n" + plane(),
+      "drape.toml"));
+  double result = 0;
+  for (std::int64_t frame = 0; frame < 30 * seconds; ++frame) {
+    const Positions x = simulation.x();
+    while (simulation.clock().state().frame == frame) simulation.step();
+    if (frame >= 30 * (seconds - 1)) result = std::max(result, (simulation.x() - x).rowwise().norm().maxCoeff());
+  }
+  return result;
+}
+
 }  // namespace
 
 TEST(Rest, SheetsThatLieOnOneAnotherKeepTheirDistances) {
@@ -131,31 +156,6 @@ TEST(Rest, SheetsThatDropOnABallKeepTheirDistancesUnderMoreSweeps) {
   for (int layer = 1; layer < kLayers; ++layer) {
     EXPECT_GT((middle_m(layer) - middle_m(layer - 1)).norm(), 0.0022) << layer;
   }
-}
-
-/// A sheet of 0.6 m that falls on a ball and hangs down to the ground.
-struct Drape {
-  std::string vertices, thickness_m, turned_deg;
-  std::string longest_step;  ///< a line of the scene; a frame without
-};
-
-/// What moves most in a frame of the last of so many seconds, m.
-double most_in_a_frame_m(const Drape& drape, std::int64_t seconds) {
-  Simulation simulation(parse_scene(
-      "gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 1\n[time]\nframes_per_s = 30\nduration_s = " + std::to_string(seconds) +
-          "\n" + drape.longest_step + "[collision]\nthickness_m = " + drape.thickness_m +
-          "\nfriction_static = 0.5\nfriction_kinetic = 0.4\n[[cloth]]\nsheet = {nx = " + drape.vertices + ", ny = " +
-          drape.vertices + ", width_m = 0.6, height_m = 0.6}\nposition_m = [0, 0, 0.32]\nrotation_deg = [0, 0, " +
-          drape.turned_deg + "]\ndensity_kg_m2 = 0.2\nstretch_n_m = 60\nshear_n_m = 20\nbend_n_m = 0.6\n" +
-          "damping_ratio = 0.1\n[[body]]\nsphere = {radius_m = 0.15}\nposition_m = [0, 0, 0.15]\n" + plane(),
-      "drape.toml"));
-  double result = 0;
-  for (std::int64_t frame = 0; frame < 30 * seconds; ++frame) {
-    const Positions x = simulation.x();
-    while (simulation.clock().state().frame == frame) simulation.step();
-    if (frame >= 30 * (seconds - 1)) result = std::max(result, (simulation.x() - x).rowwise().norm().maxCoeff());
-  }
-  return result;
 }
 
 // In steps as long as a frame, too: each went on moving, by 5 mm a frame, when a share of what cloth falls in such a

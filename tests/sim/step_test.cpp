@@ -140,6 +140,27 @@ TEST(Simulation, WhatPressesInAJamIsNotLearntAsWeight) {
   EXPECT_GT(totals.zone_rounds, 0);
 }
 
+// Of one internal step in each step the dynamics holds nothing, so that all that presses does so behind it.
+TEST(Simulation, KnowsWhatPressedBehindTheDynamicsInTheLastStep) {
+  Simulation simulation(
+      parse_scene("gravity_m_s2 = [0, 0, -9.81]\n[time]\nframes_per_s = 30\nduration_s = 0.1\ndynamics_step_s = 0.002\n"
+                  "max_step_s = 0.002\n[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = "
+                  "0.3, height_m = 0.3}\n"
+                  "position_m = [0, 0, 0.01]\ndensity_kg_m2 = 0.2\nstretch_n_m = 10\n" +
+                      plane(),
+                  "behind.toml"));
+  int in_flight = 0, in_contact = 0;
+  while (simulation.clock().time_s() < 0.1 - 1e-9) {
+    const StepResult step = simulation.step();
+    EXPECT_EQ(step.held_repulsions, 0);
+    const Candidates pressed = simulation.state().pressed;
+    EXPECT_EQ(pressed == Candidates{}, step.report.repulsions == 0) << step.end_s;
+    ++(step.report.repulsions == 0 ? in_flight : in_contact);
+  }
+  EXPECT_GT(in_flight, 0);
+  EXPECT_GT(in_contact, 0);
+}
+
 TEST(Simulation, AfterContactGravityActsForTheSecondHalfOfTheStep) {
   // Section 7.6: the velocity at the end is the mean velocity of the safe step and half a step of forces. Springs and
   // the strain-rate limit keep the cloth's momentum, so its change is that of gravity alone. In steps as short as the
