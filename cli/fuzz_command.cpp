@@ -194,7 +194,7 @@ ExitCode run_plugin(const FuzzArguments& arguments) {
   const std::uint32_t crc32 = fuzz::crc32_of_plugin(arguments.plugin);
   const fuzz::PluginInfo info = fuzz::probe_plugin(arguments.plugin, arguments.case_time_s);
   fuzz::Properties properties;
-  properties.push_back(fuzz::make_conformance(arguments.plugin, crc32));
+  properties.push_back(fuzz::make_conformance(arguments.plugin, crc32, info.gap));
   if (!arguments.only.empty()) return run_only(arguments, properties);
   fuzz::DriverOptions options = driver_options(arguments);
   options.target = std::string("plugin ") + info.name;

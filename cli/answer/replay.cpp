@@ -28,8 +28,8 @@ MotionReplay replay_motion(const fuzz::Case& kept, const std::optional<PluginToA
   const fuzz::MotionQuery& query = kept.query;
   replay.is_in_domain = fuzz::is_in_domain(query);
   if (asked && replay.is_in_domain && is_for_plugins(std::string(fuzz::name_of(query.kind)))) {
-    const bool in_batch = !kept.plugin || kept.plugin->in_batch;  // which asks it alone first
-    replay.plugin = fuzz::try_plugin(asked->library, query, in_batch, asked->case_seconds);
+    const fuzz::BatchSize batch = kept.plugin ? kept.plugin->batch : fuzz::kUsualBatch;  // which asks it alone first
+    replay.plugin = fuzz::try_plugin(asked->library, query, batch, asked->case_seconds);
   }
   const auto x_t0 = fuzz::raw(query.x_t0), x_t1 = fuzz::raw(query.x_t1);
   replay.exact = fuzz::exact_motion(query, verify::Detail::kFirstTime);

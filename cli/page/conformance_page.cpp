@@ -194,7 +194,7 @@ Html facts_of(const fuzz::Ledger& ledger, const fuzz::PluginInfo& info) {
                         info.has_toi ? "the features touch before them" : "it gives no times of impact");
   list += detailed_fact(
       "Alarms too far", grouped(total.too_far),
-      fmt::format("beyond {:g} + {:g} of the size, as it declares", info.tolerance, info.relative_tolerance));
+      fmt::format("beyond {:g} + {:g} of the size, as it declares", info.gap.tolerance, info.gap.relative_tolerance));
   list += accuracy_facts(ledger.properties.front().total_accuracy());
   list += detailed_fact("Misdeeds", grouped(total.misdeeds), "crashes, hangs, answers that are none");
   list += detailed_fact("Time a query", fmt::format("{:.0f} ns", total.nanoseconds_per_query()),

@@ -43,4 +43,10 @@ using CcdKernel = CcdResult (*)(const MotionQuery& query);
 /// Largest side of the box of all points at both ends, rounded: a length that describes the query.
 [[nodiscard]] double extent(const MotionQuery& query);
 
+/// How far from a touch a kernel that is not ours calls a collision, as it says itself.
+struct DeclaredGap {
+  double tolerance = 0, relative_tolerance = 0;
+  [[nodiscard]] double of(const MotionQuery& query) const { return tolerance + relative_tolerance * extent(query); }
+};
+
 }  // namespace selvage::fuzz

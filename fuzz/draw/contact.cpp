@@ -71,6 +71,16 @@ ContactWeights choose_weights(ChoiceSource& source, PairKind kind, ContactPlace 
   return weights;
 }
 
+AnyContact choose_contact(ChoiceSource& source, PairKind kind, std::uint32_t radius) {
+  AnyContact contact;
+  contact.weights = choose_weights(source, kind, choose_any_place(source));
+  contact.time = choose_time(source, choose_any_time(source));
+  contact.x = choose_placement(source, radius);
+  contact.x.gap.setZero();
+  contact.v = choose_placement(source, radius);
+  return contact;
+}
+
 LatticePoints place(PairKind kind, const ContactWeights& weights, const Placement& placement) {
   const auto& [origin, span, gap] = placement;
   const LatticePoint along_first = origin + weights.side[0] * span[0];
@@ -95,6 +105,10 @@ LatticeMotion motion_through(const LatticePoints& x, const LatticePoints& v, con
     motion.x_t1[i] = x[i] + (time.denominator - time.numerator) * v[i];
   }
   return motion;
+}
+
+LatticeMotion motion_of(PairKind kind, const AnyContact& contact) {
+  return motion_through(place(kind, contact.weights, contact.x), place(kind, contact.weights, contact.v), contact.time);
 }
 
 void translate(LatticeMotion& motion, const LatticePoint& offset) {

@@ -55,10 +55,20 @@ struct RationalTime {
 [[nodiscard]] ContactWeights choose_weights(ChoiceSource& source, PairKind kind, ContactPlace place);
 [[nodiscard]] ContactPlace choose_any_place(ChoiceSource& source);
 
+/// Any contact, and the velocities about it.
+struct AnyContact {
+  ContactWeights weights;
+  RationalTime time;
+  Placement x, v;
+};
+/// All places and times; spans and velocities up to +-radius.
+[[nodiscard]] AnyContact choose_contact(ChoiceSource& source, PairKind kind, std::uint32_t radius);
+
 /// The four points (three for self) of a placement.
 [[nodiscard]] LatticePoints place(PairKind kind, const ContactWeights& weights, const Placement& placement);
 /// The motion that passes through `x` at `time` with the velocity `v * time.denominator` a step.
 [[nodiscard]] LatticeMotion motion_through(const LatticePoints& x, const LatticePoints& v, const RationalTime& time);
+[[nodiscard]] LatticeMotion motion_of(PairKind kind, const AnyContact& contact);
 void translate(LatticeMotion& motion, const LatticePoint& offset);
 
 /// The same motion in doubles, in units of 2^exponent. Exact: REQUIRES |coordinate| <= 2^53 and no overflow.

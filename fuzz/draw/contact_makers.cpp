@@ -21,27 +21,6 @@ LatticePoint choose_offset(ChoiceSource& source) {
   return offset;
 }
 
-/// Any contact: all places and times, both grids.
-struct AnyContact {
-  ContactWeights weights;
-  RationalTime time;
-  Placement x, v;
-};
-
-AnyContact choose_contact(ChoiceSource& source, PairKind kind, std::uint32_t radius) {
-  AnyContact contact;
-  contact.weights = choose_weights(source, kind, choose_any_place(source));
-  contact.time = choose_time(source, choose_any_time(source));
-  contact.x = choose_placement(source, radius);
-  contact.x.gap.setZero();
-  contact.v = choose_placement(source, radius);
-  return contact;
-}
-
-LatticeMotion motion_of(PairKind kind, const AnyContact& contact) {
-  return motion_through(place(kind, contact.weights, contact.x), place(kind, contact.weights, contact.v), contact.time);
-}
-
 Grid choose_grid(ChoiceSource& source) { return source.coin() ? Grid::kUniform : Grid::kLattice; }
 
 }  // namespace
@@ -143,35 +122,6 @@ MotionQuery sliver(ChoiceSource& source, PairKind kind) {
   if (source.coin()) contact.x.span[1] += choose_point(source, 1);
   if (source.one_in(4)) contact.x.gap = choose_point(source, 1);
   return to_query(kind, motion_of(kind, contact));
-}
-
-MotionQuery end_at_tolerance(ChoiceSource& source, PairKind kind) {
-  struct Plane {
-    LatticePoint u, v, normal;
-    std::int64_t length;  // of the normal: an integer, so distances along it are exact
-  };
-  const std::array<Plane, 4> planes{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1},
-                                     {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 1},
-                                     {{4, 0, -3}, {0, 1, 0}, {3, 0, 4}, 5},
-                                     {{2, -1, 0}, {0, 1, -1}, {1, 2, 2}, 3}}};
-  const Plane& plane = planes[source.n(planes.size())];
-  // Both features stay parallel to the plane, and their contact points end above each other: the distance at the end
-  // is the one of two parallel planes.
-  AnyContact contact = choose_contact(source, kind, kSmall);
-  contact.time = {1, 1};
-  for (auto* placement : {&contact.x, &contact.v}) {
-    for (auto& vector : placement->span) vector = choose_in_plane(source, {plane.u, plane.v}, 2);
-  }
-  const std::int64_t height = 1 + source.n(1U << 20);
-  contact.x.gap = height * plane.normal;
-  contact.v.gap = -static_cast<std::int64_t>(source.n(8)) * plane.normal;  // from farther away, or no approach
-  LatticeMotion motion = motion_of(kind, contact);
-  if (source.coin()) translate(motion, choose_point(source, 1U << 20));
-  const int exponent = -source.range(0, 60);
-  MotionQuery query = to_query(kind, motion, exponent);
-  const double distance = std::ldexp(static_cast<double>(height * plane.length), exponent);
-  query.options.tolerance = source.coin() ? std::nextafter(distance, 0.0) : distance;
-  return query;
 }
 
 }  // namespace selvage::fuzz::make

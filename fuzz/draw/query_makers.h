@@ -27,8 +27,13 @@ MotionQuery needle(ChoiceSource& source, PairKind kind);
 /// Nearly parallel sides: a triangle that is almost a segment, edges that are almost parallel, or exactly so. One in
 /// eight is near-coplanar instead.
 MotionQuery sliver(ChoiceSource& source, PairKind kind);
+
+// parallel_makers.cpp: distances that are known, of features in two parallel planes
 /// Never touches, and ends at a distance that is the tolerance exactly, or one ulp above it.
 MotionQuery end_at_tolerance(ChoiceSource& source, PairKind kind);
+/// Never touches. Comes about as near as the gap: from half of it to twice it, or by a power of two farther, up to
+/// 2^8; at the end, at the start, or in between as it slides past. REQUIRES vf or ee, both tolerances finite.
+MotionQuery beside_gap(ChoiceSource& source, PairKind kind, const DeclaredGap& gap);
 
 // lattice_makers.cpp: ties and degeneracies by chance, on small integers
 /// Moves one to three coordinates by up to so many ulps.

@@ -11,6 +11,9 @@
 namespace selvage::fuzz {
 namespace {
 
+/// Of a file: more would be memory that a wrong digit asks for.
+constexpr std::uint32_t kMostInBatch = 1U << 20;
+
 std::string_view point_names(PairKind kind) {
   switch (kind) {
     case PairKind::kVf:
@@ -66,14 +69,21 @@ PairKind parse_kind(CaseLines& lines, std::string_view word) {
   return *kind;
 }
 
+BatchSize parse_batch(const CaseLines& lines, std::string_view how) {
+  constexpr std::string_view kBatch = "batch";
+  if (how == "alone") return std::nullopt;
+  if (how == kBatch) return kUsualBatch;
+  if (!how.starts_with("batch=")) {
+    lines.fail("plugin: 'alone', 'batch' or 'batch=NUMBER' is wanted, not '" + std::string(how) + "'");
+  }
+  return static_cast<std::uint32_t>(lines.integer(how.substr(kBatch.size() + 1), 0, kMostInBatch, "batch"));
+}
+
 PluginRecord parse_plugin(CaseLines& lines, PairKind kind) {
   if (kind == PairKind::kSelf) lines.fail("plugin: none is asked about self");
   PluginRecord plugin;
   plugin.failure = lines.word();
-  const std::string_view how = lines.word();
-  if (how != "alone" && how != "batch")
-    lines.fail("plugin: 'alone' or 'batch' is wanted, not '" + std::string(how) + "'");
-  plugin.in_batch = how == "batch";
+  plugin.batch = parse_batch(lines, lines.word());
   plugin.library = lines.unescaped(lines.rest_of_line());
   if (plugin.library.empty()) lines.fail("plugin: its file is missing");
   return plugin;
@@ -107,8 +117,8 @@ std::string format_case(const Case& kept) {
   text += "\n";
   if (kept.plugin) {
     const PluginRecord& plugin = *kept.plugin;
-    text += "plugin " + (plugin.failure.empty() ? "none" : plugin.failure) + (plugin.in_batch ? " batch " : " alone ") +
-            escaped(plugin.library) + "\n";
+    text += "plugin " + (plugin.failure.empty() ? "none" : plugin.failure) + " " +
+            (plugin.batch ? "batch=" + std::to_string(*plugin.batch) : "alone") + " " + escaped(plugin.library) + "\n";
   }
   const std::string_view names = point_names(query.kind);
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -4,7 +4,7 @@
 //   options tolerance=0x1p-20 max_intervals=4096        and, where it is about another promise than K1 to K3,
 //                                                       property=scale, and what that chose: choices=1403
 //   plugin missed alone ./mine.so                       where it is a plugin's: its failure; whether the query was
-//                                                       asked alone or in a batch; the library, as it was named
+//                                                       asked alone or in a batch=21; the library, as it was named
 //   p 0x1.9p+6 -0x1.2p+3 0x0p+0  0x1.8p+6 0x0p+0 0x1p-4 a point at t = 0, then at t = 1; vf: p a b c, ee: a b c d,
 //   ...                                                 self: p a b
 //   expect touches                                      the exact answer: touches, or apart
@@ -22,11 +22,16 @@
 
 namespace selvage::fuzz {
 
+/// The queries of the batch that one is asked in as well; absent: alone.
+using BatchSize = std::optional<std::uint32_t>;
+/// Of a case that does not say it: two vectors of 8 or one of 16 and a tail of 5, five of 4 and a tail of 1.
+inline constexpr std::uint32_t kUsualBatch = 21;
+
 /// A plugin that failed.
 struct PluginRecord {
   std::string library;  ///< as it was named
   std::string failure;  ///< in a word; or "none"
-  bool in_batch = false;
+  BatchSize batch;
 };
 
 struct Case {

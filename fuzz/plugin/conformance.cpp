@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fuzz/campaign/query_streams.h"
+#include "fuzz/draw/query_makers.h"
 #include "fuzz/kept/case_file.h"
 #include "fuzz/plugin/plugin_trial.h"
 #include "fuzz/shrink/shrink_query.h"
@@ -13,17 +14,26 @@ namespace {
 
 constexpr std::array<PairKind, 2> kKinds{PairKind::kVf, PairKind::kEe};
 
-/// Cases that are asked in a batch too. run() draws it after the query; kept() draws it again there, so that the file
-/// says how the case was asked.
+/// Cases that are asked in a batch too.
 constexpr std::uint32_t kInBatchOneIn = 16;
+
+/// Besides the classes of queries, those that only this plugin makes hard.
+const std::array<Stream, 2> kBesideGap{Stream{"beside-gap vf", 'A', 40}, Stream{"beside-gap ee", 'A', 40}};
+
+struct PluginCase {
+  MotionQuery query;
+  BatchSize batch;
+};
 
 class Conformance final : public Property {
  public:
-  Conformance(std::filesystem::path library, std::uint32_t crc32)
+  Conformance(std::filesystem::path library, std::uint32_t crc32, DeclaredGap gap)
       : Property("conformance", "the plugin misses no contact, is never late, and no alarm is beyond its declared gap"),
         library_(std::move(library)),
-        crc32_(crc32) {
+        crc32_(crc32),
+        gap_(gap) {
     streams_ = query_streams(kKinds, 1);
+    streams_.insert(streams_.begin(), kBesideGap.begin(), kBesideGap.end());
     counters_ = {"touches", "alarms", "missed", "late", "too far", "nanoseconds"};
   }
 
@@ -38,8 +48,8 @@ class Conformance final : public Property {
 
   Outcome run(const Stream& stream, ChoiceSource source) override {
     if (!has_loaded_cleanly_) return load_failure();
-    const MotionQuery query = draw_query(stream, source);
-    const PluginJudgement verdict = judge_steadily(*plugin_, query, source.one_in(kInBatchOneIn));
+    const auto [query, batch] = draw(stream, source);
+    const PluginJudgement verdict = judge_steadily(*plugin_, query, batch);
     Outcome outcome{{1, verdict.failure.empty() ? 0 : 1, {}, 0}, verdict.failure};
     auto& of = outcome.counts.of;
     of[ConformanceRow::kTouches] = verdict.touches;
@@ -58,24 +68,41 @@ class Conformance final : public Property {
 
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
                    bool shrunk) override {
-    MotionQuery query = draw_query(stream, source);
-    query.options = CcdOptions{.tolerance = 0};  // the plugin has its own
-    const bool in_batch = source.one_in(kInBatchOneIn);
-    if (shrunk && failure != kUnsteady) {
-      query = shrink(query, [&](const MotionQuery& simpler) {
-                beat_();
-                return judge_plugin(*plugin_, simpler, in_batch).failure == failure;
-              }).query;
-    }
+    PluginCase drawn = draw(stream, source);
+    drawn.query.options = CcdOptions{.tolerance = 0};  // the plugin has its own
+    const auto [query, batch] = shrunk && failure != kUnsteady ? simplest(drawn, failure) : drawn;
     const bool touches = exact_motion(query, verify::Detail::kDecision).touches;
     const std::string text =
-        format_case({query, origin, touches, Case().property, {}, PluginRecord{library_.string(), failure, in_batch}});
+        format_case({query, origin, touches, Case().property, {}, PluginRecord{library_.string(), failure, batch}});
     if (!shrunk) return text;
-    return text + "# answered: " + words_of(judge_plugin(*plugin_, query, in_batch).answer, plugin_->info().has_toi) +
+    return text + "# answered: " + words_of(judge_plugin(*plugin_, query, batch).answer, plugin_->info().has_toi) +
            "\n";
   }
 
  private:
+  [[nodiscard]] PluginCase draw(const Stream& stream, ChoiceSource& source) const {
+    PluginCase drawn;
+    const auto* beside = std::ranges::find(kBesideGap, stream.name, &Stream::name);
+    drawn.query = beside == kBesideGap.end()
+                      ? draw_query(stream, source)
+                      : make::beside_gap(source, kKinds[static_cast<std::size_t>(beside - kBesideGap.begin())], gap_);
+    if (source.one_in(kInBatchOneIn)) drawn.batch = draw_batch_size(source);
+    return drawn;
+  }
+  /// That fails alike: first in the smallest batch, or alone, then with the simplest query.
+  [[nodiscard]] PluginCase simplest(PluginCase one, const std::string& failure) const {
+    const auto fails = [&](const MotionQuery& query, BatchSize batch) {
+      beat_();
+      return judge_plugin(*plugin_, query, batch).failure == failure;
+    };
+    if (one.batch && fails(one.query, std::nullopt)) one.batch.reset();
+    if (one.batch) {
+      one.batch = *std::ranges::find_if(
+          batch_sizes(), [&](std::uint32_t size) { return size == *one.batch || fails(one.query, size); });
+    }
+    one.query = shrink(one.query, [&](const MotionQuery& simpler) { return fails(simpler, one.batch); }).query;
+    return one;
+  }
   /// Of the first case of a process: it says what loading did.
   Outcome load_failure() {
     has_loaded_cleanly_ = true;
@@ -84,14 +111,16 @@ class Conformance final : public Property {
 
   std::filesystem::path library_;
   std::uint32_t crc32_;
+  DeclaredGap gap_;
   std::optional<Plugin> plugin_;
   bool has_loaded_cleanly_ = true;
 };
 
 }  // namespace
 
-std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32) {
-  return std::make_unique<Conformance>(library, crc32);
+std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32,
+                                           const DeclaredGap& gap) {
+  return std::make_unique<Conformance>(library, crc32, gap);
 }
 
 }  // namespace selvage::fuzz

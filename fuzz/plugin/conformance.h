@@ -12,10 +12,12 @@
 
 namespace selvage::fuzz {
 
-/// Streams for all classes, vf and ee. Failures: missed, late-time, alarm-too-far, unsteady, and
+/// Streams for all classes, vf and ee, and for queries that come about as near as the gap that the plugin declares.
+/// Failures: missed, late-time, alarm-too-far, unsteady, and
 /// the misdeeds of Plugin::Answer.
 /// A process that finds another CRC-32 than `crc32` of the library does not start.
-[[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32);
+[[nodiscard]] std::unique_ptr<Property> make_conformance(const std::filesystem::path& library, std::uint32_t crc32,
+                                                         const DeclaredGap& gap);
 
 /// What the property above counts in a stream.
 struct ConformanceRow {

@@ -37,8 +37,8 @@ double ConformanceRow::nanoseconds_per_query() const {
 std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const std::string& folder) {
   const PropertyLedger& done = ledger.properties.front();
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), "%s, alarms within %.3g + %.3g of the size%s\n", info.name, info.tolerance,
-                info.relative_tolerance, info.has_toi ? "" : ", no times of impact");
+  std::snprintf(text.data(), text.size(), "%s, alarms within %.3g + %.3g of the size%s\n", info.name,
+                info.gap.tolerance, info.gap.relative_tolerance, info.has_toi ? "" : ", no times of impact");
   std::string report = text.data();
   std::snprintf(text.data(), text.size(), "  %-38s %10s %9s %9s %8s %8s %8s %10s\n", "class", "queries", "touches",
                 "alarms", "missed", "late", "too far", "ns a query");
@@ -89,9 +89,12 @@ std::string conformance_json(const Ledger& ledger, const PluginInfo& info) {
   const PropertyLedger& done = ledger.properties.front();
   nlohmann::ordered_json json;
   json["schema"] = "selvage.conformance/1";
-  json["plugin"] = {{"name", info.name},           {"crc32", ledger.plugin_crc32.value()},
-                    {"tolerance", info.tolerance}, {"relative_tolerance", info.relative_tolerance},
-                    {"has_toi", info.has_toi},     {"has_batch", info.has_batch}};
+  json["plugin"] = {{"name", info.name},
+                    {"crc32", ledger.plugin_crc32.value()},
+                    {"tolerance", info.gap.tolerance},
+                    {"relative_tolerance", info.gap.relative_tolerance},
+                    {"has_toi", info.has_toi},
+                    {"has_batch", info.has_batch}};
   json["seed"] = ledger.seed;
   for (std::size_t i = 0; i < done.rows.size(); ++i) {
     const ConformanceRow row(done.rows[i]);

@@ -1,5 +1,6 @@
 #include "fuzz/plugin/plugin.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -7,10 +8,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <system_error>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -66,31 +69,29 @@ class ForkWatch {
 };
 
 /// Memory with a pattern on both sides, which nobody has a reason to change.
-template <class T, std::size_t N>
+template <class T>
 class Fenced {
  public:
-  Fenced() {
-    std::memset(before_, kPattern, sizeof before_);
-    std::memset(after_, kPattern, sizeof after_);
+  explicit Fenced(std::size_t count) : all_(count + 2 * kFence) {
+    std::memset(all_.data(), kPattern, kFenceBytes);
+    std::memset(data() + count, kPattern, kFenceBytes);
   }
   [[nodiscard]] bool is_whole() const {
-    const auto untouched = [](const unsigned char* bytes) {
-      for (std::size_t i = 0; i < kFence; ++i) {
-        if (bytes[i] != kPattern) return false;
-      }
-      return true;
+    const auto untouched = [](const T* fence) {
+      std::array<unsigned char, kFenceBytes> bytes;
+      std::memcpy(bytes.data(), fence, kFenceBytes);
+      return std::ranges::all_of(bytes, [](unsigned char byte) { return byte == kPattern; });
     };
-    return untouched(before_) && untouched(after_);
+    return untouched(all_.data()) && untouched(all_.data() + all_.size() - kFence);
   }
-  T* data() { return values_; }
-  T& operator[](std::size_t i) { return values_[i]; }
+  T* data() { return all_.data() + kFence; }
+  T& operator[](std::size_t i) { return data()[i]; }
 
  private:
-  static constexpr std::size_t kFence = 256;
+  static constexpr std::size_t kFence = (256 + sizeof(T) - 1) / sizeof(T);
+  static constexpr std::size_t kFenceBytes = kFence * sizeof(T);
   static constexpr unsigned char kPattern = 0xa5;
-  alignas(64) unsigned char before_[kFence];
-  T values_[N] = {};
-  unsigned char after_[kFence];
+  std::vector<T> all_;
 };
 
 selvage_query plain(const MotionQuery& query) {
@@ -114,8 +115,7 @@ bool is_same(const selvage_answer& a, const selvage_answer& b, bool has_toi) {
 }
 
 /// What a query is put into a batch with: queries with other answers, made of nothing but the query, so that a case
-/// replays and shrinks. Five, because that shares no factor with the lanes of any vector unit: a kernel that answers
-/// one vector with another one's answers, or a lane with its neighbour's, meets different queries there.
+/// replays and shrinks.
 using Company = std::array<selvage_query, 5>;
 
 Company company_of(const selvage_query& query) {
@@ -132,8 +132,12 @@ Company company_of(const selvage_query& query) {
   return company;
 }
 
-/// Two vectors of 8 or one of 16 and a tail of 5, five of 4 and a tail of 1; the last slot holds the query itself.
-constexpr std::size_t kBatch = 21;
+/// Which of the company has place i in a batch. Without a period: a kernel that answers one vector with another one's
+/// answers, or a lane with its neighbour's, meets different queries there.
+std::size_t company_at(std::size_t i) { return i == 0 ? 0 : mix(i, 0) % std::tuple_size_v<Company>; }
+
+/// 0 to 40: a query more than two vectors of 16 and one of 8, and so all tails there are.
+constexpr std::uint32_t kSmallBatches = 41;
 
 /// What nobody answers with: to be overwritten.
 constexpr selvage_answer kUnanswered{0x5a5a5a5a, -1};
@@ -174,29 +178,46 @@ Plugin::Plugin(const std::filesystem::path& library) {
     refuse(library, "declares no answer function, no name, or a tolerance that is none");
   }
   io::printable(plugin_->name, sizeof info_.name - 1).copy(info_.name, sizeof info_.name - 1);
-  info_.tolerance = plugin_->tolerance;
-  info_.relative_tolerance = plugin_->relative_tolerance;
+  info_.gap = {plugin_->tolerance, plugin_->relative_tolerance};
   info_.has_toi = plugin_->has_toi != 0;
   info_.has_batch = plugin_->answer_batch != nullptr;
 }
 
-Plugin::Answer Plugin::ask(const MotionQuery& query, bool in_batch) const {
+const std::vector<std::uint32_t>& batch_sizes() {
+  static const std::vector<std::uint32_t> sizes = [] {
+    std::vector<std::uint32_t> all(kSmallBatches);
+    std::iota(all.begin(), all.end(), 0);
+    for (std::uint32_t block = 64; block <= 1024; block *= 2) all.insert(all.end(), {block - 1, block, block + 1});
+    return all;
+  }();
+  return sizes;
+}
+
+std::uint32_t draw_batch_size(ChoiceSource& source) {
+  const std::vector<std::uint32_t>& sizes = batch_sizes();
+  const auto all = static_cast<std::uint32_t>(sizes.size());
+  return source.one_in(8) ? sizes[kSmallBatches + source.n(all - kSmallBatches)] : sizes[source.n(kSmallBatches)];
+}
+
+Plugin::Answer Plugin::ask(const MotionQuery& query, BatchSize batch) const {
   const FpEnvGuard guard;  // asked in a clean environment, whatever it left behind the last time
   const std::int32_t kind = query.kind == PairKind::kVf ? SELVAGE_VF : SELVAGE_EE;
   const selvage_query original = plain(query);
   Answer result = ask_alone(kind, original);
-  if (in_batch && info_.has_batch && result.misdeed.empty()) result.misdeed = ask_batch(kind, original, result.answer);
+  if (batch && info_.has_batch && result.misdeed.empty()) {
+    result.misdeed = ask_batch(kind, original, result.answer, *batch);
+  }
   return result;
 }
 
-bool Plugin::stands_by(const MotionQuery& query, const Answer& before, bool in_batch) const {
-  const Answer now = ask(query, in_batch);
-  return now.misdeed == (in_batch ? before.misdeed : "") && is_same(before.answer, now.answer, info_.has_toi);
+bool Plugin::stands_by(const MotionQuery& query, const Answer& before, BatchSize batch) const {
+  const Answer now = ask(query, batch);
+  return now.misdeed == (batch ? before.misdeed : "") && is_same(before.answer, now.answer, info_.has_toi);
 }
 
 Plugin::Answer Plugin::ask_alone(std::int32_t kind, const selvage_query& query) const {
-  Fenced<selvage_query, 1> asked;
-  Fenced<selvage_answer, 1> given;
+  Fenced<selvage_query> asked(1);
+  Fenced<selvage_answer> given(1);
   asked[0] = query;
   given[0] = kUnanswered;
   Answer result;
@@ -213,7 +234,8 @@ Plugin::Answer Plugin::ask_alone(std::int32_t kind, const selvage_query& query) 
   return result;
 }
 
-std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, const selvage_answer& answer) const {
+std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, const selvage_answer& answer,
+                              std::uint32_t count) const {
   const Company company = company_of(query);
   std::array<selvage_answer, std::tuple_size_v<Company>> alone{answer};
   for (std::size_t i = 1; i < company.size(); ++i) {
@@ -221,17 +243,17 @@ std::string Plugin::ask_batch(std::int32_t kind, const selvage_query& query, con
     if (!one.misdeed.empty()) return one.misdeed;
     alone[i] = one.answer;
   }
-  Fenced<selvage_query, kBatch> queries;
-  Fenced<selvage_answer, kBatch> answers;
-  for (std::size_t i = 0; i < kBatch; ++i) queries[i] = company[i % company.size()], answers[i] = kUnanswered;
+  Fenced<selvage_query> queries(count);
+  Fenced<selvage_answer> answers(count);
+  for (std::size_t i = 0; i < count; ++i) queries[i] = company[company_at(i)], answers[i] = kUnanswered;
   const ForkWatch forks;
-  plugin_->answer_batch(kind, kBatch, queries.data(), answers.data());
+  plugin_->answer_batch(kind, count, queries.data(), answers.data());
   if (std::string misdeed = forks.misdeed(); !misdeed.empty()) return misdeed;
   if (std::string misdeed = fp_misdeed(); !misdeed.empty()) return misdeed;
   if (!(queries.is_whole() && answers.is_whole())) return "wrote-out-of-bounds";
-  for (std::size_t i = 0; i < kBatch; ++i) {
-    if (!is_same(queries[i], company[i % company.size()])) return "changed-the-query";
-    if (is_same(answers[i], alone[i % company.size()], info_.has_toi)) continue;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_same(queries[i], company[company_at(i)])) return "changed-the-query";
+    if (is_same(answers[i], alone[company_at(i)], info_.has_toi)) continue;
     constexpr std::size_t kAskedAgain = 8;  // half right by chance, it says the same in all of these once in 256
     for (std::size_t k = 0; k < kAskedAgain * company.size(); ++k) {
       const std::size_t which = k % company.size();

@@ -3,9 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "fuzz/base/choice_source.h"
 #include "fuzz/base/motion_query.h"
+#include "fuzz/kept/case_file.h"
 #include "fuzz/selvage-plugin.h"
 
 namespace selvage::fuzz {
@@ -13,7 +17,7 @@ namespace selvage::fuzz {
 /// What a plugin says about itself.
 struct PluginInfo {
   char name[64] = {};  ///< UTF-8 that a terminal shows, cut behind a whole character
-  double tolerance = 0, relative_tolerance = 0;
+  DeclaredGap gap;
   bool has_toi = false, has_batch = false;
 };
 
@@ -30,6 +34,12 @@ inline constexpr const char* kBatchDiffers = "batch-differs";
 /// An answer that depends on what was asked before, or on chance.
 inline constexpr const char* kUnsteady = "unsteady";
 
+/// From 0 up: all whole vectors and tails of up to 16 lanes, then the powers of two up to 2^10, with one less and one
+/// more, where kernels that work in blocks end one.
+[[nodiscard]] const std::vector<std::uint32_t>& batch_sizes();
+/// One of the former in seven of eight draws.
+[[nodiscard]] std::uint32_t draw_batch_size(ChoiceSource& source);
+
 class Plugin {
  public:
   /// Throws io::Error(kBadInput).
@@ -43,18 +53,19 @@ class Plugin {
     selvage_answer answer{};
     std::int64_t nanoseconds = 0;
   };
-  /// REQUIRES vf or ee. Where `in_batch`, asks it in one batch with queries made of it as well, each first alone.
-  [[nodiscard]] Answer ask(const MotionQuery& query, bool in_batch) const;
+  /// REQUIRES vf or ee. Where there is a batch, asks it with queries made of it in one of that size as well, each first
+  /// alone.
+  [[nodiscard]] Answer ask(const MotionQuery& query, BatchSize batch) const;
   /// Whether it says the same again, bit for bit, with the same misdeed in a batch and none alone.
-  [[nodiscard]] bool stands_by(const MotionQuery& query, const Answer& before, bool in_batch) const;
+  [[nodiscard]] bool stands_by(const MotionQuery& query, const Answer& before, BatchSize batch) const;
   /// What loading did besides: a misdeed, or nothing.
   [[nodiscard]] const std::string& load_misdeed() const { return load_misdeed_; }
 
  private:
   [[nodiscard]] Answer ask_alone(std::int32_t kind, const selvage_query& query) const;
   /// A misdeed, or nothing. `answer` is what it gave to the query alone.
-  [[nodiscard]] std::string ask_batch(std::int32_t kind, const selvage_query& query,
-                                      const selvage_answer& answer) const;
+  [[nodiscard]] std::string ask_batch(std::int32_t kind, const selvage_query& query, const selvage_answer& answer,
+                                      std::uint32_t count) const;
 
   const selvage_plugin* plugin_ = nullptr;  // stays loaded until the process ends
   PluginInfo info_;

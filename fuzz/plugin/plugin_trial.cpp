@@ -10,9 +10,9 @@
 
 namespace selvage::fuzz {
 
-PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch) {
+PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, BatchSize batch) {
   PluginJudgement judgement;
-  judgement.answer = plugin.ask(query, in_batch);
+  judgement.answer = plugin.ask(query, batch);
   judgement.failure = judgement.answer.misdeed;
   if (!judgement.failure.empty()) return judgement;
   const selvage_answer& answer = judgement.answer.answer;
@@ -23,7 +23,7 @@ PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, boo
   if (exact.touches && !judgement.alarm) judgement.failure = "missed";
   if (exact.touches && has_time && answer.toi > 0 && exact.order < 0) judgement.failure = "late-time";
   if (!exact.touches && judgement.alarm) {
-    const double gap = plugin.info().tolerance + plugin.info().relative_tolerance * extent(query);
+    const double gap = plugin.info().gap.of(query);
     const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
     if (closest_approach(query, gap, hints, kEnoughTests) == Approach::kBeyond) judgement.failure = "alarm-too-far";
   }
@@ -37,26 +37,26 @@ constexpr int kAskedAgain = 32;
 
 /// Asked again, every other time after the points at rest, the first of them elsewhere; a batch that differed as a
 /// batch now and then.
-bool is_steady(const Plugin& plugin, const MotionQuery& query, const Plugin::Answer& answer) {
+bool is_steady(const Plugin& plugin, const MotionQuery& query, BatchSize batch, const Plugin::Answer& answer) {
   constexpr int kAsBatchOneIn = 8;
   MotionQuery other = query;
   other.x_t0[0].x() = query.x_t0[0].x() == 0 ? 1 : 0;
   other.x_t1 = other.x_t0;
   for (int again = 1; again <= kAskedAgain; ++again) {
-    if (again % 2 == 0) static_cast<void>(plugin.ask(other, false));
+    if (again % 2 == 0) static_cast<void>(plugin.ask(other, std::nullopt));
     const bool in_batch = !answer.misdeed.empty() && again % kAsBatchOneIn == 0;
-    if (!plugin.stands_by(query, answer, in_batch)) return false;
+    if (!plugin.stands_by(query, answer, in_batch ? batch : std::nullopt)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, bool in_batch) {
-  PluginJudgement judgement = judge_plugin(plugin, query, in_batch);
+PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, BatchSize batch) {
+  PluginJudgement judgement = judge_plugin(plugin, query, batch);
   const std::string& misdeed = judgement.answer.misdeed;
   if (judgement.failure.empty() || !(misdeed.empty() || misdeed == kBatchDiffers)) return judgement;
-  if (!is_steady(plugin, query, judgement.answer)) judgement.failure = kUnsteady;
+  if (!is_steady(plugin, query, batch, judgement.answer)) judgement.failure = kUnsteady;
   return judgement;
 }
 
@@ -68,7 +68,7 @@ std::string words_of(const Plugin::Answer& answer, bool has_toi) {
 
 std::string failure_at_load(const std::string& misdeed) { return misdeed + "-at-load"; }
 
-PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& query, bool in_batch,
+PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& query, BatchSize batch,
                        double case_seconds) {
   struct Plain {
     char failure[kFailureWord] = {};
@@ -80,7 +80,7 @@ PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& 
   std::optional<Plugin> plugin;
   const auto ask = [&] {
     Plain plain;
-    const PluginJudgement judgement = judge_plugin(*plugin, query, in_batch);
+    const PluginJudgement judgement = judge_plugin(*plugin, query, batch);
     const std::string& misdeed = plugin->load_misdeed();
     (misdeed.empty() ? judgement.failure : failure_at_load(misdeed)).copy(plain.failure, kFailureWord - 1);
     plain.has_answer = judgement.answer.misdeed.empty();

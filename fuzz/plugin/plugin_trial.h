@@ -13,10 +13,10 @@ struct PluginJudgement {
   bool touches = false, alarm = false;
   Plugin::Answer answer;
 };
-[[nodiscard]] PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, bool in_batch);
+[[nodiscard]] PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, BatchSize batch);
 /// Asked again where its answer fails, 32 times, every other time after another query: an answer that is another then
 /// depends on what was asked before, or on chance, and no case can keep that.
-[[nodiscard]] PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, bool in_batch);
+[[nodiscard]] PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, BatchSize batch);
 
 /// "separated", "collides", "collides at t = 0x1p-1"; or the misdeed.
 [[nodiscard]] std::string words_of(const Plugin::Answer& answer, bool has_toi);
@@ -31,7 +31,7 @@ struct PluginTrial {
   selvage_answer answer{};
 };
 /// Loads it and asks it once, in a process of its own. Throws io::Error(kBadInput), as probe_plugin() does.
-[[nodiscard]] PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& query, bool in_batch,
+[[nodiscard]] PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& query, BatchSize batch,
                                      double case_seconds);
 
 }  // namespace selvage::fuzz

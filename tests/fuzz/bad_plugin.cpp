@@ -128,6 +128,11 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
 }
 
 void answer_batch(int32_t kind, size_t count, const selvage_query* queries, selvage_answer* answers) {
+#if defined(WRITES_WHOLE_VECTORS)
+  if (count % 4 == 3) answers[count].verdict = SELVAGE_SEPARATED;
+#elif defined(ANSWERS_AT_LEAST_ONE)
+  if (count == 0) answers[0].verdict = SELVAGE_SEPARATED;
+#endif
   for (size_t i = 0; i < count; ++i) {
 #if defined(ANSWERS_ALL_LIKE_THE_FIRST)
     answer(kind, queries, answers + i);
@@ -138,6 +143,8 @@ void answer_batch(int32_t kind, size_t count, const selvage_query* queries, selv
     if (i >= 3) answers[i].verdict = SELVAGE_SEPARATED;
 #elif defined(FORGETS_THE_LAST)
     if (i + 1 == count) answers[i].verdict = SELVAGE_SEPARATED;
+#elif defined(HAS_ROOM_FOR_A_HUNDRED)
+    if (i >= 100) answers[i] = answers[i - 100];
 #elif defined(REPEATS_A_VECTOR)
     if (i >= 4) answers[i] = answers[i - 4];
 #endif

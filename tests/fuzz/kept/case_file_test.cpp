@@ -71,15 +71,20 @@ TEST(CaseFile, KeepsWhichPluginFailed) {
   Case kept = parse_case(kGood, "x.case");
   EXPECT_FALSE(kept.plugin);
   const std::string hostile = " my # kernel\n\\\xc3\xa9.so ";
-  kept.plugin = PluginRecord{hostile, "missed", true};
+  kept.plugin = PluginRecord{hostile, "missed", 130};
   const std::string text = format_case(kept);
   const Case again = parse_case(text, "again");
   ASSERT_TRUE(again.plugin);
   EXPECT_EQ(again.plugin->library, hostile);
   EXPECT_EQ(again.plugin->failure, "missed");
-  EXPECT_TRUE(again.plugin->in_batch);
+  EXPECT_EQ(again.plugin->batch, 130);
+  EXPECT_EQ(parse_case(testing::replaced(text, "batch=130", "batch"), "again").plugin->batch, kUsualBatch);
+  EXPECT_EQ(parse_case(testing::replaced(text, "batch=130", "alone"), "again").plugin->batch, std::nullopt);
   expect_bad_case(testing::replaced(text, "missed batch", "missed often"),
-                  "x.case:4: plugin: 'alone' or 'batch' is wanted");
+                  "x.case:4: plugin: 'alone', 'batch' or 'batch=NUMBER' is wanted, not 'often=130'");
+  expect_bad_case(testing::replaced(text, "batch=130", "batch="), "x.case:4: batch: '' is not an integer");
+  expect_bad_case(testing::replaced(text, "batch=130", "batch=1048577"),
+                  "x.case:4: batch: '1048577' is not an integer");
   expect_bad_case(testing::replaced(kGood, "p 0x1.9", "plugin missed alone\np 0x1.9"),
                   "x.case:5: plugin: its file is missing");
 }

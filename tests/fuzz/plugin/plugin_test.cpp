@@ -20,15 +20,20 @@ using testing::run_program;
 using testing::slurp;
 using testing::TemporaryFolder;
 
+std::string bad_plugin(const std::string& misdeed) {
+  return std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + misdeed + ".so";
+}
+
 /// The kinds of failure that a campaign with one work unit finds.
 std::set<std::string> failures_of(const std::string& plugin) {
   const TemporaryFolder folder;
-  Properties properties;
-  properties.push_back(make_conformance(plugin, crc32_of_plugin(plugin)));
   DriverOptions options;
   options.folder = folder.path();
   options.cases = 1;
   options.case_seconds = 0.4;
+  Properties properties;
+  properties.push_back(
+      make_conformance(plugin, crc32_of_plugin(plugin), probe_plugin(plugin, options.case_seconds).gap));
   Driver driver(properties, options);
   EXPECT_TRUE(driver.run([] { return false; }, [](const DriverStatus&) {}));
   std::set<std::string> failures;
@@ -51,6 +56,10 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"forgets_later_lanes", "batch-differs"},
                                                       {"forgets_the_last", "batch-differs"},
                                                       {"repeats_a_vector", "batch-differs"},
+                                                      {"writes_whole_vectors", "wrote-out-of-bounds"},
+                                                      {"answers_at_least_one", "wrote-out-of-bounds"},
+                                                      {"has_room_for_a_hundred", "batch-differs"},
+                                                      {"alarms_a_quarter_too_far", "alarm-too-far"},
                                                       {"writes_to_files", "broke-the-channel"},
                                                       {"invents_failures", "broke-the-channel"},
                                                       {"closes_files", "exited"},
@@ -62,7 +71,7 @@ TEST(Plugin, MisdeedsAreNamed) {
                                                       {"unmasks_fp_errors", "crashed-SIGFPE"},
                                                       {"gives_no_time", "invalid-time"}};
   for (const auto& [plugin, failure] : kBad) {
-    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const std::string library = bad_plugin(plugin);
     EXPECT_EQ(failures_of(library), std::set<std::string>{failure}) << plugin;
   }
 }
@@ -70,6 +79,22 @@ TEST(Plugin, MisdeedsAreNamed) {
 TEST(Plugin, TheSmallestExampleConforms) {
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(failures_of(SELVAGE_BOXES_PLUGIN), std::set<std::string>{});
+}
+
+// What fails in a long batch is kept with the shortest in which it does, and replayed so.
+TEST(Plugin, ABatchIsMadeShorter) {
+  const TemporaryFolder folder;
+  const std::filesystem::path artifacts = folder.path() / "artifacts";
+  const std::string library = bad_plugin("has_room_for_a_hundred");
+  const auto run =
+      run_program(folder, {"fuzz", "--plugin", library, "--cases", "1", "--jobs", "1", "--artifacts", artifacts});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  const auto files = case_files(artifacts);
+  ASSERT_FALSE(files.empty());
+  for (const std::filesystem::path& file : files) EXPECT_EQ(read_case(file).plugin->batch, 127) << file;
+  const auto replayed = run_program(folder, {"replay", "--plugin", library, files[0]});
+  EXPECT_EQ(replayed.exit_code, 1) << replayed.err;
+  EXPECT_NE(replayed.out.find("FAILS: batch-differs\n"), replayed.out.npos) << replayed.out;
 }
 
 /// The first text between `begin` and `end`.
@@ -158,9 +183,8 @@ TEST(Plugin, TheKernelConformsAndItsPageSaysSo) {
 TEST(Plugin, AnAbsurdToleranceShowsInTheReport) {
   const TemporaryFolder folder;
   const std::filesystem::path artifacts = folder.path() / "artifacts";
-  const auto run =
-      run_program(folder, {"fuzz", "--plugin", std::string(SELVAGE_BAD_PLUGINS) + "/plugin_calls_all_collisions.so",
-                           "--cases", "1", "--jobs", "1", "--artifacts", artifacts.string()});
+  const auto run = run_program(folder, {"fuzz", "--plugin", bad_plugin("calls_all_collisions"), "--cases", "1",
+                                        "--jobs", "1", "--artifacts", artifacts.string()});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_NE(run.out.find(" 100 %\n"), run.out.npos) << run.out;
   const auto report = nlohmann::json::parse(slurp(artifacts / "conformance.json"));
@@ -188,7 +212,7 @@ TEST(Plugin, OneCaseIsRunInAProcessOfItsOwn) {
                                                       {"sleeps", "hung"},
                                                       {"gives_no_time", "invalid-time"}};
   for (const auto& [plugin, failure] : kBad) {
-    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const std::string library = bad_plugin(plugin);
     const auto run = run_program(
         folder, {"fuzz", "--plugin", library, "--seed", "7", "--only", "lattice-ulp/vf:3", "--case-time", "0.3"});
     EXPECT_EQ(run.exit_code, 1) << plugin << run.err;
@@ -205,7 +229,7 @@ TEST(Plugin, AnAnswerThatDependsOnEarlierOnesIsUnsteady) {
   std::filesystem::path artifacts;
   nlohmann::json findings;
   for (const char* plugin : {"wavers", "keeps_its_last_answer", "remembers"}) {
-    library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    library = bad_plugin(plugin);
     artifacts = folder.path() / plugin;
     const auto run =
         run_program(folder, {"fuzz", "--plugin", library, "--cases", "1", "--jobs", "1", "--artifacts", artifacts});
@@ -253,7 +277,7 @@ TEST(Plugin, ReplayAsksAPluginAsACampaignDoes) {
                                                       {"gives_no_time", "invalid-time"},
                                                       {"answers_all_like_the_first", "batch-differs"}};
   for (const auto& [plugin, failure] : kBad) {
-    const auto run = replay(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so", file);
+    const auto run = replay(bad_plugin(plugin), file);
     EXPECT_EQ(run.exit_code, 1) << plugin << run.err;
     EXPECT_NE(run.out.find(std::string("  plugin:   bad: no answer: FAILS: ") + failure + "\n"), run.out.npos)
         << run.out;
@@ -269,12 +293,8 @@ TEST(Plugin, ReplayAsksAPluginAsACampaignDoes) {
 }
 
 TEST(Plugin, ANameIsCutBetweenCharactersAndHasNothingButCharacters) {
-  EXPECT_STREQ(probe_plugin(std::string(SELVAGE_BAD_PLUGINS) + "/plugin_has_a_bad_name.so", kCaseSeconds).name,
+  EXPECT_STREQ(probe_plugin(bad_plugin("has_a_bad_name"), kCaseSeconds).name,
                "a??[31m ? ........ ........ ........ ........ ........ .......");
-}
-
-std::string bad_plugin(const std::string& misdeed) {
-  return std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + misdeed + ".so";
 }
 
 /// As a linker leaves another build: other bytes, the same name.
@@ -306,7 +326,7 @@ TEST(Plugin, ALibraryThatIsRebuiltMeanwhileIsNotLoaded) {
   const auto library = folder.path() / "plugin.so";
   std::filesystem::copy_file(SELVAGE_KERNEL_PLUGIN, library);
   Properties properties;
-  properties.push_back(make_conformance(library, crc32_of_plugin(library)));
+  properties.push_back(make_conformance(library, crc32_of_plugin(library), DeclaredGap()));
   rebuild(library);
   DriverOptions options;
   options.folder = folder.path();
@@ -416,7 +436,7 @@ TEST(Plugin, WhatIsNoPluginIsRefused) {
       {"is_of_another_version", "is built for version 2 of selvage-plugin.h, this is version 1"},
       {"has_another_entry", "has no function selvage_plugin_entry"}};
   for (const auto& [plugin, words] : kUnfit) {
-    const std::string library = std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + plugin + ".so";
+    const std::string library = bad_plugin(plugin);
     const auto refused = run_program(folder, {"fuzz", "--plugin", library, "--artifacts", folder.path() / "artifacts"});
     EXPECT_EQ(refused.exit_code, 3) << plugin;
     EXPECT_NE(refused.err.find(library + ": " + words), std::string::npos) << refused.err;
