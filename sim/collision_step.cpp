@@ -10,6 +10,7 @@
 #include "sim/base/parallel.h"
 #include "sim/contact/contact_table.h"
 #include "sim/contact/start_proximities.h"
+#include "sim/contact/straight_surface.h"
 #include "sim/contact/surface_parts.h"
 #include "sim/response/collision_tracker.h"
 #include "sim/response/friction.h"
@@ -29,21 +30,6 @@ namespace {
 /// and ten behind took 1.7 times the time of two and eight, and the same steps (curtain at full quality, frame 100).
 constexpr int kFirstSweeps = 2;
 
-/// The first of `room`, which grows as it must.
-std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const ContactTable& table,
-                                                const Positions& V_t0, std::span<const double> inverse_mass,
-                                                std::vector<RepulsionContact>& room) {
-  if (room.size() < pairs.size()) room.resize(pairs.size());
-  const std::span<RepulsionContact> contacts = std::span(room).first(pairs.size());
-  parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
-    const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
-    const auto made = make_contact(pair, table.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
-    contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
-  });
-  const auto none_was_made = [](const RepulsionContact& contact) { return !(contact.mobility > 0); };
-  return {contacts.begin(), std::remove_if(contacts.begin(), contacts.end(), none_was_made)};
-}
-
 /// What persists between steps. Of the room only the memory: pages that are new to a process take time
 /// (docs/simulator-speed.md).
 struct Persistent {
@@ -53,6 +39,7 @@ struct Persistent {
         contacts(step_mesh, step_options, std::move(surfaces)),
         hierarchy(step_mesh),
         parts(step_mesh),
+        straight(step_mesh),
         proximities(step_mesh, contacts) {}
 
   const Mesh& mesh;
@@ -60,10 +47,27 @@ struct Persistent {
   ContactTable contacts;
   BoxHierarchy hierarchy;
   SurfaceParts parts;
+  StraightSurfaces straight;
   StartProximities proximities;
   std::vector<RepulsionContact> room_of_found;
   Contacts room_of_swept;
 };
+
+/// As they stand at the start of a step from V_t0. In room_of_found, which grows as it must.
+std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>& pairs, const Positions& V_t0,
+                                                std::span<const double> inverse_mass,
+                                                const std::vector<std::uint8_t>& is_cloth, Persistent& step) {
+  if (step.room_of_found.size() < pairs.size()) step.room_of_found.resize(pairs.size());
+  const std::span<RepulsionContact> contacts = std::span(step.room_of_found).first(pairs.size());
+  parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
+    const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
+    auto made = make_contact(pair, step.contacts.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
+    if (made) turn_across(step.straight.of(pair.kind, pair.vertices, V_t0, is_cloth), V_t0, *made);
+    contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
+  });
+  const auto none_was_made = [](const RepulsionContact& contact) { return !(contact.mobility > 0); };
+  return {contacts.begin(), std::remove_if(contacts.begin(), contacts.end(), none_was_made)};
+}
 
 /// One pass through section 7 with a given set of waiting bodies.
 class Attempt {
@@ -149,8 +153,7 @@ void Attempt::repel() {
     std::span<const RepulsionContact> found;
     {
       const PhaseTimer timer(report_.phases.proximity);
-      found = make_contacts(step_.proximities.find(motion_.x()), step_.contacts, motion_.V_t0(), bodies_.inverse_mass,
-                            step_.room_of_found);
+      found = make_contacts(step_.proximities.find(motion_.x()), motion_.V_t0(), bodies_.inverse_mass, surface_, step_);
     }
     const PhaseTimer timer(report_.phases.repulsion);
     for (const RepulsionContact& contact : found) contacts.add(contact);
@@ -183,8 +186,10 @@ void Attempt::meet_collisions() {
     if (collision.kind == PairKind::kSelf) continue;
     const std::array<VertexId, 4> pair = tracker_.vertices(collision);
     const ContactProperties properties = step_.contacts.of(collision.kind, collision.first, collision.second);
-    const auto contact = make_contact(collision, pair, properties, motion_.V_t0(), bodies_.inverse_mass);
-    if (contact) met_.push_back(*contact);
+    auto contact = make_contact(collision, pair, properties, motion_.V_t0(), bodies_.inverse_mass);
+    if (!contact) continue;
+    turn_across(step_.straight.of(collision.kind, pair, motion_.V_t0(), surface_), motion_.V_t0(), *contact);
+    met_.push_back(*contact);
   }
 }
 
@@ -330,9 +335,10 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
   Impl& impl = *impl_;
   if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
-  impl.proximities.start(impl.hierarchy, V_t0, impl.parts.cloth_flags(bodies));
+  const std::vector<std::uint8_t> surface = impl.parts.cloth_flags(bodies);
+  impl.proximities.start(impl.hierarchy, V_t0, surface);
   const std::vector<PairProximity> near = impl.proximities.find(V_candidate, fall, pressed);
-  const auto contacts = make_contacts(near, impl.contacts, V_t0, bodies.inverse_mass, impl.room_of_found);
+  const auto contacts = make_contacts(near, V_t0, bodies.inverse_mass, surface, impl);
   return {contacts.begin(), contacts.end()};
 }
 

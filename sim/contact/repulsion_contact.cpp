@@ -44,6 +44,13 @@ std::optional<RepulsionContact> make_contact(const Collision& collision, const s
   return if_it_acts(contact);
 }
 
+void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact) {
+  contact.straight = straight;
+  const StraightSurface& surface = straight.parts.at(straight.part(contact.kind, contact.interaction.weights));
+  contact.normal = across(surface.kind, surface.direction(V_t0), contact.normal);
+  contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
+}
+
 void add_pair(const RepulsionContact& contact, Candidates& pairs) {
   if (contact.kind == PairKind::kVf) {
     pairs.vf.push_back({contact.first, contact.second});

@@ -8,6 +8,7 @@
 #include "kernel/proximities.h"
 #include "sim/contact/contact_properties.h"
 #include "sim/contact/interaction.h"
+#include "sim/contact/straight_surface.h"
 
 namespace selvage::sim {
 
@@ -22,6 +23,7 @@ struct RepulsionContact {
   Vec3 normal = Vec3::Zero();  ///< unit
   double distance = 0;         ///< of the points, along the normal, at the start of the step
   double mobility = 0;         ///< effective_mobility(interaction) > 0
+  StraightFeature straight;    ///< of the body in it
 };
 
 /// A pair that is near at the start of the step. Nothing where no vertex that matters can move, or where the points
@@ -36,6 +38,9 @@ struct RepulsionContact {
                                                            const std::array<VertexId, 4>& vertices,
                                                            const ContactProperties& properties, const Positions& V_t0,
                                                            std::span<const double> inverse_mass);
+
+/// Has it repel across what is straight (straight_surface.h) from now on.
+void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact);
 
 /// Behind the others, which sort_pairs() brings into the order that Candidates has, each once.
 void add_pair(const RepulsionContact& contact, Candidates& pairs);

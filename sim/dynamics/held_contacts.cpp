@@ -74,6 +74,7 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const Contact
   contact_at_.resize(packs_.size() * kLanes, ContactGroups::kNobody);
   place(vf_);
   place(ee_);
+  set_straight();
   set_sweeps(contact_sweeps(contacts_, surface.faces, sweeps));
   const auto is_placed = [](std::size_t place) { return place != ContactGroups::kNobody; };
   SELVAGE_ASSERT(std::ranges::all_of(place_of_, is_placed));
@@ -127,6 +128,23 @@ void HeldContacts::set_lane(std::size_t place) {
   pack.thickness_m[lane] = contact.properties.thickness_m;
   pack.friction_static[lane] = contact.properties.friction_static;
   pack.friction_kinetic[lane] = contact.properties.friction_kinetic;
+}
+
+/// The same all through the step: a vertex of a body stays that, and edges do not slide on.
+void HeldContacts::set_straight() {
+  for (std::size_t place = 0; place < contact_at_.size(); ++place) {
+    if (contact_at_[place] == ContactGroups::kNobody || !contact_at(place).straight.is_anywhere()) continue;
+    PackState& state = states_[place / kLanes];
+    if (state.straight == 0) state.straight_at = static_cast<std::uint32_t>(straight_.size()), straight_.emplace_back();
+    state.straight |= only_lane(place % kLanes);
+  }
+  each_pack([&](std::size_t id) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if (!has_lane(states_[id].straight, lane)) continue;
+      const RepulsionContact& contact = contact_at(id * kLanes + lane);
+      sim::set_straight(contact.kind, contact.straight, V_t0_, V_t1_, lane, straight_[states_[id].straight_at]);
+    }
+  });
 }
 
 void HeldContacts::set_sweeps(const std::vector<std::int32_t>& sweeps) {

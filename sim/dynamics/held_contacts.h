@@ -116,9 +116,11 @@ class HeldContacts {
 
   /// What is asked of every pack in every step of the dynamics, side by side: most packs need not be read for it.
   struct PackState {
-    Lanes loaded = 0;        ///< whose load is above zero
-    Lanes withheld = 0;      ///< of cloth to which loads have added energy in this step
-    bool has_acted = false;  ///< in this step: what pressed and rubbed may be other than zero
+    Lanes loaded = 0;               ///< whose load is above zero
+    Lanes withheld = 0;             ///< of cloth to which loads have added energy in this step
+    Lanes straight = 0;             ///< on bodies that go straight on there
+    std::uint32_t straight_at = 0;  ///< of straight_
+    bool has_acted = false;         ///< in this step: what pressed and rubbed may be other than zero
   };
 
   /// The packs of one kind of pair, from `first_pack` on in packs_.
@@ -135,6 +137,7 @@ class HeldContacts {
   [[nodiscard]] RepulsionContact& contact_at(std::size_t place) { return contacts_[contact_at_[place]]; }
   [[nodiscard]] const RepulsionContact& contact_at(std::size_t place) const { return contacts_[contact_at_[place]]; }
   void set_lane(std::size_t place);
+  void set_straight();
   void set_sweeps(const std::vector<std::int32_t>& sweeps);
   void begin_with(const ContactLoads& loads);
   void begin_with(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t place);
@@ -184,6 +187,7 @@ class HeldContacts {
   ContactGains gains_;
   std::vector<ContactPack> packs_;           ///< of vf, then ee; a place is a lane of one
   std::vector<PackState> states_;            ///< of each pack
+  std::vector<PackStraight> straight_;       ///< of packs with such a lane
   std::vector<std::size_t> place_of_;        ///< of each contact
   std::vector<std::size_t> contact_at_;      ///< of each place
   LaneVectors v_free_, x_free_, v_limited_;  ///< before anything acted, and behind the limits

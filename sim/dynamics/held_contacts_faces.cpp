@@ -24,6 +24,7 @@ HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reac
   const PairKind kind = kind_of(id);
   PackNearest nearest;
   find_nearest(kind, read, nearest);
+  if ((lanes & states_[id].straight) != 0) turn_across(straight_[states_[id].straight_at], motion.share, nearest);
   const Lanes on_border = lanes & nearest.on_border;
   Slid slid;
   if (kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, motion);
@@ -53,7 +54,9 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
     }
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.interaction.weights = nearest.weights;
-    now.normal = nearest.direction;
+    const StraightSurface& straight = now.straight.parts[StraightFeature::kWithin];  // where the vertex is a body's
+    const Vec3 direction = (1 - motion.share) * straight.direction(V_t0_) + motion.share * straight.direction(V_t1_);
+    now.normal = across(straight.kind, direction.normalized(), nearest.direction);
     if (!(effective_mobility(now.interaction) > 0)) {
       slid.cannot |= only_lane(lane);
       continue;
