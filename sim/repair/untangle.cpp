@@ -28,7 +28,9 @@ UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const Collision
   SELVAGE_REQUIRE(validate_step_input(mesh, certified, V, V, bodies, kRepairStep_s) == InputError::kNone);
   SELVAGE_REQUIRE(ContactTable(mesh, certified, options.surfaces).error() == InputError::kNone);
   const SurfaceParts parts(mesh);
-  UntangleState state{mesh, bodies, options, find, parts, parts.cloth_flags(bodies), V, V};
+  CollisionBodies followed = bodies;
+  followed.policy = SqueezePolicy::kStop;  // a body that waits on its way back would be left there
+  UntangleState state{mesh, followed, options, find, parts, parts.cloth_flags(bodies), V, V};
   UntangleReport report;
   report.remaining = state.judge(state.x);
   if (!report.remaining.empty()) {

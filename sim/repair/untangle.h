@@ -44,11 +44,11 @@ struct UntangleResult {
   UntangleReport report;
 };
 
-/// Scripted vertices (inverse mass 0) are where they were. REQUIRES what CollisionStep does: finite positions in the
-/// domain, on the lattice of the precision, one a vertex; bodies, options and surfaces that fit the mesh; and a gap >
-/// 0. POST: no pairs remain as `find` judges, or x is V and the pairs say which: pinned across a body, a crossing that
-/// no way out was found for. What is clean already is returned as it is. Ends after at most kMaxUntangleRounds + 4
-/// judgements. Deterministic, if `find` is.
+/// Scripted vertices (inverse mass 0) are where they were, whatever the policy of the bodies. REQUIRES what
+/// CollisionStep does: finite positions in the domain, on the lattice of the precision, one a vertex; bodies, options
+/// and surfaces that fit the mesh; and a gap > 0. POST: no pairs remain as `find` judges, or x is V and the pairs say
+/// which: pinned across a body, a crossing that no way out was found for. What is clean already is returned as it is.
+/// Ends after at most kMaxUntangleRounds + 4 judgements. Deterministic, if `find` is.
 [[nodiscard]] UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                                       const UntangleOptions& options, const FindIntersections& find);
 

@@ -175,6 +175,26 @@ TEST(Untangle, ASheetCrossedByItsOwnCorner) {
   expect_repaired(scene, 0.08);
 }
 
+/// A body may wait in a step of a simulation; one that waits on its way back from where it gave way would be left
+/// there.
+TEST(Untangle, BodiesComeBackWhateverThePolicy) {
+  StepScene scene;
+  Shape tetrahedron{Positions(4, 3), {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+  tetrahedron.x << 0, 0, 0, 0, 1, 0, 1, 0, 0, 0.2, 0.2, 0.3;
+  scene.add(tetrahedron, Vec3::Zero(), 0);
+  Shape through{Positions(3, 3), {{0, 1, 2}}};
+  through.x << -1, -1, 0.1, 2, -1, 0.1, 0.3, 2, 0.1;
+  const StepScene::Part pinned = scene.add(through, Vec3::Zero());
+  for (VertexId v = pinned.begin; v < pinned.end; ++v) scene.inverse_mass[static_cast<std::size_t>(v)] = 0;
+  for (const SqueezePolicy policy : {SqueezePolicy::kStop, SqueezePolicy::kYield}) {
+    scene.policy = policy;
+    const UntangleResult result = untangle_scene(scene);
+    EXPECT_EQ(defect_of(scene, result), "");
+    EXPECT_FALSE(result.report.remaining.empty()) << "all of it is scripted";
+    EXPECT_EQ(result.x, scene.V_t0);
+  }
+}
+
 TEST(Untangle, ClothThatIsPinnedInsideABodyIsLeftAsItIs) {
   StepScene scene;
   scene.add(make_sheet(9, 9, 0.3, 0.3), Vec3(0.003, 0.002, 0.02));
