@@ -1,5 +1,7 @@
 #include "sim/response/travel_limit.h"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 namespace selvage::sim {
@@ -26,11 +28,12 @@ std::int64_t limit_travel(const ScriptedGroups& groups, StepMotion& motion) {
   return count;
 }
 
-std::int64_t halve_travel(const ScriptedGroups& groups, StepMotion& motion) {
+std::int64_t halve_travel(const ScriptedGroups& groups, StepMotion& motion, int times) {
+  const double share = std::ldexp(1.0, -times);
   std::int64_t count = 0;
   for (VertexId v = 0; v < motion.V_t0().rows(); ++v) {
     if (groups.is_scripted(v) || !motion.moves(v)) continue;
-    motion.move(v, 0.5 * motion.displacement().row(v));
+    motion.move(v, share * motion.displacement().row(v));
     ++count;
   }
   return count;

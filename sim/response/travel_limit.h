@@ -22,13 +22,16 @@ inline constexpr double kMaxTravel = 1024;
 /// one for ten vertices in its worst search. All pairs of a mesh at one point take 40 us each: without this limit 3 s
 /// for 128 vertices, 55 s for 512, and 3 minutes and 3 GB for 968.
 inline constexpr std::size_t kMostMeetings = 64;
-/// So many are borne by the smallest mesh, too, whose whole search costs less than several that are given up: 54 vertices
-/// with coordinates of all magnitudes took 3.4 s, and 11.4 where 3,456 were too many.
+/// So many are borne by the smallest mesh, too, whose whole search costs less than several that are given up: 54
+/// vertices with coordinates of all magnitudes took 3.4 s, and 11.4 where 3,456 were too many.
 inline constexpr std::size_t kLeastMostMeetings = std::size_t{1} << 14;
-/// How often the motion of cloth is halved for that; then all is tested. What is left is bodies that pass each other.
-inline constexpr int kMostHalvings = 8;
+/// How often the motion of cloth is cut back for that, each time by the square of what it was before: to a half, an
+/// eighth, 2^-7, 2^-15. So one that meets a little too much keeps half, and one of a million edges, in which pairs of
+/// all of the mesh meet until it is about as long as an edge, takes six searches (docs/guarantee.md). After the last,
+/// nothing is left of any motion within the domain: then all is tested, and what meets is met by bodies.
+inline constexpr int kMostCuts = 12;
 
-/// Halves the displacements of all cloth vertices; how many move.
-[[nodiscard]] std::int64_t halve_travel(const ScriptedGroups& groups, StepMotion& motion);
+/// Halves the displacements of all cloth vertices so many times; how many moved.
+[[nodiscard]] std::int64_t halve_travel(const ScriptedGroups& groups, StepMotion& motion, int times);
 
 }  // namespace selvage::sim

@@ -172,6 +172,26 @@ TEST(CollisionStep, AMeshAtOnePointIsCutBackBeforeAllPairsAreListed) {
   EXPECT_EQ(abandoned.x, scene.V_t0);
 }
 
+/// Every vertex of a sheet of 15 x 15 cells of a centimetre flies in a direction of its own: pairs of all parts of it
+/// meet until the ways are about as long as an edge, far below 1024 diagonals of the scene.
+TEST(CollisionStep, ASheetThatIsThrownInAllDirectionsIsCutBackUntilFewOfItsPairsMeet) {
+  for (const bool on_ground : {false, true}) {  // a kilometre wide: the scene is no measure of the cloth
+    StepScene scene;
+    const auto cloth = scene.add(sheet(16, 0.15), Vec3::Zero());
+    if (on_ground) scene.add(triangle(1000), Vec3(0, 0, -0.1), 0);
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> normal(0, on_ground ? 1e6 : 1e3);
+    for (VertexId v = cloth.begin; v < cloth.end; ++v) {
+      scene.V_candidate.row(v) += Eigen::RowVector3d(normal(engine), normal(engine), normal(engine));
+    }
+    SCOPED_TRACE(on_ground);
+    const CollisionStepResult result = scene.step();
+    EXPECT_EQ(exact_defect(scene, result), "");
+    EXPECT_EQ(result.report.cut_candidates, cloth.end - cloth.begin);
+    EXPECT_LE(result.report.first_collisions, 64 * scene.V_t0.rows());
+  }
+}
+
 TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRound) {
   // Paper, 7.4. The node is a corner of a small triangle that hangs between the two.
   StepScene scene;
