@@ -48,8 +48,8 @@ struct TooMany {};
 class CollisionFinder {
  public:
   CollisionFinder(const Mesh& mesh, const PositionsRef& V_t0, const PositionsRef& V_t1, const CcdOptions& options,
-                  std::span<const std::uint8_t> active, std::size_t most_collisions)
-      : mesh_(mesh), V_t0_(V_t0), V_t1_(V_t1), options_(options), active_(active), most_collisions_(most_collisions) {}
+                  std::span<const std::uint8_t> active, const CollisionLimits& limits)
+      : mesh_(mesh), V_t0_(V_t0), V_t1_(V_t1), options_(options), active_(active), limits_(limits) {}
 
   CollisionReport find(const Candidates& candidates) {
     const CcdBatch batch(mesh_, V_t0_, V_t1_, options_, candidates.vf.size() + candidates.ee.size());
@@ -112,10 +112,10 @@ class CollisionFinder {
 
   void add(const Collision& collision, Block& block) const {
     block.collisions.push_back(collision);
-    if (collision.ccd.cause == CcdCause::kMotion &&
-        count_.fetch_add(1, std::memory_order_relaxed) >= most_collisions_) {
-      throw TooMany();
-    }
+    const bool is_near = collision.ccd.cause == CcdCause::kEnd;
+    auto& count = is_near ? near_count_ : motion_count_;
+    const std::size_t most = is_near ? limits_.most_near : limits_.most_collisions;
+    if (count.fetch_add(1, std::memory_order_relaxed) >= most) throw TooMany();
   }
 
   /// Asked of what was found, too: else what is found would depend on which boxes the candidates come from.
@@ -167,8 +167,8 @@ class CollisionFinder {
   const PositionsRef& V_t1_;
   const CcdOptions& options_;
   std::span<const std::uint8_t> active_;
-  const std::size_t most_collisions_;
-  mutable std::atomic<std::size_t> count_ = 0;  ///< of kMotion
+  const CollisionLimits limits_;
+  mutable std::atomic<std::size_t> motion_count_ = 0, near_count_ = 0;
   CollisionReport report_;
 };
 
@@ -195,7 +195,7 @@ CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
   SELVAGE_REQUIRE(validate(options) == InputError::kNone);
-  CollisionFinder finder(mesh, V_t0, V_t1, options, active, limits.most_collisions);
+  CollisionFinder finder(mesh, V_t0, V_t1, options, active, limits);
   const auto list = [&](MotionBoxes boxes, std::size_t most) {
     hierarchy.refit(V_t0, V_t1, {options.tolerance, active, boxes});
     return hierarchy.candidates(most);

@@ -35,6 +35,8 @@ struct CollisionLimits {
   std::size_t most_listed = std::size_t{1} << 25;
   /// Where more than so many pairs are not proved free of touch (kMotion), the search is given up.
   std::size_t most_collisions = std::numeric_limits<std::size_t>::max();
+  /// Likewise where more than so many are free of touch, but not proved farther apart than tolerance at the end (kEnd).
+  std::size_t most_near = std::numeric_limits<std::size_t>::max();
 };
 
 /// The vertices of a pair in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, p} for kSelf.

@@ -40,7 +40,7 @@ struct CollisionStepReport {
   InputError input_error = InputError::kNone;
   /// Candidates of cloth that were cut back before anything else, as the simulation has blown up (travel_limit.h):
   /// those farther from their start than 1024 diagonals of the scene's box, or all, by powers of two, where more than
-  /// 64 pairs a vertex, and than 16,384, would collide.
+  /// 64 pairs a vertex, and than 16,384, would collide, or come within a tolerance that is not long beside the edges.
   std::int64_t cut_candidates = 0;
   /// Contacts that are held, and other pairs that are near at the start and approaching (StartProximities::count()).
   std::int64_t proximities = 0;
@@ -99,7 +99,7 @@ class CollisionStep {
   /// straight motion V_t0 -> x is exactly free of touching; what is nearer than its tolerance is named; scripted
   /// vertices are at their (rounded) candidates, or at V_t0 where they wait; all others are within
   /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + vertices of those that deform + 2)
-  /// (impulse_iterations + zone_iterations + 3 #V + 1 + kMostCuts, travel_limit.h) searches for collisions.
+  /// (impulse_iterations + zone_iterations + 3 #V + 4 + kMostCuts, travel_limit.h) searches for collisions.
   /// Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,

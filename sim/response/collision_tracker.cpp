@@ -72,9 +72,15 @@ void CollisionTracker::count(const CollisionReport& found) {
   for (const Collision& c : report_.collisions) report_.toi_lower = std::min(report_.toi_lower, c.ccd.toi_lower);
 }
 
-bool CollisionTracker::start(StepMotion& motion, std::size_t most) {
+bool CollisionTracker::starts_with_more_near(const StepMotion& motion, std::size_t most) const {
+  const CcdOptions options{contacts_.tolerance_upper(), max_intervals_};
+  const CollisionLimits limits{.most_collisions = most, .most_near = most};
+  return !find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.V_t0(), options, surface_, limits).is_complete;
+}
+
+bool CollisionTracker::start(StepMotion& motion, const CollisionLimits& limits) {
   motion.take_changed();
-  CollisionReport found = find(motion, surface_, {.most_collisions = most});
+  CollisionReport found = find(motion, surface_, limits);
   report_ = {};
   if (!found.is_complete) return false;
   report_.collisions = std::move(found.collisions);

@@ -18,8 +18,10 @@ class CollisionTracker {
   CollisionTracker(const Mesh& mesh, BoxHierarchy& hierarchy, const ContactTable& contacts, std::int32_t max_intervals,
                    std::vector<std::uint8_t> surface);
 
-  /// Tests everything. False, and nothing is known, where more than `most` pairs are not proved free of touch.
-  bool start(StepMotion& motion, std::size_t most = CollisionLimits{}.most_collisions);
+  /// Tests everything. False, and nothing is known, where there are more pairs than `limits` allow.
+  bool start(StepMotion& motion, const CollisionLimits& limits = {});
+  /// Whether more than `most` pairs are within the largest tolerance where the motion starts. A search.
+  [[nodiscard]] bool starts_with_more_near(const StepMotion& motion, std::size_t most) const;
   /// Tests what changed since the last call.
   void update(StepMotion& motion);
 

@@ -18,13 +18,16 @@ inline constexpr double kMaxTravel = 1024;
 /// not blown up. The scene's box holds all start positions and the ends of scripts.
 [[nodiscard]] std::int64_t limit_travel(const ScriptedGroups& groups, StepMotion& motion);
 
-/// A step in which more pairs than so many a vertex are not free of touch has no answer in impulses. The curtain finds
-/// one for ten vertices in its worst search. All pairs of a mesh at one point take 40 us each: without this limit 3 s
-/// for 128 vertices, 55 s for 512, and 3 minutes and 3 GB for 968.
+/// A step in which more pairs than so many a vertex are not free of touch, or as many near only in the end, has no
+/// answer in impulses. The curtain finds one for ten vertices in its worst search. All pairs of a mesh at one point
+/// take 40 us each: without this limit 3 s for 128 vertices, 55 s for 512, and 3 minutes and 3 GB for 968.
 inline constexpr std::size_t kMostMeetings = 64;
 /// So many are borne by the smallest mesh, too, whose whole search costs less than several that are given up: 54
 /// vertices with coordinates of all magnitudes took 3.4 s, and 11.4 where 3,456 were too many.
 inline constexpr std::size_t kLeastMostMeetings = std::size_t{1} << 14;
+/// But pairs that are near only in the end do not count where more than a 16th of so many are within the tolerance at
+/// the start: it is long beside the edges there, and cloth has about as many at the end of any step.
+inline constexpr std::size_t kMeetingsPerNearAtStart = 16;
 /// How often the motion of cloth is cut back for that, each time by the square of what it was before: to a half, an
 /// eighth, 2^-7, 2^-15. So one that meets a little too much keeps half, and one of a million edges, in which pairs of
 /// all of the mesh meet until it is about as long as an edge, takes six searches (docs/guarantee.md). After the last,

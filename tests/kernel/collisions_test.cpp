@@ -187,12 +187,19 @@ TEST(FindCollisions, PropEqualsOneQueryAfterAnother) {
     const auto find_all = [&](std::size_t most_listed) { return find_some({.most_listed = most_listed}); };
     // Given up exactly where one more is found than wanted.
     const auto ends_at = [&](std::size_t most_listed, const CollisionReport& all) {
-      const auto motions = static_cast<std::size_t>(
-          std::ranges::count(all.collisions, CcdCause::kMotion, [](const Collision& c) { return c.ccd.cause; }));
-      if (!find_some({most_listed, motions}).is_complete) return false;
-      if (motions == 0) return true;
-      const CollisionReport fewer = find_some({most_listed, motions - 1});
-      return !fewer.is_complete && fewer.collisions.empty() && fewer.toi_lower == 0;
+      const auto count = [&](CcdCause cause) {
+        return static_cast<std::size_t>(
+            std::ranges::count(all.collisions, cause, [](const Collision& c) { return c.ccd.cause; }));
+      };
+      const auto gives_up = [&](const CollisionLimits& limits) {
+        const CollisionReport fewer = find_some(limits);
+        return !fewer.is_complete && fewer.collisions.empty() && fewer.toi_lower == 0;
+      };
+      const std::size_t motions = count(CcdCause::kMotion), near = count(CcdCause::kEnd);
+      if (motions + near != all.collisions.size()) return false;
+      if (!find_some({most_listed, motions, near}).is_complete) return false;
+      if (motions > 0 && !gives_up({most_listed, motions - 1, near})) return false;
+      return near == 0 || gives_up({most_listed, motions, near - 1});
     };
     bool ends_in_threads = false, ends_in_one = false;
     testing::with_threads(*rc::gen::element(2, 3, 8), [&] {

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <oneapi/tbb/global_control.h>
@@ -180,7 +181,7 @@ TEST(CollisionStep, ASheetThatIsThrownInAllDirectionsIsCutBackUntilFewOfItsPairs
     const auto cloth = scene.add(sheet(16, 0.15), Vec3::Zero());
     if (on_ground) scene.add(triangle(1000), Vec3(0, 0, -0.1), 0);
     std::mt19937_64 engine(1);
-    std::normal_distribution<double> normal(0, on_ground ? 1e6 : 1e3);
+    std::normal_distribution<double> normal(0, on_ground ? 1e4 : 1e3);
     for (VertexId v = cloth.begin; v < cloth.end; ++v) {
       scene.V_candidate.row(v) += Eigen::RowVector3d(normal(engine), normal(engine), normal(engine));
     }
@@ -190,6 +191,30 @@ TEST(CollisionStep, ASheetThatIsThrownInAllDirectionsIsCutBackUntilFewOfItsPairs
     EXPECT_EQ(result.report.cut_candidates, cloth.end - cloth.begin);
     EXPECT_LE(result.report.first_collisions, 64 * scene.V_t0.rows());
   }
+}
+
+/// Nothing touches on the way to a billionth of the size, and in the end all 108,000 pairs are within the tolerance.
+TEST(CollisionStep, AMeshThatShrinksToAPointIsCutBackBeforeAllPairsAreNear) {
+  StepScene scene;
+  scene.add(sheet(12), Vec3::Zero());
+  scene.V_candidate = 1e-9 * scene.V_t0;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.cut_candidates, 144);
+  EXPECT_LE(result.report.first_collisions, 1 << 14);
+}
+
+/// Where it is the tolerance that is large, cloth moves whatever is near, as it was as near before.
+TEST(CollisionStep, NothingIsCutBackForPairsThatAreNearInAnyCase) {
+  StepScene scene;
+  const auto cloth = scene.add(sheet(12), Vec3::Zero());
+  scene.options.tolerance_m = 0.1;
+  scene.push(cloth, Vec3(0, 0, 0.01));
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_EQ(result.report.cut_candidates, 0);
+  EXPECT_GT(result.report.first_collisions, 1 << 14);
+  EXPECT_GT(result.report.below_tolerance.size(), 1U << 14);
 }
 
 TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRound) {
