@@ -82,6 +82,12 @@ BoxHierarchy::~BoxHierarchy() = default;
 BoxHierarchy::BoxHierarchy(BoxHierarchy&&) noexcept = default;
 BoxHierarchy& BoxHierarchy::operator=(BoxHierarchy&&) noexcept = default;
 
+bool BoxHierarchy::fits(const Mesh& mesh) const {
+  const Mesh& own = impl_->mesh;
+  return mesh.vertex_count == own.vertex_count && mesh.edges.size() == own.edges.size() &&
+         mesh.faces.size() == own.faces.size();
+}
+
 void BoxHierarchy::refit(const PositionsRef& V_t0, const PositionsRef& V_t1, const CandidateOptions& options) {
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(V_t0.rows() == impl_->mesh.vertex_count && V_t1.rows() == impl_->mesh.vertex_count);

@@ -28,6 +28,9 @@ class BoxHierarchy {
   /// As the constructor.
   BoxHierarchy& operator=(BoxHierarchy&&) noexcept;
 
+  /// Whether the mesh may be the one it was made for: as many vertices, edges and faces. O(1).
+  [[nodiscard]] bool fits(const Mesh& mesh) const;
+
   /// Boxes of the motion from V_t0 to V_t1 (pass one twice for an instant), grown as CandidateOptions says. O(#V + #F),
   /// in parallel; O(#F log #F) where the tree is made or chosen again. REQUIRES #V flags or none, a finite reach >= 0,
   /// and validate() == kNone, which alone it does not ask: without it candidates may be missing.

@@ -195,6 +195,7 @@ CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(validate(mesh, V_t0, V_t1) == InputError::kNone);
   SELVAGE_REQUIRE(validate(options) == InputError::kNone);
+  SELVAGE_REQUIRE(hierarchy.fits(mesh));  // else it answers that nothing is near, or pairs that are not there
   CollisionFinder finder(mesh, V_t0, V_t1, options, active, limits);
   const auto list = [&](MotionBoxes boxes, std::size_t most) {
     hierarchy.refit(V_t0, V_t1, {options.tolerance, active, boxes});

@@ -80,6 +80,7 @@ Candidates find_near_candidates(const Mesh& mesh, BoxHierarchy& hierarchy, const
   const FpEnvGuard guard;  // the rows of the lanes are rounded to float32 here
   SELVAGE_REQUIRE(validate(mesh, V, V) == InputError::kNone);
   SELVAGE_REQUIRE(reach >= 0 && std::isfinite(reach));
+  SELVAGE_REQUIRE(hierarchy.fits(mesh));
   hierarchy.refit(V, V, {reach, active});
   Candidates candidates = hierarchy.candidates();
   // As in CcdBatch: preparing the lanes costs 35 ns a vertex, a query that they spare 400 ns.

@@ -302,12 +302,16 @@ CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
 CollisionStep& CollisionStep::operator=(CollisionStep&&) noexcept = default;
 
-const ContactTable& CollisionStep::contact_table() const { return impl_->contacts; }
+const ContactTable& CollisionStep::contact_table() const {
+  SELVAGE_REQUIRE(impl_ != nullptr);
+  return impl_->contacts;
+}
 
 CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                               const CollisionBodies& bodies, double dt_s, const Patience& patience,
                                               std::span<const RepulsionContact> held) {
   const FpEnvGuard guard;
+  SELVAGE_REQUIRE(impl_ != nullptr);
   CollisionStepResult result{V_t0, Positions::Zero(V_t0.rows(), 3), {}, {}};
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
   if (result.report.input_error == InputError::kNone) result.report.input_error = impl_->contacts.error();
@@ -340,6 +344,7 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
                                                            const CollisionBodies& bodies, const Vec3& fall,
                                                            const Candidates& pressed) {
   const FpEnvGuard guard;
+  SELVAGE_REQUIRE(impl_ != nullptr);
   Impl& impl = *impl_;
   if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};

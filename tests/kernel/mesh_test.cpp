@@ -44,6 +44,13 @@ TEST(Requirements, AreAskedBeforeAnythingIsProved) {
   EXPECT_DEATH(static_cast<void>(find_proximities(mesh, hierarchy, bad, 0.1)),
                "is called without what it requires: validate");
   EXPECT_DEATH(static_cast<void>(BoxHierarchy(mesh).candidates()), "candidates is called without");
+  for (const Eigen::Index faces : {1, 2}) {  // fewer, and as many that have another number of edges
+    F.row(1) << 0, 2, 5;
+    const Mesh other = make_mesh(6, F.topRows(faces));
+    BoxHierarchy of_other(other);
+    EXPECT_DEATH(static_cast<void>(find_collisions(mesh, of_other, V, V, {})), "find_collisions is called .*fits");
+    EXPECT_DEATH(static_cast<void>(find_proximities(mesh, of_other, V, 0.1)), "is called without .*fits");
+  }
   for (const Eigen::Index rows : {0, 5, 7}) {  // for 6 vertices
     const Positions other = Positions::Random(rows, 3);
     for (const std::size_t queries : {0U, 100U}) {  // one after another, and in lanes

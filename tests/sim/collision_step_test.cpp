@@ -485,6 +485,18 @@ TEST(CollisionStep, IsMovedWithItsMesh) {
   EXPECT_EQ(step(other.V_t0, other.V_t0, other.bodies(), other.dt_s).report.status, StepStatus::kSafe);
 }
 
+TEST(CollisionStep, WhatWasMovedFromSaysThatItCannotStep) {
+  StepScene scene;
+  scene.add(sheet(3), Vec3::Zero());
+  const Mesh mesh = scene.mesh();
+  CollisionStep step(mesh, scene.options);
+  const CollisionStep taken = std::move(step);
+  const auto use = [&](const auto& call) { static_cast<void>(call()); };
+  EXPECT_DEATH(use([&] { return step(scene.V_t0, scene.V_t0, scene.bodies(), scene.dt_s); }), "called without");
+  EXPECT_DEATH(use([&] { return step.find_contacts(scene.V_t0, scene.V_t0, scene.bodies()); }), "called without");
+  EXPECT_DEATH(use([&] { return &step.contact_table(); }), "called without");
+}
+
 TEST(CollisionStep, KeepsNoReferenceToATemporaryMesh) {
   static_assert(!std::is_constructible_v<CollisionStep, Mesh, CollisionOptions>);
   static_assert(std::is_constructible_v<CollisionStep, const Mesh&, CollisionOptions>);
