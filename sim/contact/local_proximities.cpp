@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -44,6 +45,14 @@ class LocalTest {
     for (const PairProximity& pair : ee) {
       for (const VertexId v : pair.vertices) ee_at_[next[static_cast<std::size_t>(v)]++] = &pair;
     }
+    nearest_edge_.assign(static_cast<std::size_t>(V.rows()), std::numeric_limits<double>::infinity());
+    for (const PairProximity& pair : ee) {
+      for (const VertexId v : pair.vertices) {
+        double& nearest = nearest_edge_[static_cast<std::size_t>(v)];
+        nearest = std::min(nearest, pair.proximity.distance);
+      }
+    }
+    if (!ee.empty()) list_faces_of_edges();
   }
 
   [[nodiscard]] bool is_local(const PairProximity& pair) const {
@@ -51,6 +60,24 @@ class LocalTest {
   }
 
  private:
+  void list_faces_of_edges() {
+    faces_begin_.assign(mesh_.edges.size() + 1, 0);
+    for (const auto& edges : mesh_.face_edges) {
+      for (const EdgeId e : edges) ++faces_begin_[static_cast<std::size_t>(e) + 1];
+    }
+    std::partial_sum(faces_begin_.begin(), faces_begin_.end(), faces_begin_.begin());
+    faces_.resize(3 * mesh_.face_edges.size());
+    std::vector<std::size_t> next(faces_begin_.begin(), faces_begin_.end() - 1);
+    for (std::size_t f = 0; f < mesh_.face_edges.size(); ++f) {
+      for (const EdgeId e : mesh_.face_edges[f]) faces_[next[static_cast<std::size_t>(e)]++] = static_cast<FaceId>(f);
+    }
+  }
+  /// Usually two.
+  [[nodiscard]] std::span<const FaceId> faces_of(EdgeId edge) const {
+    const auto e = static_cast<std::size_t>(edge);
+    return std::span(faces_).subspan(faces_begin_[e], faces_begin_[e + 1] - faces_begin_[e]);
+  }
+
   /// The edge pairs that the vertex belongs to.
   [[nodiscard]] std::span<const PairProximity* const> edges_near(VertexId vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
@@ -94,6 +121,7 @@ class LocalTest {
     for (const PairProximity& other : faces_near(vertex)) {
       if (nearer(other) && all_corners([&](VertexId v) { return face_holds(other, v); })) return false;
     }
+    if (!(nearest_edge_[static_cast<std::size_t>(vertex)] < pair.proximity.distance)) return true;
     for (const PairProximity* other : edges_near(vertex)) {
       if (!nearer(*other)) continue;  // first: over the tip of a cone of n faces 8 n edge pairs are as near, not nearer
       const std::size_t across = other->vertices[0] == vertex || other->vertices[1] == vertex ? 2 : 0;
@@ -115,10 +143,12 @@ class LocalTest {
     for (std::size_t end = 0; end < 4; ++end) {
       const std::size_t partner = end ^ 1;  // the other end of the same edge
       if (!parallel && pair.proximity.weights[partner] != 0) continue;
-      const std::size_t other_edge = end < 2 ? 2 : 0;
-      const bool covered = std::ranges::any_of(faces_near(pair.vertices[end]), [&](const PairProximity& other) {
-        return other.proximity.distance <= pair.proximity.distance && face_holds(other, pair.vertices[other_edge]) &&
-               face_holds(other, pair.vertices[other_edge + 1]);
+      // The faces of the edge, not those near the vertex: of two fans of n faces n^2 pairs of spokes end at a hub that
+      // is near n faces.
+      const std::span<const PairProximity> near = faces_near(pair.vertices[end]);
+      const bool covered = std::ranges::any_of(faces_of(end < 2 ? pair.second : pair.first), [&](FaceId face) {
+        const auto other = std::ranges::lower_bound(near, face, {}, &PairProximity::second);
+        return other != near.end() && other->second == face && other->proximity.distance <= pair.proximity.distance;
       });
       if (covered) return false;
     }
@@ -131,6 +161,9 @@ class LocalTest {
   std::span<const PairProximity> vf_;
   std::vector<const PairProximity*> ee_at_;  ///< each edge pair at its four vertices, by vertex
   std::vector<std::size_t> ee_begin_;        ///< of each vertex's; one more at the end
+  std::vector<double> nearest_edge_;         ///< #V: the least distance of those, or infinity
+  std::vector<FaceId> faces_;                ///< each face at its three edges, by edge; none without edge pairs
+  std::vector<std::size_t> faces_begin_;     ///< of each edge's; one more at the end
 };
 
 }  // namespace

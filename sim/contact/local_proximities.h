@@ -20,7 +20,8 @@ namespace selvage::sim {
 ///   other edge; of parallel edges, whose nearest points are anywhere, the same for all four ends.
 /// A pair is left out for one that is nearer, or for a vf pair in place of an ee pair, so of any set of pairs that
 /// share features the nearest stays. `proximities` as from find_proximities: sorted by (kind, first, second). Linear in
-/// their number but for binary searches; in parallel, same bits for any number of threads.
+/// their number and that of faces but for binary searches, and for vf pairs whose vertex holds edges that are nearer:
+/// those walk its pairs; in parallel, same bits for any number of threads.
 [[nodiscard]] std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
                                                            const std::vector<PairProximity>& proximities,
                                                            double thickness_m);
