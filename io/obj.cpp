@@ -32,8 +32,17 @@ bool is_of_numbers(std::string_view line) { return is_one_of(next_token(line), k
 constexpr std::string_view kFaceMayBeCut =
     "the last line has no end and the face may be cut; restore the file, or add the line break if it is whole";
 
-/// Of a line of numbers. A backslash in the comment is part of it.
-std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+/// Of a line of numbers. A backslash in the comment is part of it. In 1.#INF and 1.#QNAN, which old C libraries of
+/// Windows print, no comment begins: what is left would be read as a finite number.
+std::string_view without_comment(std::string_view line) {
+  const auto is_letter = [](char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z'); };
+  const auto is_in_number = [&](std::size_t at) {
+    return at > 0 && line[at - 1] == '.' && at + 1 < line.size() && is_letter(line[at + 1]);
+  };
+  std::size_t at = line.find('#');
+  while (at != line.npos && is_in_number(at)) at = line.find('#', at + 1);
+  return line.substr(0, at);
+}
 
 class ObjParser {
  public:

@@ -24,7 +24,9 @@ NumberFault parse_real(std::string_view token, Real& value) {
   token = without_plus(token);
   const char* end = token.data() + token.size();
   const std::from_chars_result result = std::from_chars(token.data(), end, value);
-  if (result.ec == std::errc::invalid_argument || result.ptr != end) return NumberFault::kSyntax;
+  if (result.ec == std::errc::invalid_argument || result.ptr != end) {
+    return token.find(".#") != token.npos ? NumberFault::kNotFinite : NumberFault::kSyntax;  // 1.#INF, 1.#QNAN
+  }
   if (result.ec == std::errc::result_out_of_range) return NumberFault::kOutOfRange;
   return std::isfinite(value) ? NumberFault::kNone : NumberFault::kNotFinite;
 }

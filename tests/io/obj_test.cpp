@@ -80,6 +80,21 @@ TEST(Obj, ACommentMayEndALineOfNumbers) {
   expect_error(ErrorKind::kBadInput, "a vertex has 2 numbers", [] { (void)parse_obj("v 0 0 # 0\n", "in"); });
 }
 
+TEST(Obj, ANumberThatIsNotFiniteIsNoComment) {
+  const std::string rest = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  for (const std::string bad :
+       {"1.#INF", "-1.#INF", "1.#INF00", "-1.#IND00", "1.#QNAN", "1.#SNAN0", "1.#J", "1.#inf"}) {
+    for (const std::string& line : {"v 0 0 " + bad, "v " + bad + " 0 0", "v 0 0 0 " + bad, "v 0 0 0 1 1 " + bad,
+                                    "v 0 0 \\\n" + bad, "v 0 0 " + bad + "# 1"}) {
+      expect_bad_obj("'" + bad + "' is not finite; repair the export", line + "\n" + rest);
+    }
+  }
+  for (const char* good : {"v 0 0 1.# top", "v 0 0 1. #INF", "v 0 0 1#INF", "v 0 0 1.0#INF", "v 0 0 1 # 1.#INF"}) {
+    EXPECT_EQ(parse_obj(std::string(good) + "\n" + rest, "a.obj").points[0][2], 1) << good;
+  }
+  EXPECT_EQ(faces_of("v 0 0 0\nvn 0 0 -1.#IND\n" + rest).size(), 1u) << "normals are not read";
+}
+
 TEST(Obj, WhatIsNoSurfaceIsSkippedOrRefused) {
   EXPECT_EQ(faces_of("mtllib a.mtl\n" + kSquare + "vt 0 0\nvn 0 0 1\nusemtl red\ns off\nf 1 2 3\n").size(), 1u);
   expect_bad_obj("a.obj:5: 'l' is not part of a surface", kSquare + "l 1 2\nf 1 2 3\n");
