@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/fail.h"
@@ -27,6 +28,26 @@ PosixFile create_temporary(const fs::path& target) {
   const std::string name = target.filename().string().substr(0, NAME_MAX - mark.size());
   fs::path temporary = target.parent_path() / (name + mark);
   return {std::move(temporary), target, O_WRONLY | O_CREAT | O_EXCL};
+}
+
+[[noreturn]] void fail_as_present(const fs::path& file) {
+  throw Error(ErrorKind::kFile, file.string() + ": is there already; remove it, or choose another name");
+}
+
+/// rename(2), or EEXIST where something is called `to`.
+int rename_to_new(const char* from, const char* to) {
+  if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return -1;
+  if (::link(from, to) == 0) {  // which NFS can
+    ::unlink(from);
+    return 0;
+  }
+  if (errno == EEXIST) return -1;
+  struct stat present = {};
+  if (::lstat(to, &present) != 0)
+    return std::rename(from, to);  // between the two a file may appear: nothing better is left
+  errno = EEXIST;
+  return -1;
 }
 
 void write_in_place(const fs::path& file, std::string_view bytes) {
@@ -51,6 +72,22 @@ void AtomicFile::commit() {
   sync_folder(target_.parent_path());
 }
 
+void AtomicFile::commit_new() {
+  file_.sync();
+  file_.close();
+  if (rename_to_new(file_.path().c_str(), target_.c_str()) != 0) {
+    if (errno == EEXIST) fail_as_present(target_);
+    file_error(target_.string(), "create", errno);
+  }
+  is_committed_ = true;
+  try {
+    sync_folder(target_.parent_path());
+  } catch (const Error&) {
+    ::unlink(target_.c_str());  // nobody hears of it
+    throw;
+  }
+}
+
 fs::path behind_links(const fs::path& file) {
   constexpr int kMostLinks = 40;  // as many as Linux follows
   std::error_code status;
@@ -68,6 +105,12 @@ void require_nameable(const fs::path& file) {
   for (const fs::path& name : file) {
     if (name.native().size() > NAME_MAX) file_error(file.string(), "write", ENAMETOOLONG);
   }
+}
+
+void require_absent(const fs::path& file) {
+  require_nameable(file);
+  std::error_code status;
+  if (fs::exists(fs::symlink_status(file, status))) fail_as_present(file);
 }
 
 void write_atomically(const fs::path& file, std::string_view bytes) {

@@ -28,6 +28,9 @@ class AtomicFile {
   void overwrite(std::uint64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
   /// Replaces the target; on disk when it returns.
   void commit();
+  /// As commit(), but in nothing's place: throws Error(kFile) where something has the target's name by then, which
+  /// stays.
+  void commit_new();
 
  private:
   std::filesystem::path target_;
@@ -42,6 +45,9 @@ class AtomicFile {
 /// Throws Error(kFile) where the name of `file`, or of a folder in its path, is longer than any that there are
 /// (NAME_MAX): to be called before work whose result would have that name.
 void require_nameable(const std::filesystem::path& file);
+
+/// Throws Error(kFile) if `file` is there, or can have no such name.
+void require_absent(const std::filesystem::path& file);
 
 /// Replaces `file` by `bytes`; on disk when it returns. On failure throws Error(kFile) and leaves the old file intact.
 /// A kill leaves at most a file "NAME.tmp-..." beside it. A link is followed, to what is not there yet as well. What is

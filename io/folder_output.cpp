@@ -1,8 +1,10 @@
-// Writes the sequence folder through SequenceWriter, and takes it back where the sequence does not come to its end.
+// Writes the sequence folder through SequenceWriter, and takes it back where the sequence does not come to its end. The
+// header is written last: what is killed before is no sequence, which would be checked as if it were whole.
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "io/atomic_file.h"
 #include "io/sequence_outputs.h"
 
 namespace selvage::io {
@@ -22,7 +24,8 @@ fs::path absent_or_empty(fs::path folder) {
 class FolderOutput final : public SequenceOutput {
  public:
   FolderOutput(fs::path folder, OutputHeader all)
-      : SequenceOutput(absent_or_empty(std::move(folder)), std::move(all)), writer_(target(), header().sequence) {}
+      : SequenceOutput(absent_or_empty(std::move(folder)), std::move(all)),
+        writer_(target(), header().sequence, false, HeaderTime::kLast) {}
   ~FolderOutput() override {
     if (!is_finished_) writer_.discard();
   }
@@ -33,7 +36,10 @@ class FolderOutput final : public SequenceOutput {
     require_same_mesh(header(), mesh, OutputFormat::kFolder, target());
     writer_.append(time_s, mesh.points);
   }
-  void commit() override { is_finished_ = true; }
+  void commit() override {
+    writer_.write_header();
+    is_finished_ = true;
+  }
 
   SequenceWriter writer_;
   bool is_finished_ = false;

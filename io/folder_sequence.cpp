@@ -24,8 +24,10 @@ class FolderSequence final : public SequenceReader {
   explicit FolderSequence(std::filesystem::path folder) : folder_(std::move(folder)) {
     const std::filesystem::path header_file = folder_ / kHeaderFile;
     if (!std::filesystem::exists(header_file)) {
-      bad_input(folder_.string(), "a folder without " + std::string(kHeaderFile) +
-                                      " is no sequence; name its mesh files instead, in the order of the frames");
+      bad_input(folder_.string(),
+                "a folder without " + std::string(kHeaderFile) +
+                    " is no sequence, or one that was not written to its end; write it again, or name " +
+                    "its mesh files, in the order of the frames");
     }
     description_ = parse_sequence_json(read_file(header_file), header_file.string());
     const std::filesystem::path faces_file = folder_ / description_.faces_file;

@@ -81,7 +81,7 @@ class ZipWriter {
     const std::uint64_t directory = position_;
     for (const Member& member : members_) put(directory_entry(member));
     put(ends(directory, position_ - directory));
-    file_.commit();
+    file_.commit_new();
   }
   const fs::path& target() const { return file_.target(); }
 
@@ -145,7 +145,7 @@ class NpzOutput final : public SequenceOutput {
  public:
   NpzOutput(fs::path file, OutputHeader all) : SequenceOutput(std::move(file), std::move(all)), zip_(target()) {
     const auto& [sequence, vertex_count, frame_count] = header();
-    written_.claim(target());
+    require_absent(target());
     zip_.begin("F.npy");
     zip_.write(npy_bytes(sequence.triangles));
     zip_.end();
@@ -170,11 +170,9 @@ class NpzOutput final : public SequenceOutput {
   void commit() override {
     zip_.end();
     zip_.commit();
-    written_.keep();
   }
 
   ZipWriter zip_;
-  WrittenFiles written_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "io/atomic_file.h"
 #include "io/fail.h"
 #include "io/fp_guard.h"
 #include "io/sequence_outputs.h"

@@ -23,7 +23,7 @@ class Pc2Output final : public SequenceOutput {
     if (frame_count > kMost || vertex_count > kMost) {
       bad_input(target().string(), "more than 2^31 - 1 frames or vertices; split the sequence");
     }
-    written_.claim(target());
+    require_absent(target());
     require_absent(base_);
     cache_.write(pc2_header(static_cast<std::uint32_t>(vertex_count), static_cast<std::uint32_t>(frame_count)));
   }
@@ -38,7 +38,7 @@ class Pc2Output final : public SequenceOutput {
     cache_.write(bytes);
   }
   void commit() override {
-    cache_.commit();
+    cache_.commit_new();
     written_.keep();
   }
 

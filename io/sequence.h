@@ -60,20 +60,28 @@ struct SequenceHeader {
   std::string producer;  ///< program and version
 };
 
+/// When a new folder gets its header, without which it is no sequence: before its first frame, so that a killed run is
+/// a shorter sequence, or when write_header() is called.
+enum class HeaderTime { kFirst, kLast };
+
 /// Writes the folder format (docs/formats.md). A frame appears by atomic rename and is listed, by one line appended to
-/// frames.jsonl, when it is on disk: a killed run leaves a valid, shorter sequence. O(frame) work and three fsyncs a
-/// frame, however many there are. A failed call throws Error, what was listed stays listed, and the next call may work.
+/// frames.jsonl, when it is on disk: a killed run leaves a valid, shorter sequence, if it had a header. O(frame) work
+/// and three fsyncs a frame, however many there are. A failed call throws Error, what was listed stays listed, and the
+/// next call may work.
 class SequenceWriter {
  public:
   /// Creates the folder. Throws Error if another process writes to it, or if it holds a sequence already, unless
   /// `resume`, which then continues behind the frames it lists, and checks that header and faces are the same and that
   /// these frames are there with their checksums; nothing in the folder changes before the first append() or
   /// truncate().
-  SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume = false);
+  SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume = false,
+                 HeaderTime header_time = HeaderTime::kFirst);
   ~SequenceWriter();
   /// Times increase; all frames have as many vertices as the first. With kFloat32 every value must be a float32.
   void append(double time_s, const Points& points);
   [[nodiscard]] std::size_t frame_count() const;
+  /// Makes a sequence of a folder that was begun with kLast. Throws Error(kFile) where somebody else has done so.
+  void write_header();
   /// Forgets all frames from `count` on: a resumed run continues behind its checkpoint. Throws Error if fewer are
   /// listed.
   void truncate(std::size_t count);

@@ -192,13 +192,6 @@ fs::path frame_path(const fs::path& target, std::size_t frame, const char* exten
   return target.parent_path() / (target.stem().string() + "_" + zeros + number + extension);
 }
 
-void require_absent(const fs::path& file) {
-  require_nameable(file);
-  std::error_code status;
-  if (!fs::exists(fs::symlink_status(file, status))) return;
-  throw Error(ErrorKind::kFile, file.string() + ": is there already; remove it, or choose another name");
-}
-
 void require_same_mesh(const OutputHeader& header, const MeshData& mesh, OutputFormat format, const fs::path& target) {
   const SequenceHeader& first = header.sequence;
   if (mesh.points.size() != header.vertex_count || mesh.triangles != first.triangles) {
@@ -221,14 +214,12 @@ WrittenFiles::~WrittenFiles() {
   for (const fs::path& file : files_) fs::remove(file, status);
 }
 
-void WrittenFiles::claim(const fs::path& file) {
-  require_absent(file);
-  files_.push_back(file);
-}
-
 void WrittenFiles::write(const fs::path& file, std::string_view bytes) {
-  claim(file);
-  write_atomically(file, bytes);
+  require_absent(file);
+  AtomicFile output(file);
+  output.write(bytes);
+  output.commit_new();
+  files_.push_back(file);
 }
 
 }  // namespace selvage::io

@@ -37,7 +37,8 @@ struct OutputHeader {
 };
 
 /// One sequence on its way to disk. What was written is removed again unless finish() returns; a kill may leave the
-/// frames of an OBJ or VTP sequence, a folder that is valid and shorter, or temporary files, never half a file.
+/// frames of an OBJ or VTP sequence, a folder without a header, which is no sequence, or temporary files, never half a
+/// file. A file that others make meanwhile stays: finish() or append() throws Error(kFile) then.
 class SequenceOutput {
  public:
   virtual ~SequenceOutput() = default;

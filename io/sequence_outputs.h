@@ -27,8 +27,6 @@ namespace selvage::io {
 /// cloth_000012.obj for cloth.obj.
 [[nodiscard]] std::filesystem::path frame_path(const std::filesystem::path& target, std::size_t frame,
                                                const char* extension);
-/// Throws Error(kFile) if `file` is there, or can have no such name.
-void require_absent(const std::filesystem::path& file);
 /// Throws Error(kBadInput) unless `mesh` has the number of vertices, the faces, and of the groups what the format
 /// keeps, as the first frame has them.
 void require_same_mesh(const OutputHeader& header, const MeshData& mesh, OutputFormat format,
@@ -41,9 +39,7 @@ class WrittenFiles {
   WrittenFiles(const WrittenFiles&) = delete;
   WrittenFiles& operator=(const WrittenFiles&) = delete;
   ~WrittenFiles();
-  /// To be called before `file` is made. Throws Error(kFile) if it is there.
-  void claim(const std::filesystem::path& file);
-  /// claim(), then write_atomically().
+  /// A new file, whole. Throws Error(kFile) where something has its name, which is none of these files and stays.
   void write(const std::filesystem::path& file, std::string_view bytes);
   void keep() { files_.clear(); }
 

@@ -1,5 +1,5 @@
 // Writes the sequence folder. Order on disk: a frame's file is renamed and synced before its line is appended and
-// synced, and the header appears last, so that whatever is listed is there at any instant of a kill.
+// synced, and the header appears behind faces and list, so that whatever is listed is there at any instant of a kill.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -103,7 +103,7 @@ std::string first_difference(const SequenceDescription& before, const SequenceDe
 }  // namespace
 
 struct SequenceWriter::Impl {
-  Impl(const fs::path& where, const SequenceHeader& header, bool resume)
+  Impl(const fs::path& where, const SequenceHeader& header, bool resume, HeaderTime header_time)
       : made_folders((check_header(header, where.string()), absent_folders(where))),
         folder(create_folder(where)),
         lock(lock_folder(folder)),
@@ -115,7 +115,7 @@ struct SequenceWriter::Impl {
     }
     std::error_code status;
     if (!fs::exists(folder / kHeaderFile, status)) {
-      begin(header);
+      begin(header, header_time);
     } else if (resume) {
       continue_from(header);
     } else {
@@ -123,22 +123,30 @@ struct SequenceWriter::Impl {
     }
   }
 
-  void begin(const SequenceHeader& header) try {
+  void begin(const SequenceHeader& header, HeaderTime header_time) try {
     const std::string faces = npy_bytes(header.triangles);
     write_atomically(folder / kFacesFile, faces);
     rewrite_list();
-    const std::string json = to_json(describe(header, crc32(faces)));
-    (void)parse_sequence_json(json, folder.string());  // more groups than a reader takes are an error now, not then
-    write_atomically(folder / kHeaderFile, json);
+    header_text = to_json(describe(header, crc32(faces)));
+    (void)parse_sequence_json(header_text, folder.string());  // more than a reader takes is an error now, not then
+    if (header_time == HeaderTime::kFirst) write_header();
   } catch (...) {
     discard();
     throw;
   }
 
+  void write_header() {
+    AtomicFile file(folder / kHeaderFile);
+    file.write(header_text);
+    file.commit_new();
+    has_written_header = true;
+  }
+
   /// The header first: what lists no frame is no sequence. A folder that holds anything else stays, with that.
   void discard() noexcept {
     std::error_code status;
-    for (const std::string_view file : {kHeaderFile, kFramesFile, kFacesFile}) fs::remove(folder / file, status);
+    if (has_written_header) fs::remove(folder / kHeaderFile, status);
+    for (const std::string_view file : {kFramesFile, kFacesFile}) fs::remove(folder / file, status);
     for (const FrameRecord& frame : frames) fs::remove(folder / frame.file, status);
     fs::remove(folder / frame_file(frames.size()), status);  // renamed, and then not listed
     remove_temporaries(folder);
@@ -235,14 +243,18 @@ struct SequenceWriter::Impl {
   std::size_t fewest_vertices = 0;  ///< that the faces need
   std::optional<std::size_t> vertex_count;
   std::vector<FrameRecord> frames;
+  std::string header_text;
+  bool has_written_header = false;
   std::optional<PosixFile> list;  ///< open for appending; absent before the first change, and after a failure
 };
 
-SequenceWriter::SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume)
-    : impl_(std::make_unique<Impl>(folder, header, resume)) {}
+SequenceWriter::SequenceWriter(std::filesystem::path folder, const SequenceHeader& header, bool resume,
+                               HeaderTime header_time)
+    : impl_(std::make_unique<Impl>(folder, header, resume, header_time)) {}
 SequenceWriter::~SequenceWriter() = default;
 void SequenceWriter::append(double time_s, const Points& points) { impl_->append(time_s, points); }
 std::size_t SequenceWriter::frame_count() const { return impl_->frames.size(); }
+void SequenceWriter::write_header() { impl_->write_header(); }
 void SequenceWriter::discard() noexcept { impl_->discard(); }
 void SequenceWriter::truncate(std::size_t count) { impl_->truncate(count); }
 

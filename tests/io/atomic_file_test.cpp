@@ -1,5 +1,6 @@
 #include "io/atomic_file.h"
 
+#include <functional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,25 @@ TEST(AtomicFile, BytesComeBack) {
   write_atomically(folder / "a", "");
   EXPECT_EQ(read_file(folder / "a"), "");
   EXPECT_EQ(entries(folder), 1u) << "a temporary file is left";
+}
+
+TEST(AtomicFile, ANewFileTakesNoPlace) {
+  const TemporaryFolder folder;
+  const auto commit = [&](const char* name, const std::function<void()>& meanwhile) {
+    AtomicFile file(folder / name);
+    file.write("new");
+    meanwhile();
+    file.commit_new();
+  };
+  commit("a", [] {});
+  EXPECT_EQ(slurp(folder / "a"), "new");
+  expect_error(ErrorKind::kFile, "b: is there already; remove it, or choose another name",
+               [&] { commit("b", [&] { spit(folder / "b", "theirs"); }); });
+  EXPECT_EQ(slurp(folder / "b"), "theirs");
+  expect_error(ErrorKind::kFile, "is there already",
+               [&] { commit("c", [&] { fs::create_symlink("nothing", folder / "c"); }); });
+  EXPECT_TRUE(fs::is_symlink(folder / "c"));
+  EXPECT_EQ(entries(folder), 3u) << "a temporary file is left";
 }
 
 TEST(AtomicFile, LinkIsFollowed) {

@@ -266,6 +266,44 @@ TEST(SequenceOutput, NothingIsOverwritten) {
   EXPECT_EQ(slurp(folder / "mine"), "mine");
 }
 
+// Whoever made them has been told nothing, and reads them as his own.
+TEST(SequenceOutput, WhatOthersMakeMeanwhileStays) {
+  const struct {
+    const char *target, *made;
+  } cases[] = {{"a.npz", "a.npz"}, {"a.obj", "a_000001.obj"}, {"a.pc2", "a.pc2"},    {"a.pc2", "a.obj"},
+               {"a.pvd", "a.pvd"}, {"a.pvd", "a_000001.vtp"}, {"a", "sequence.json"}};
+  for (const auto& c : cases) {
+    for (const bool is_finished : {true, false}) {
+      SCOPED_TRACE(std::string(c.target) + (is_finished ? ", finished, " : ", given up, ") + c.made);
+      const TemporaryFolder folder;
+      const fs::path made = c.target == std::string("a") ? folder / "a" / c.made : folder / c.made;
+      {
+        const auto output = create(folder / c.target, kTwoFrames);
+        spit(made, "theirs");
+        const auto write_all = [&] {
+          output->append(0, mesh_of(kTwoFrames[0]));
+          output->append(1, mesh_of(kTwoFrames[1]));
+          output->finish();
+        };
+        if (is_finished) expect_error(ErrorKind::kFile, std::string(c.made) + ": is there already", write_all);
+      }
+      EXPECT_EQ(slurp(made), "theirs");
+      EXPECT_EQ(std::distance(fs::directory_iterator(made.parent_path()), {}), 1);
+    }
+  }
+}
+
+TEST(SequenceOutput, AFolderIsNoSequenceBeforeItIsWhole) {
+  const TemporaryFolder folder;
+  const auto output = create(folder / "a", kTwoFrames);
+  output->append(0, mesh_of(kTwoFrames[0]));
+  expect_error(ErrorKind::kBadInput, "a folder without sequence.json", [&] { (void)open_sequence({folder / "a"}); });
+  output->append(1, mesh_of(kTwoFrames[1]));
+  expect_error(ErrorKind::kBadInput, "a folder without sequence.json", [&] { (void)open_sequence({folder / "a"}); });
+  output->finish();
+  EXPECT_EQ(open_sequence({folder / "a"})->frame_count(), 2U);
+}
+
 TEST(SequenceOutput, OfWhatFailsNothingIsLeft) {
   MeshData other_faces = mesh_of(kTwoFrames[1]), other_vertices = mesh_of(kTwoFrames[1]);
   std::swap(other_faces.triangles[0][0], other_faces.triangles[0][1]);
