@@ -121,6 +121,7 @@ void ZipArchive::read_directory(std::uint64_t offset, std::uint64_t size, std::u
       fail(in_quotes(member.name) + " is neither stored nor deflated; write it with numpy.savez");
     }
     member.is_deflated = method == Z_DEFLATED;
+    (void)data_offset(member);  // a member whose name was damaged here would be one that is not there
     members_.push_back(std::move(member));
     rest.remove_prefix(kEntrySize + name_size + extra_size + comment_size);
   }

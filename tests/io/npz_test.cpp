@@ -134,6 +134,20 @@ TEST(NpzHostile, DamagedArchives) {
   }
 }
 
+// Of a member that is not read as well: without its group, a body would be cloth.
+TEST(NpzHostile, ANameInTheDirectoryIsThatBeforeTheMember) {
+  const std::string whole = zip({{.name = "V.npy", .content = positions(2, "(2, 4, 3)")},
+                                 {.name = "F.npy", .content = npy_bytes(kFaces)},
+                                 {.name = "group.npy", .content = group_numbers({0, 1, 1})}});
+  ASSERT_EQ(open_bytes(whole)->groups().size(), 2u);
+  const std::size_t name = whole.rfind("group.npy");
+  for (std::size_t bit = 0; bit < 8 * std::string("group.npy").size(); ++bit) {
+    std::string damaged = whole;
+    damaged[name + bit / 8] = static_cast<char>(damaged[name + bit / 8] ^ 1 << bit % 8);
+    expect_bad_npz("is not here; copy the file again", damaged);
+  }
+}
+
 TEST(NpzHostile, BombStopsAtTheSizeItShows) {
   const std::string zeros(50'000'000, '\0');
   const ZipEntry bomb = {.name = "V.npy", .content = zeros, .deflate = true, .size_error = 1000 - 50'000'000};
