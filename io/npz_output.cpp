@@ -7,9 +7,11 @@
 #include "io/atomic_file.h"
 #include "io/byte_order.h"
 #include "io/checksum.h"
+#include "io/fail.h"
 #include "io/npy.h"
 #include "io/points.h"
 #include "io/sequence_outputs.h"
+#include "io/sequence_readers.h"
 
 namespace selvage::io {
 namespace fs = std::filesystem;
@@ -146,13 +148,15 @@ class NpzOutput final : public SequenceOutput {
   NpzOutput(fs::path file, OutputHeader all) : SequenceOutput(std::move(file), std::move(all)), zip_(target()) {
     const auto& [sequence, vertex_count, frame_count] = header();
     require_absent(target());
+    const std::string roles = role_bytes(sequence.triangles.size(), sequence.groups);
+    require_readable(roles);
     zip_.begin("F.npy");
     zip_.write(npy_bytes(sequence.triangles));
     zip_.end();
     if (!sequence.groups.empty()) {
       zip_.begin("group.npy");
       zip_.write(npy_start("|u1", {sequence.triangles.size()}));
-      zip_.write(role_bytes(sequence.triangles.size(), sequence.groups));
+      zip_.write(roles);
       zip_.end();
     }
     zip_.begin("V.npy");
@@ -161,6 +165,15 @@ class NpzOutput final : public SequenceOutput {
   std::vector<fs::path> sources() const override { return {target()}; }
 
  private:
+  /// What the reader would refuse is refused here, while the input is still there.
+  void require_readable(const std::string& roles) const {
+    std::size_t groups = 1;
+    for (std::size_t face = 1; face < roles.size(); ++face) groups += roles[face] != roles[face - 1] ? 1 : 0;
+    if (groups <= kMostNpzGroups) return;
+    bad_input(target().string(), "cloth and bodies alternate " + std::to_string(groups) +
+                                     " times over the faces, which no .npz holds (4,096 at most); write a folder, or " +
+                                     "sort the faces by group");
+  }
   void write_frame(double, const MeshData& mesh) override {
     require_same_mesh(header(), mesh, OutputFormat::kNpz, target());
     std::string bytes;

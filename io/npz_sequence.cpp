@@ -15,9 +15,6 @@ namespace {
 
 std::string whole(const ByteSource& source) { return source.read(0, source.size()); }
 
-/// A scene has some dozens; a group for every face would take far more memory than the file.
-constexpr std::size_t kMostGroups = 4096;
-
 /// Runs of faces with the same number become groups.
 std::vector<Group> groups_of(const std::vector<std::int64_t>& numbers, const std::string& name) {
   std::vector<Group> groups;
@@ -27,7 +24,7 @@ std::vector<Group> groups_of(const std::vector<std::int64_t>& numbers, const std
                           "; write 0 for cloth, 1 for bodies");
     }
     if (face == 0 || numbers[face] != numbers[face - 1]) {
-      if (groups.size() == kMostGroups)
+      if (groups.size() == kMostNpzGroups)
         bad_input(name, "cloth and bodies alternate too often; sort the faces by group");
       const bool is_cloth = numbers[face] == 0;
       groups.push_back({is_cloth ? "cloth" : "body", is_cloth ? Group::Role::kCloth : Group::Role::kBody,

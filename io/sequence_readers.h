@@ -1,6 +1,7 @@
 // The readers behind open_sequence(), one a source.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,6 +17,9 @@ namespace selvage::io {
 [[nodiscard]] std::unique_ptr<SequenceReader> open_folder_sequence(const std::filesystem::path& folder);
 /// Its header, faces and frames; none where there is no header, for that is no sequence.
 [[nodiscard]] std::vector<std::filesystem::path> folder_sequence_files(const std::filesystem::path& folder);
+/// Of an .npz, in which every change between cloth and bodies begins one. A scene has some dozens; a group for every
+/// face would take far more memory than the file.
+inline constexpr std::size_t kMostNpzGroups = 4096;
 /// An .npz with V, F and maybe group; `name` appears in errors.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_npz_sequence(std::shared_ptr<const ByteSource> source,
                                                                 std::string name);

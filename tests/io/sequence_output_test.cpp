@@ -373,6 +373,20 @@ TEST(SequenceOutput, GroupsThatChangeAreRefusedWhereTheyAreHeldOnce) {
   append(folder / "a.pvd", other_body);
 }
 
+TEST(SequenceOutput, GroupsThatNoNpzHoldsAreRefusedBeforeAnythingIsWritten) {
+  const TemporaryFolder folder;
+  const auto create_with = [&](std::int32_t changes) {
+    OutputHeader header{{}, 3, 1};
+    header.sequence.triangles.assign(static_cast<std::size_t>(changes), {0, 1, 2});
+    for (std::int32_t i = 1; i < changes; i += 2) header.sequence.groups.push_back({"b", Group::Role::kBody, i, i + 1});
+    return create_output(folder / "a.npz", header);
+  };
+  EXPECT_NO_THROW((void)create_with(4096));
+  expect_error(ErrorKind::kBadInput, "a.npz: cloth and bodies alternate 4097 times over the faces, which no .npz holds",
+               [&] { (void)create_with(4097); });
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
 /// Without the directory at the end, as one reads from a pipe.
 TEST(SequenceOutput, NpzCanBeReadAsAStream) {
   const TemporaryFolder folder;
