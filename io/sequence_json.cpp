@@ -22,7 +22,6 @@ namespace {
 using Json = nlohmann::ordered_json;  // keeps the order of keys: a folder is read by people too
 
 constexpr std::string_view kSchema = "selvage.sequence/1";
-constexpr std::size_t kLargestHeader = std::size_t{1} << 20;
 constexpr std::size_t kLongestRecord = std::size_t{1} << 12;
 constexpr std::size_t kShortestRecord = std::string_view(R"({"file":"a"})").size();
 

@@ -2,6 +2,7 @@
 // by one line a frame. One list in one file rewritten after each frame would cost O(n^2) bytes over a run.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "io/sequence.h"
 
 namespace selvage::io {
+
+/// Bytes of sequence.json: some 100,000 groups.
+inline constexpr std::size_t kLargestHeader = std::size_t{1} << 24;
 
 inline constexpr std::string_view kHeaderFile = "sequence.json";
 inline constexpr std::string_view kFacesFile = "faces.npy";

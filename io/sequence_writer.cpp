@@ -128,7 +128,11 @@ struct SequenceWriter::Impl {
     write_atomically(folder / kFacesFile, faces);
     rewrite_list();
     header_text = to_json(describe(header, crc32(faces)));
-    (void)parse_sequence_json(header_text, folder.string());  // more than a reader takes is an error now, not then
+    if (header_text.size() > kLargestHeader) {  // which no reader would take
+      bad_input(folder.string(), std::to_string(header.groups.size()) +
+                                     " groups with their names do not fit into sequence.json (16 MiB); join groups, " +
+                                     "or shorten their names");
+    }
     if (header_time == HeaderTime::kFirst) write_header();
   } catch (...) {
     discard();

@@ -213,7 +213,7 @@ std::vector<Hostile> hostile_files() {
       {"json_deep", "sequence_json", std::string(100'000, '['), "in: not a JSON object"},
       {"json_deep_object", "sequence_json", rows(1000, "{\"faces\":"), "in: unknown key 'faces'; remove it"},
       {"json_deep_list", "sequence_json", "{\"groups\":" + std::string(1000, '['), "in: not a JSON object"},
-      {"json_large", "sequence_json", "[" + std::string(2'000'000, ' ') + "]", "larger than a header"},
+      {"json_large", "sequence_json", "[" + std::string(20'000'000, ' ') + "]", "larger than a header"},
       {"json_not_utf8", "sequence_json", sequence_json("test", "\xff"), "in:3: not valid JSON"},
       {"json_number_range", "sequence_json", sequence_json("\"test\"", "1e999"), "number"},
       {"json_zero_behind", "sequence_json", sequence_json("test", "test") + '\0' + "junk", "a zero byte"},

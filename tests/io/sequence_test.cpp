@@ -1,6 +1,9 @@
 #include "io/sequence.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -165,7 +168,43 @@ TEST(SequenceFolder, HeadersThatNoReaderTakesAreNotWritten) {
   });
   refuse("not UTF-8", [](SequenceHeader& header) { header.groups[0].name = "caf\xe9"; });
   refuse("not UTF-8", [](SequenceHeader& header) { header.producer = "\xff"; });
-  refuse("larger than a header", [](SequenceHeader& header) { header.groups.resize(20'000); });
+  refuse("200001 groups with their names do not fit into sequence.json (16 MiB); join groups, or shorten their names",
+         [](SequenceHeader& header) { header.groups.resize(200'001); });
+}
+
+TEST(SequenceFolder, NoFaceHasTwoRolesHoweverGroupsOverlap) {
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Group> groups(random() % 6);
+    std::array<std::array<bool, 2>, 10> has = {};  // face, role
+    for (Group& group : groups) {
+      group.role = random() % 2 == 0 ? Group::Role::kCloth : Group::Role::kBody;
+      group.face_begin = static_cast<std::int32_t>(random() % 10);
+      group.face_end = std::min<std::int32_t>(10, group.face_begin + static_cast<std::int32_t>(random() % 4));
+      for (std::int32_t face = group.face_begin; face < group.face_end; ++face) {
+        has.at(static_cast<std::size_t>(face)).at(group.role == Group::Role::kCloth ? 0 : 1) = true;
+      }
+    }
+    const bool is_twice = std::ranges::any_of(has, [](const auto& roles) { return roles[0] && roles[1]; });
+    refused += is_twice ? 1 : 0;
+    if (is_twice) {
+      expect_error(ErrorKind::kBadInput, "which is cloth, and in", [&] { require_one_role(groups, "a"); });
+    } else {
+      EXPECT_NO_THROW(require_one_role(groups, "a"));
+    }
+  }
+  EXPECT_GT(refused, 200);
+}
+
+// What a scene of 10,000 copies makes, beside a body, and what files of garments hold.
+TEST(SequenceFolder, ManyGroupsComeBack) {
+  const TemporaryFolder folder;
+  SequenceHeader header = square_header();
+  header.groups.assign(100'000, {"sheet of the row in the wind", Group::Role::kCloth, 0, 1});
+  header.groups.push_back({"ball", Group::Role::kBody, 1, 2});
+  { SequenceWriter(folder.path(), header).append(0, square(0)); }
+  EXPECT_EQ(open_sequence({folder.path()})->groups(), header.groups);
 }
 
 TEST(SequenceFolder, AFailedAppendLosesNothingAndTheNextMayWork) {
