@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "bench/broad_bench.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/list_option.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -68,7 +68,7 @@ ExitCode bench_broad(const BroadArguments& arguments) {
   const auto run = [&](const std::string& name, const bench::MeshMotion& motion) {
     reports.push_back(bench::run_broad_bench(motion, rivals, arguments.options));
     reports.back().motion = name;
-    fmt::print("{}", table(reports.back()));
+    print_result(table(reports.back()), {arguments.json});
   };
   if (!arguments.frame_t0.empty()) {
     if (arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
@@ -81,9 +81,10 @@ ExitCode bench_broad(const BroadArguments& arguments) {
       }
     }
   }
-  fmt::print("processor time of all threads, and wall time of the query; best of {} passes; reach 0\n",
-             arguments.options.repeat);
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports, rivals));
+  print_result(fmt::format("processor time of all threads, and wall time of the query; best of {} passes; reach 0\n",
+                           arguments.options.repeat),
+               {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports, rivals));
   const auto wrong = [](const bench::BroadMotionReport& report) { return bench::is_wrong(report); };
   return std::ranges::any_of(reports, wrong) ? ExitCode::kViolation : ExitCode::kClean;
 }

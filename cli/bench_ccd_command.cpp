@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "bench/ccd_bench.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -70,8 +70,8 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   }
   bench::CcdBenchReport report = bench::run_ccd_bench(motion, labels, arguments.options);
   report.motion = from_files ? arguments.frame_t0 + " -> " + arguments.frame_t1 : "crumpled sheet";
-  fmt::print("{}", table(report));
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(report));
+  print_result(table(report), {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
   const auto is_wrong = [](const bench::CcdMethodReport& method) {
     return method.name.starts_with("kernel") && (method.false_negatives > 0 || method.toi.late > 0);
   };

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "bench/method_bench.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/hard_queries.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -39,7 +39,7 @@ ExitCode bench_methods(const MethodsArguments& arguments) {
   const auto run = [&](const bench::QuerySet& set) {
     if (set.queries.empty()) return;
     reports.push_back(bench::run_method_bench(set, arguments.options));
-    fmt::print("{}", table(reports.back()));
+    print_result(table(reports.back()), {arguments.json});
   };
   const auto most = static_cast<std::size_t>(arguments.most);
   if (!arguments.frame_t0.empty()) {
@@ -54,12 +54,13 @@ ExitCode bench_methods(const MethodsArguments& arguments) {
   if (arguments.hard > 0) {
     for (const bench::QuerySet& set : hard_query_sets(arguments.hard)) run(set);
   }
-  fmt::print(
-      "one thread; processor time of the best of up to {} passes; ratio: to {} {} in the same run; the exact checker "
-      "says "
-      "the truth; times of impact as shares of the step\n",
-      arguments.options.repeat, bench::kBaselineMethod, bench::kBaselineSetting);
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports));
+  print_result(fmt::format("one thread; processor time of the best of up to {} passes; ratio: to {} {} in the same "
+                           "run; the exact checker "
+                           "says "
+                           "the truth; times of impact as shares of the step\n",
+                           arguments.options.repeat, bench::kBaselineMethod, bench::kBaselineSetting),
+               {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports));
   return std::any_of(reports.begin(), reports.end(), bench::breaks_promise) ? ExitCode::kViolation : ExitCode::kClean;
 }
 

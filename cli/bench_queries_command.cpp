@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "bench/query_bench.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -74,8 +74,8 @@ ExitCode bench_queries(const QueriesArguments& arguments) {
   }
   if (count == 0) throw io::Error(io::ErrorKind::kBadInput, arguments.files.front() + ": no queries to measure");
   const bench::QueryBenchReport report = bench::run_query_bench(files, arguments.options);
-  fmt::print("{}", table(report));
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(report));
+  print_result(table(report), {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
   print_contradicted(report.contradicted);
   const bench::MethodReport& kernel = report.methods.front();
   const bool is_right = kernel.false_negatives == 0 && kernel.toi.late == 0 && report.contradicted.empty();

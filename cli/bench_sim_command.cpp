@@ -6,11 +6,11 @@
 
 #include "bench/sim_bench.h"
 #include "bench/sim_scenes.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/list_option.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -68,9 +68,11 @@ std::string tables(const bench::SimBenchReport& report) {
 ExitCode bench_sim(const SimBenchArguments& arguments) {
   require_outputs({}, {arguments.json});
   const bench::SimBenchReport report = bench::run_sim_bench(arguments.options);
-  fmt::print("{}", tables(report));
-  fmt::print("processor time of all threads, best of {} runs (growth: one run)\n", arguments.options.repeat);
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(report));
+  print_result(tables(report), {arguments.json});
+  print_result(
+      fmt::format("processor time of all threads, best of {} runs (growth: one run)\n", arguments.options.repeat),
+      {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
   return ExitCode::kClean;
 }
 

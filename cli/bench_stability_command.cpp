@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "bench/stability/suite.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -55,10 +55,10 @@ ExitCode bench_stability(const StabilityArguments& arguments) {
     return ExitCode::kInterrupted;
   }
   const std::vector<bench::StabilityCaseReport>& reports = *finished;
-  fmt::print("{}", bench::to_markdown(reports));
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports, arguments.quick));
+  print_result(bench::to_markdown(reports), {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports, arguments.quick));
   const auto failed = std::ranges::count_if(reports, [](const auto& report) { return !report.passed(); });
-  fmt::print("\n{} cases, {} failed\n", reports.size(), failed);
+  print_result(fmt::format("\n{} cases, {} failed\n", reports.size(), failed), {arguments.json});
   return failed == 0 ? ExitCode::kClean : ExitCode::kViolation;
 }
 

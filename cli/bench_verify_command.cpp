@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "bench/verify_bench.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/list_option.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -46,12 +46,13 @@ ExitCode bench_verify(const VerifyBenchArguments& arguments) {
   const bench::LoadedFrameRival rival = bench::load_frame_rival(bench::rivals_beside_program());
   if (!rival.create) say("selvage: without CGAL: {}\n", rival.absent);
   const std::vector<bench::VerifySheetReport> reports = bench::run_verify_bench(rival, arguments.options);
-  for (const bench::VerifySheetReport& report : reports) fmt::print("{}", table(report));
-  fmt::print(
-      "each method in a process of its own; processor time of all threads and wall time, best of {} passes; /frame: "
-      "processor time over that of the frame check in the same run\n",
-      arguments.options.repeat);
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, bench::to_json(reports, rival));
+  for (const bench::VerifySheetReport& report : reports) print_result(table(report), {arguments.json});
+  print_result(fmt::format("each method in a process of its own; processor time of all threads and wall time, best of "
+                           "{} passes; /frame: "
+                           "processor time over that of the frame check in the same run\n",
+                           arguments.options.repeat),
+               {arguments.json});
+  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports, rival));
   const auto wrong = [](const bench::VerifySheetReport& report) { return bench::is_wrong(report); };
   return std::ranges::any_of(reports, wrong) ? ExitCode::kViolation : ExitCode::kClean;
 }

@@ -14,12 +14,12 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "cli/answer/result.h"
 #include "cli/arguments/output_check.h"
 #include "cli/process/fp_state.h"
 #include "cli/process/hostile_fp.h"
 #include "cli/process/self_check.h"
 #include "cli/process/version.h"
-#include "io/atomic_file.h"
 #include "kernel/fp_env.h"
 
 namespace selvage::cli {
@@ -96,19 +96,20 @@ std::string verdict_of(const SelfCheck& check) {
   return fmt::format("{} answers, {} WRONG: {}", check.answers, check.wrong.size(), fmt::join(check.wrong, "; "));
 }
 
-void print(const Diagnosis& diagnosis) {
-  fmt::print("{}\n", diagnosis.is_sound() ? "sound" : "unsound");
+std::string text_of(const Diagnosis& diagnosis) {
+  std::string text = diagnosis.is_sound() ? "sound\n" : "unsound\n";
   const std::string found =
       diagnosis.as_found.empty() ? "sound as found" : fmt::format("as found: {}", fmt::join(diagnosis.as_found, ", "));
   const std::string remaining = diagnosis.under_guard.empty()
                                     ? (diagnosis.as_found.empty() ? "" : "; repaired")
                                     : fmt::format("; NOT REPAIRED: {}", fmt::join(diagnosis.under_guard, ", "));
-  fmt::print("floating point: {}{}\n", found, remaining);
-  fmt::print("self-check:     {}\n", verdict_of(diagnosis.self_check));
-  fmt::print("called where:   {}: {}\n", fmt::join(diagnosis.hostile, "; "), verdict_of(diagnosis.hostile_check));
-  fmt::print("SIMD:           {}\n", fmt::join(diagnosis.simd, ", "));
-  fmt::print("threads:        {} of {} cores\n", diagnosis.threads, diagnosis.cores);
-  fmt::print("{}\n", diagnosis.versions);
+  text += fmt::format("floating point: {}{}\n", found, remaining);
+  text += fmt::format("self-check:     {}\n", verdict_of(diagnosis.self_check));
+  text +=
+      fmt::format("called where:   {}: {}\n", fmt::join(diagnosis.hostile, "; "), verdict_of(diagnosis.hostile_check));
+  text += fmt::format("SIMD:           {}\n", fmt::join(diagnosis.simd, ", "));
+  text += fmt::format("threads:        {} of {} cores\n", diagnosis.threads, diagnosis.cores);
+  return text + diagnosis.versions + "\n";
 }
 
 std::string json_of(const Diagnosis& diagnosis) {
@@ -132,8 +133,8 @@ std::string json_of(const Diagnosis& diagnosis) {
 ExitCode run(unsigned fp_as_found, const std::string& json) {
   require_outputs({}, {json});
   const Diagnosis diagnosis = examine(fp_as_found);
-  if (!json.empty()) io::write_atomically(json, json_of(diagnosis));
-  print(diagnosis);
+  if (!json.empty()) write_report(json, json_of(diagnosis));
+  print_result(text_of(diagnosis), {json});
   return diagnosis.is_sound() ? ExitCode::kClean : ExitCode::kFpEnvironment;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/answer/result.h"
 #include "cli/answer/verdict.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
@@ -83,9 +84,9 @@ ExitCode run(const MergeArguments& arguments) {
   } catch (const verify::MergeError& error) {
     throw io::Error(io::ErrorKind::kBadInput, error.what());
   }
-  io::write_atomically(arguments.output, verify::json_report(merged.report, merged.context));
+  write_report(arguments.output, verify::json_report(merged.report, merged.context));
   if (!arguments.html.empty()) {
-    io::write_atomically(arguments.html, report_page(merged.report, merged.context, nullptr, {}));
+    write_report(arguments.html, report_page(merged.report, merged.context, nullptr, {}));
   }
   print_notes(merged.context.notes);
   constexpr std::size_t kMostListed = 10;  // as selvage verify does on a terminal

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer/replay.h"
+#include "cli/answer/result.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
@@ -74,16 +75,16 @@ ExitCode run(const ReplayArguments& arguments) {
   for (const std::filesystem::path& file : files) {
     const std::string text = io::read_file(file, kLargestCase), name = file.string();
     explanations.push_back(replay_text(text, name, asked));
-    fmt::print("{}", explanations.back().text);
+    print_result(explanations.back().text, {arguments.json});
     const bool is_asked = is_for_plugins(fuzz::kind_of_case(text, name));
     for_plugins += is_asked ? 1 : 0;
-    if (asked && !is_asked) fmt::print("  the plugin was not asked: it answers vf and ee alone\n");
+    if (asked && !is_asked) print_result("  the plugin was not asked: it answers vf and ee alone\n", {arguments.json});
     json += (explanations.size() > 1 ? ",\n" : "\n") + explanations.back().json;
   }
   if (asked && for_plugins == 0) {
     throw io::Error(io::ErrorKind::kBadInput, arguments.plugin + ": was asked nothing; name a case of vf or ee");
   }
-  if (!arguments.json.empty()) io::write_atomically(arguments.json, json + "\n]\n}\n");
+  if (!arguments.json.empty()) write_report(arguments.json, json + "\n]\n}\n");
   return exit_code_of(explanations);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/answer/case_output.h"
+#include "cli/answer/result.h"
 #include "cli/answer/verdict.h"
 #include "cli/answer/verify_progress.h"
 #include "cli/arguments/output_check.h"
@@ -16,7 +17,6 @@
 #include "cli/page/report_page.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 #include "verify/report/report.h"
 
 namespace selvage::cli {
@@ -84,13 +84,13 @@ void write_outputs(const VerifyArguments& arguments, const io::SequenceReader& s
     write_cases(arguments.cases.empty() ? "disagreements" : arguments.cases, 0, report.disagreements);
   }
   if (!arguments.json.empty()) {
-    io::write_atomically(arguments.json, verify::json_report(report, context));
+    write_report(arguments.json, verify::json_report(report, context));
     if (is_complete(report)) VerifyProgress(arguments.json, context).remove();
   }
   if (!arguments.html.empty()) {
     const ReportPageOptions page{arguments.min_distance.value_or(0),
                                  static_cast<std::size_t>(arguments.html_mb) * 1000 * 1000};
-    io::write_atomically(arguments.html, report_page(report, context, &sequence, page));
+    write_report(arguments.html, report_page(report, context, &sequence, page));
   }
 }
 

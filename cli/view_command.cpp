@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/result.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/hidden_groups.h"
 #include "cli/arguments/output_check.h"
@@ -14,7 +15,6 @@
 #include "cli/page/player_page.h"
 #include "cli/page/report_words.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 
 namespace selvage::cli {
 namespace {
@@ -36,8 +36,8 @@ ExitCode view_sequence(const ViewArguments& arguments) {
   const PlayerPage made =
       player_page(title, *sequence, arguments.up, static_cast<std::size_t>(arguments.max_mb) * 1000 * 1000,
                   [&](std::size_t done, std::size_t total) { bar.update(done, total); });
-  io::write_atomically(arguments.page, made.html);
-  fmt::print("{}\n", made.summary);
+  write_report(arguments.page, made.html);
+  print_result(made.summary + "\n", {arguments.page});
   return ExitCode::kClean;
 }
 

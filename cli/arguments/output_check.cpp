@@ -86,7 +86,8 @@ void require_separate_outputs(const std::vector<fs::path>& inputs, const std::ve
     }
     require_replaceable(output);
     for (std::size_t k = 0; k < i; ++k) {
-      if (outputs[k].empty() || !is_output(outputs[k])) continue;
+      const bool is_one_stream = is_standard_output(output) && is_standard_output(outputs[k]);  // or a pipe
+      if (outputs[k].empty() || (!is_output(outputs[k]) && !is_one_stream)) continue;
       throw UsageError(output.string() + " is named for two outputs, and would be overwritten; name another file");
     }
   }
@@ -98,6 +99,7 @@ void require_writable(const std::vector<fs::path>& outputs) {
     std::error_code status;
     if (fs::is_directory(output, status)) io::file_error(output.string(), "open", EISDIR);
     if (fs::exists(output, status) && !fs::is_regular_file(output, status)) continue;  // opening a pipe would wait
+    if (is_standard_output(output)) continue;
     const io::AtomicFile trial(io::behind_links(output));
   }
 }

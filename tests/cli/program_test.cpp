@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_faces.h"
 
 namespace selvage {
 
@@ -97,6 +98,55 @@ TEST(Program, NotesThatCannotBeWrittenStopNothing) {
   // The text goes to stderr where the report takes stdout.
   EXPECT_EQ(shell(folder, SELVAGE_PROGRAM " verify quad.obj --json /dev/stdout > report.json 2> /dev/full"), 0);
   EXPECT_TRUE(nlohmann::json::accept(testing::slurp(folder.path() / "report.json")));
+}
+
+// Renamed over what is behind stdout, the report would take the place of a log that it is appended to.
+TEST(Program, AReportOnStdoutStandsThereAloneBehindWhatWasThere) {
+  const TemporaryFolder folder;
+  const auto of = [&](const char* name) { return testing::slurp(folder.path() / name); };
+  spit(folder.path() / "a.obj", testing::two_faces(0));
+  const std::string at_rest = "1,4,1,4,0,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,1,1,0,1\n";  // a vertex on a face
+  spit(folder.path() / "a_vf.csv", at_rest + at_rest);
+  ASSERT_EQ(shell(folder, SELVAGE_PROGRAM " verify a.obj --json part.json --shard 1/1 --cases cases > out.txt"), 1);
+  const struct {
+    std::string arguments, said;
+    bool is_page = false;
+  } commands[] = {{"verify a.obj --json ", "violated"},
+                  {"verify a.obj --html ", "violated", true},
+                  {"merge part.json -o ", "violated"},
+                  {"doctor --json ", "sound"},
+                  {"replay cases --json ", "exact:"},
+                  {"view a.obj -o ", "frame", true},
+                  {"bench queries a_vf.csv --repeat 1 --json ", "kernel"},
+                  {"bench ccd --sheet 4 --repeat 1 --json ", "kernel"}};
+  for (const auto& command : commands) {
+    const auto expect_report = [&](const std::string& text) {
+      EXPECT_EQ(command.is_page ? text.starts_with("<!") : nlohmann::json::accept(text), true) << text.substr(0, 200);
+      EXPECT_NE(of("err.txt").find(command.said), std::string::npos) << of("err.txt");
+    };
+    const std::string program = SELVAGE_PROGRAM " " + command.arguments;
+    for (const char* name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "log.txt"}) {
+      SCOPED_TRACE(command.arguments + name);
+      spit(folder.path() / "log.txt", "before\n");
+      EXPECT_LE(shell(folder, program + name + " >> log.txt 2> err.txt"), 1);
+      EXPECT_TRUE(of("log.txt").starts_with("before\n")) << of("log.txt").substr(0, 200);
+      expect_report(of("log.txt").substr(std::min<std::size_t>(7, of("log.txt").size())));
+    }
+    SCOPED_TRACE(command.arguments + "a pipe");
+    EXPECT_EQ(shell(folder, program + "/dev/stdout 2> err.txt | cat > log.txt"), 0);
+    expect_report(of("log.txt"));
+  }
+}
+
+TEST(Program, TwoReportsDoNotShareStdout) {
+  const TemporaryFolder folder;
+  spit(folder.path() / "a.obj", testing::two_faces(0));
+  const std::string verify = SELVAGE_PROGRAM " verify a.obj --json /dev/stdout --html ";
+  EXPECT_EQ(shell(folder, verify + "/dev/stdout 2> err.txt > log.txt"), 2);
+  EXPECT_EQ(shell(folder, verify + "log.txt 2> err.txt > log.txt"), 2);
+  EXPECT_EQ(shell(folder, "(" + verify + "/dev/fd/1 2> err.txt; echo $? > code.txt) | cat > log.txt"), 0);
+  EXPECT_EQ(testing::slurp(folder.path() / "code.txt"), "2\n");
+  EXPECT_NE(testing::slurp(folder.path() / "err.txt").find("is named for two outputs"), std::string::npos);
 }
 
 TEST(Program, AnEmptyArgumentIsUsage) {
