@@ -234,7 +234,7 @@ TEST(SubdivideCommand, ASignalEndsTheWorkOnAFrame) {
   writer.append(0, sheet.points);
   const pid_t child = testing::start_program(
       folder.path(), {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--levels", "6"});
-  for (int i = 0; i < 60000 && !fs::exists(folder.path() / "fine" / "sequence.json"); ++i) usleep(1000);
+  for (int i = 0; i < 60000 && !fs::exists(folder.path() / "fine" / "frames.jsonl"); ++i) usleep(1000);
   usleep(200'000);  // the only frame is begun, and takes seconds
   kill(child, SIGTERM);
   const auto result = testing::wait_for_program(folder.path(), child);
