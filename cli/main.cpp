@@ -20,6 +20,7 @@
 #include "cli/subdivide_command.h"
 #include "cli/verify_command.h"
 #include "cli/view_command.h"
+#include "io/text.h"
 #include "kernel/fp_env.h"
 
 int main(int argc, char** argv) {
@@ -32,7 +33,7 @@ int main(int argc, char** argv) {
   show_example_first(program, "selvage --version");
   program.set_version_flag("--version", version_text, "Version of the program and of the libraries in it");
   program.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("selvage: ") + error.what() + "; --help says more\n";
+    return "selvage: " + selvage::io::printable(error.what()) + "; --help says more\n";
   });
   program.require_subcommand(0, 1);  // one is required, but an unknown name shall be named: see below
 

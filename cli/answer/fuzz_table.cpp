@@ -37,7 +37,9 @@ std::string reproduce(const fuzz::Property& property, const std::string& stream,
   std::string text = fmt::format("      selvage fuzz {} --seed {} --only {}:{}\n", property.name(), ledger.seed,
                                  fuzz::stream_word(stream), finding.number);
   if (!finding.file.empty()) {
-    text = fmt::format("      selvage replay {}\n", io::shell_word(fmt::format("{}/{}", folder, finding.file))) + text;
+    text = fmt::format("      selvage replay {}\n",
+                       io::printable(io::shell_word(fmt::format("{}/{}", folder, finding.file)))) +
+           text;
   }
   return text;
 }

@@ -109,7 +109,8 @@ std::string unasked_text(const fuzz::PluginRecord& record, const std::string& na
   return fmt::format(
       "  plugin:   {} failed with '{}' when this was kept, and was not asked now: Selvage's own kernel was\n"
       "            ask it with: selvage replay --plugin {} {}\n",
-      io::printable(record.library), record.failure, io::shell_word(record.library), io::shell_word(name));
+      io::printable(record.library), record.failure, io::printable(io::shell_word(record.library)),
+      io::printable(io::shell_word(name)));
 }
 
 std::string plugin_text(const fuzz::PluginTrial& plugin, const MotionReplay& replay) {

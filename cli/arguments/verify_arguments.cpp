@@ -141,7 +141,7 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
       .add_option("--max-violations", arguments.max_violations,
                   fmt::format("List at most this many; all are counted (default: {} in the JSON, {} on the terminal)",
                               kViolationsInJson, kViolationsInText))
-      ->check(number_from(0));  // as a signed number: an unsigned one would wrap "-3" around
+      ->check(number_between(0, 1e15));  // of what is beyond 2^63 the command line takes the nearest number
   add_long_runs(command, arguments);
   add_threads(command, arguments.threads);
 }

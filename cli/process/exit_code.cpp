@@ -14,7 +14,8 @@
 namespace selvage::cli {
 namespace {
 
-constexpr const char* kLostOutput = "cannot write the result to standard output";
+constexpr const char* kLostOutput =
+    "cannot write the result to standard output; send it to a file on a disk with room, or to a program that reads it";
 
 /// What holds a file's own text, such as the name of a group, neither breaks the line nor commands the terminal.
 ExitCode failed(const Failure& failure) {

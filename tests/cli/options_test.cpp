@@ -57,7 +57,12 @@ TEST(Options, ANumberThatWouldBeRoundedToZeroIsRefused) {
 
 TEST(Options, TheRangeIsSaidInShort) {
   expect_usage_errors({
-      {{"verify", "none.obj", "--max-violations", "-1"}, "--max-violations", "'-1' is not a number from 0 up"},
+      {{"verify", "none.obj", "--max-violations", "-1"},
+       "--max-violations",
+       "'-1' is not a number from 0 to 1000000000000000"},
+      {{"verify", "none.obj", "--max-violations", "9999999999999999999"},
+       "--max-violations",
+       "from 0 to 1000000000000000"},
       {{"fuzz", "ccd", "--cases", "0"}, "--cases", "'0' is not a number from 1 to 1000000000000000"},
       {{"fuzz", "ccd", "--jobs", "0"}, "--jobs", "'0' is not a number from 1 up"},
       {{"fuzz", "ccd", "--case-time", "0"}, "--case-time", "'0' is not a number above 0"},

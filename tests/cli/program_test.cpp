@@ -48,7 +48,9 @@ TEST(Program, ALongResultThatNobodyReceivesIsAFileError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   const TemporaryFolder folder;
   EXPECT_EQ(shell(folder, SELVAGE_PROGRAM " bench stability --list > /dev/full 2> err.txt"), 4);
-  EXPECT_EQ(testing::slurp(folder.path() / "err.txt"), "selvage: cannot write the result to standard output\n");
+  EXPECT_EQ(testing::slurp(folder.path() / "err.txt"),
+            "selvage: cannot write the result to standard output; send it to a file on a disk with room, or to a "
+            "program that reads it\n");
 }
 
 TEST(Program, VersionNamesTheExactLibraries) {
@@ -147,6 +149,19 @@ TEST(Program, TwoReportsDoNotShareStdout) {
   EXPECT_EQ(shell(folder, "(" + verify + "/dev/fd/1 2> err.txt; echo $? > code.txt) | cat > log.txt"), 0);
   EXPECT_EQ(testing::slurp(folder.path() / "code.txt"), "2\n");
   EXPECT_NE(testing::slurp(folder.path() / "err.txt").find("is named for two outputs"), std::string::npos);
+}
+
+TEST(Program, NamesDoNotCommandTheTerminal) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh, testing::two_faces(0));
+  const auto found = run_program(folder, {"verify", mesh, "--cases", folder.path() / "c\x1b[2J"});
+  EXPECT_EQ(found.exit_code, 1) << found.err;
+  EXPECT_EQ(found.out.find('\x1b'), std::string::npos) << "raw";
+  EXPECT_NE(found.out.find("selvage replay '" + (folder.path() / "c?[2J").string()), std::string::npos) << found.out;
+  const auto unknown = run_program(folder, {"verify", mesh, "--x\x1b[2J"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("--x?[2J; --help"), std::string::npos) << unknown.err;
 }
 
 TEST(Program, AnEmptyArgumentIsUsage) {

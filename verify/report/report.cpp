@@ -60,7 +60,7 @@ std::string line(const Violation& violation, const ReportContext& context) {
   text += std::string(": ") + name_of(violation.event) + " " + violation.kind + ", " + feature_names(violation) +
           place(violation);
   text += " [" + frame_name(violation.frame) + "]\n";
-  if (!violation.case_file.empty()) text += "    " + replay_command(violation.case_file) + "\n";
+  if (!violation.case_file.empty()) text += "    " + io::printable(replay_command(violation.case_file)) + "\n";
   return text;
 }
 
