@@ -179,7 +179,11 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::span<const std::string> 
   ClothSpec cloth;
   cloth.name = read_name(table, "cloth", names);
   const std::int64_t copies = table.integer("copies", 1, kMaxCopies, 1);
-  if (copies == 1 && table.has("copy_offset_m")) table.fail("copy_offset_m", "there are no copies; give copies too");
+  if (copies == 1 && table.has("copy_offset_m")) {
+    table.fail("copy_offset_m", table.has("copies")
+                                    ? "copies = 1 is this cloth alone; raise it, or remove copy_offset_m"
+                                    : "there are no copies; give copies too");
+  }
   const Vec3 offset = copies == 1 ? Vec3::Zero() : table.vector("copy_offset_m", kCoordinate);
   if (copies > 1 && offset.isZero(0)) {
     table.fail("copy_offset_m", fmt::format("copy_offset_m = [0, 0, 0] puts all {} copies at one place; move each "

@@ -114,6 +114,8 @@ const BadScene kBadScenes[] = {
     {"copies without an offset", kScene + "copies = 2\n", 4, "copy_offset_m is missing"},
     {"copies in the same place", kScene + "copies = 2\ncopy_offset_m = [0, 0, 0]\n", 10,
      "copy_offset_m = [0, 0, 0] puts all 2 copies at one place; move each along by its thickness or more"},
+    {"an offset for one copy", kScene + "copies = 1\ncopy_offset_m = [0, 0, 1]\n", 10,
+     "copies = 1 is this cloth alone; raise it, or remove copy_offset_m"},
     {"an offset without copies", kScene + "copy_offset_m = [0, 0, 1]\n", 9, "give copies too"},
     {"keys out of order",
      kScene + "[[body]]\nsphere = {radius_m = 1}\n[[body.key]]\ntime_s = 1\n[[body.key]]\ntime_s = 1\n", 14,
