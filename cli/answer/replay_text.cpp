@@ -115,7 +115,7 @@ std::string unasked_text(const fuzz::PluginRecord& record, const std::string& na
 
 std::string plugin_text(const fuzz::PluginTrial& plugin, const MotionReplay& replay) {
   std::string text = "no answer";
-  if (plugin.has_answer) text = fuzz::words_of({{}, plugin.answer, 0}, plugin.info.has_toi);
+  if (plugin.has_answer) text = fuzz::words_of(plugin.answer, plugin.info.has_toi);
   if (plugin.has_answer && plugin.info.has_toi && plugin.answer.verdict == SELVAGE_COLLIDES) {
     text += fmt::format(" ({:.17g})", plugin.answer.toi);
     if (replay.exact.touches) {
@@ -127,9 +127,12 @@ std::string plugin_text(const fuzz::PluginTrial& plugin, const MotionReplay& rep
   }
   text = fmt::format("  plugin:   {}: {}: {}\n", plugin.info.name, text,
                      plugin.failure.empty() ? "conforms" : "FAILS: " + plugin.failure);
+  if (!plugin.difference.empty()) text += "            " + plugin.difference + "\n";
   if (replay.kept.plugin && replay.kept.plugin->failure != (plugin.failure.empty() ? "none" : plugin.failure)) {
     text += fmt::format("            it was kept for '{}'{}\n", replay.kept.plugin->failure,
-                        plugin.failure.empty() ? ": its answer depends on what it was asked before" : "");
+                        plugin.failure.empty()
+                            ? ": the library has changed since, or its answer depends on what it was asked before"
+                            : "");
   }
   return text;
 }

@@ -43,6 +43,7 @@ class Conformance final : public Property {
       throw io::Error(io::ErrorKind::kBadInput, library_.string() + ": has changed since this began; start anew");
     }
     plugin_.emplace(library_);
+    plugin_->before_asking(beat_);
     has_loaded_cleanly_ = plugin_->load_misdeed().empty();
   }
 

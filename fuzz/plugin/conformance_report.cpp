@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
 
+#include "fuzz/base/deaths.h"
 #include "fuzz/plugin/conformance.h"
 
 namespace selvage::fuzz {
@@ -16,6 +18,10 @@ std::string line(const std::string& name, const Counts& counts) {
                 static_cast<long long>(row.alarms), static_cast<long long>(row.missed),
                 static_cast<long long>(row.late), static_cast<long long>(row.too_far), row.nanoseconds_per_query());
   return text.data();
+}
+
+bool has_hung(const PropertyLedger& done) {
+  return std::ranges::any_of(done.findings, [](const auto& finding) { return finding.first.second == kHung; });
 }
 
 }  // namespace
@@ -51,9 +57,9 @@ std::string conformance_text(const Ledger& ledger, const PluginInfo& info, const
   }
   const std::int64_t unasked = done.streams_without_cases();
   if (unasked > 0) {
-    report +=
-        "  " + std::to_string(unasked) + " of " + std::to_string(done.rows.size()) +
-        " classes were asked nothing: nothing is known of them; give it more --time or --cases, or fewer shards\n";
+    report += "  " + std::to_string(unasked) + " of " + std::to_string(done.rows.size()) +
+              " classes were asked nothing: nothing is known of them; give it more --time or --cases, or fewer shards" +
+              (has_hung(done) ? ", and first mend what hung: it is not asked for ever" : "") + "\n";
   }
   return report + (done.findings.empty() && unasked == 0 ? "  nothing found\n" : "");
 }

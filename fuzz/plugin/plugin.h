@@ -1,10 +1,13 @@
 // A user's collision code in a shared library, called with care: what it does besides answering is seen and undone.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fuzz/base/choice_source.h"
@@ -40,6 +43,9 @@ inline constexpr const char* kUnsteady = "unsteady";
 /// One of the former in seven of eight draws.
 [[nodiscard]] std::uint32_t draw_batch_size(ChoiceSource& source);
 
+/// "separated", "collides at t = 0x1p-1".
+[[nodiscard]] std::string words_of(const selvage_answer& answer, bool has_toi);
+
 class Plugin {
  public:
   /// Throws io::Error(kBadInput).
@@ -52,10 +58,13 @@ class Plugin {
     std::string misdeed;
     selvage_answer answer{};
     std::int64_t nanoseconds = 0;
+    std::string difference = {};  ///< of kBatchDiffers: where, and what it said, for a person
   };
   /// REQUIRES vf or ee. Where there is a batch, asks it with queries made of it in one of that size as well, each first
   /// alone.
   [[nodiscard]] Answer ask(const MotionQuery& query, BatchSize batch) const;
+  /// Called before it is asked anything: a case may take as long as every answer may.
+  void before_asking(std::function<void()> call) { before_asking_ = std::move(call); }
   /// Whether it says the same again, bit for bit, with the same misdeed in a batch and none alone.
   [[nodiscard]] bool stands_by(const MotionQuery& query, const Answer& before, BatchSize batch) const;
   /// What loading did besides: a misdeed, or nothing.
@@ -63,13 +72,15 @@ class Plugin {
 
  private:
   [[nodiscard]] Answer ask_alone(std::int32_t kind, const selvage_query& query) const;
-  /// A misdeed, or nothing. `answer` is what it gave to the query alone.
-  [[nodiscard]] std::string ask_batch(std::int32_t kind, const selvage_query& query, const selvage_answer& answer,
-                                      std::uint32_t count) const;
+  /// Adds a misdeed to `result`, which has what it gave to the query alone.
+  void ask_batch(std::int32_t kind, const selvage_query& query, std::uint32_t count, Answer& result) const;
+  [[nodiscard]] bool answers_alike(std::int32_t kind, const std::array<selvage_query, 5>& queries,
+                                   const std::array<selvage_answer, 5>& answers) const;
 
   const selvage_plugin* plugin_ = nullptr;  // stays loaded until the process ends
   PluginInfo info_;
   std::string load_misdeed_;
+  std::function<void()> before_asking_ = [] {};
 };
 
 }  // namespace selvage::fuzz

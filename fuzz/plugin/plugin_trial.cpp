@@ -3,7 +3,6 @@
 #include <array>
 #include <optional>
 
-#include "fuzz/base/case_text.h"
 #include "fuzz/oracle/closest_approach.h"
 #include "fuzz/run/guarded_run.h"
 #include "fuzz/run/worker.h"
@@ -61,9 +60,8 @@ PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, B
 }
 
 std::string words_of(const Plugin::Answer& answer, bool has_toi) {
-  if (!answer.misdeed.empty()) return answer.misdeed;
-  if (answer.answer.verdict != SELVAGE_COLLIDES) return "separated";
-  return has_toi ? "collides at t = " + hex(answer.answer.toi) : "collides";
+  if (!answer.difference.empty()) return answer.difference;
+  return answer.misdeed.empty() ? words_of(answer.answer, has_toi) : answer.misdeed;
 }
 
 std::string failure_at_load(const std::string& misdeed) { return misdeed + "-at-load"; }
@@ -72,6 +70,7 @@ PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& 
                        double case_seconds) {
   struct Plain {
     char failure[kFailureWord] = {};
+    char difference[256] = {};
     bool has_answer = false;
     selvage_answer answer{};
   };
@@ -83,12 +82,14 @@ PluginTrial try_plugin(const std::filesystem::path& library, const MotionQuery& 
     const PluginJudgement judgement = judge_plugin(*plugin, query, batch);
     const std::string& misdeed = plugin->load_misdeed();
     (misdeed.empty() ? judgement.failure : failure_at_load(misdeed)).copy(plain.failure, kFailureWord - 1);
+    judgement.answer.difference.copy(plain.difference, sizeof plain.difference - 1);
     plain.has_answer = judgement.answer.misdeed.empty();
     plain.answer = judgement.answer.answer;
     return plain;
   };
   const auto run = run_guarded<Plain>({[&] { plugin.emplace(library); }, case_seconds}, ask, case_seconds);
   trial.failure = run.death.empty() ? run.result.failure : run.death;
+  trial.difference = run.result.difference;
   trial.has_answer = run.result.has_answer;
   trial.answer = run.result.answer;
   return trial;

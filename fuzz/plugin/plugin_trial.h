@@ -18,7 +18,7 @@ struct PluginJudgement {
 /// depends on what was asked before, or on chance, and no case can keep that.
 [[nodiscard]] PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, BatchSize batch);
 
-/// "separated", "collides", "collides at t = 0x1p-1"; or the misdeed.
+/// Those of its answer; or the misdeed, or where a batch differed.
 [[nodiscard]] std::string words_of(const Plugin::Answer& answer, bool has_toi);
 
 /// The failure of a plugin that did `misdeed` while it was loaded.
@@ -27,6 +27,7 @@ struct PluginJudgement {
 struct PluginTrial {
   PluginInfo info;
   std::string failure;      ///< as above, or how it died
+  std::string difference;   ///< as in Plugin::Answer
   bool has_answer = false;  ///< it came back, and gave an answer that is one
   selvage_answer answer{};
 };

@@ -25,9 +25,9 @@ constexpr int kTick_ms = 100;
 constexpr double kSaveEvery_s = 1;
 /// Beyond a case's time that workers get to come to an end: a hang is seen by then, which takes a few ticks more.
 constexpr double kGrace_s = 1;
-/// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is a
-/// property that hung so often, because a hang costs many seconds.
-constexpr int kMaxCrashes = 5, kMaxHangs = 3;
+/// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is one that
+/// hung, or a property that hung so often, because a hang costs many seconds.
+constexpr int kMaxCrashes = 5, kMaxHangs = 10;
 /// Failure of code that wrote to the pipe of the worker that runs it.
 constexpr const char* kBrokeChannel = "broke-the-channel";
 
@@ -347,6 +347,7 @@ void Driver::take_death(Team& team) {
   progress.rows[stream] += {1, 1, {}, 0};
   ++progress.number;
   if (death.failure == kHung) {
+    share.is_skipped[stream] = true;
     if (++share.hangs >= kMaxHangs) share.is_skipped.assign(share.is_skipped.size(), true);
   } else if (++share.crashes[stream] >= kMaxCrashes) {
     share.is_skipped[stream] = true;

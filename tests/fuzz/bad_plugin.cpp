@@ -71,6 +71,8 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   volatile bool goes_on = true;
   while (goes_on) {
   }
+#elif defined(NAPS)
+  usleep(2000);
 #elif defined(SLEEPS)
   std::puts("a plugin falls asleep");
   while (true) pause();
