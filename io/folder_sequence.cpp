@@ -26,8 +26,8 @@ class FolderSequence final : public SequenceReader {
     if (!std::filesystem::exists(header_file)) {
       bad_input(folder_.string(),
                 "a folder without " + std::string(kHeaderFile) +
-                    " is no sequence, or one that was not written to its end; write it again, or name " +
-                    "its mesh files, in the order of the frames");
+                    " is no sequence; name its mesh files instead, in the order of the frames, or write " +
+                    "what was not written to its end again");
     }
     description_ = parse_sequence_json(read_file(header_file), header_file.string());
     const std::filesystem::path faces_file = folder_ / description_.faces_file;
