@@ -47,6 +47,7 @@ std::optional<RepulsionContact> make_contact(const Collision& collision, const s
 void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact) {
   contact.straight = straight;
   const StraightSurface& surface = straight.parts.at(straight.part(contact.kind, contact.interaction.weights));
+  if (surface.kind == StraightSurface::Kind::kCorner) return;  // with the distance as it was, to the bit
   contact.normal = across(surface.kind, surface.direction(V_t0), contact.normal);
   contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
 }
