@@ -135,9 +135,15 @@ Company company_of(const selvage_query& query) {
   return company;
 }
 
-/// Which of the company has place i in a batch. Without a period: a kernel that answers one vector with another one's
-/// answers, or a lane with its neighbour's, meets different queries there.
-std::size_t company_at(std::size_t i) { return i == 0 ? 0 : mix(i, 0) % std::tuple_size_v<Company>; }
+/// Which of the company has each place in a batch of `count`: the query first, never one twice in a row, and without a
+/// period. A kernel that answers one vector with another one's answers, or a lane with its neighbour's, meets different
+/// queries there.
+std::vector<std::size_t> order_of(std::size_t count) {
+  constexpr std::size_t kSize = std::tuple_size_v<Company>;
+  std::vector<std::size_t> order(count);
+  for (std::size_t i = 1; i < count; ++i) order[i] = (order[i - 1] + 1 + mix(i, 0) % (kSize - 1)) % kSize;
+  return order;
+}
 
 /// 0 to 40: a query more than two vectors of 16 and one of 8, and so all tails there are.
 constexpr std::uint32_t kSmallBatches = 41;
@@ -252,9 +258,10 @@ void Plugin::ask_batch(std::int32_t kind, const selvage_query& query, std::uint3
     nanoseconds += one.nanoseconds;
   }
   if (count * (nanoseconds / std::ssize(company)) > kLongestBatch_ns) return;
+  const std::vector<std::size_t> order = order_of(count);
   Fenced<selvage_query> queries(count);
   Fenced<selvage_answer> answers(count);
-  for (std::size_t i = 0; i < count; ++i) queries[i] = company[company_at(i)], answers[i] = kUnanswered;
+  for (std::size_t i = 0; i < count; ++i) queries[i] = company[order[i]], answers[i] = kUnanswered;
   before_asking_();
   const ForkWatch forks;
   plugin_->answer_batch(kind, count, queries.data(), answers.data());
@@ -262,7 +269,7 @@ void Plugin::ask_batch(std::int32_t kind, const selvage_query& query, std::uint3
   if (result.misdeed.empty()) result.misdeed = fp_misdeed();
   if (result.misdeed.empty() && !(queries.is_whole() && answers.is_whole())) result.misdeed = "wrote-out-of-bounds";
   for (std::size_t i = 0; i < count && result.misdeed.empty(); ++i) {
-    const std::size_t which = company_at(i);
+    const std::size_t which = order[i];
     if (!is_same(queries[i], company[which])) result.misdeed = "changed-the-query";
     if (is_same(answers[i], alone[which], info_.has_toi)) continue;
     result.misdeed = answers_alike(kind, company, alone) ? kBatchDiffers : kUnsteady;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <functional>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -25,9 +26,9 @@ constexpr int kTick_ms = 100;
 constexpr double kSaveEvery_s = 1;
 /// Beyond a case's time that workers get to come to an end: a hang is seen by then, which takes a few ticks more.
 constexpr double kGrace_s = 1;
-/// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is one that
-/// hung, or a property that hung so often, because a hang costs many seconds.
-constexpr int kMaxCrashes = 5, kMaxHangs = 10;
+/// A stream that crashed so many workers is not run any more in this run, because each costs a process; nor is one, or
+/// a property, that hung so often, because a hang costs many seconds.
+constexpr int kMaxCrashes = 5, kMaxHangsOfStream = 3, kMaxHangs = 10;
 /// Failure of code that wrote to the pipe of the worker that runs it.
 constexpr const char* kBrokeChannel = "broke-the-channel";
 
@@ -83,8 +84,7 @@ struct Driver::Share {
   std::set<std::int64_t> in_hand;
   std::int64_t next = 0;  ///< lowest unit of the shard that may be open
   std::vector<bool> is_skipped;
-  std::vector<int> crashes;  ///< a stream
-  int hangs = 0;
+  std::vector<int> crashes, hangs;  ///< a stream
   std::set<std::pair<std::string, std::string>> being_kept;
   std::set<std::pair<std::string, std::string>> lost;  ///< findings that a worker died of before it had kept them
 };
@@ -130,6 +130,7 @@ Driver::Driver(Properties& properties, DriverOptions options)
     share.next = options_.shard - 1;
     share.is_skipped.resize(property->streams().size());
     share.crashes.resize(property->streams().size());
+    share.hangs.resize(property->streams().size());
     SELVAGE_ASSERT(property->streams().size() <= Progress::kMaxStreams);
     shares_.push_back(std::move(share));
   }
@@ -347,8 +348,9 @@ void Driver::take_death(Team& team) {
   progress.rows[stream] += {1, 1, {}, 0};
   ++progress.number;
   if (death.failure == kHung) {
-    share.is_skipped[stream] = true;
-    if (++share.hangs >= kMaxHangs) share.is_skipped.assign(share.is_skipped.size(), true);
+    if (++share.hangs[stream] >= kMaxHangsOfStream) share.is_skipped[stream] = true;
+    const int hangs = std::accumulate(share.hangs.begin(), share.hangs.end(), 0);
+    if (hangs >= kMaxHangs) share.is_skipped.assign(share.is_skipped.size(), true);
   } else if (++share.crashes[stream] >= kMaxCrashes) {
     share.is_skipped[stream] = true;
   }
