@@ -223,7 +223,8 @@ Plugin::Answer Plugin::ask(const MotionQuery& query, BatchSize batch) const {
 
 bool Plugin::stands_by(const MotionQuery& query, const Answer& before, BatchSize batch) const {
   const Answer now = ask(query, batch);
-  return now.misdeed == (batch ? before.misdeed : "") && is_same(before.answer, now.answer, info_.has_toi);
+  return now.misdeed == (batch ? before.misdeed : "") && (!batch || now.difference == before.difference) &&
+         is_same(before.answer, now.answer, info_.has_toi);
 }
 
 Plugin::Answer Plugin::ask_alone(std::int32_t kind, const selvage_query& query) const {

@@ -65,7 +65,7 @@ class Plugin {
   [[nodiscard]] Answer ask(const MotionQuery& query, BatchSize batch) const;
   /// Called before it is asked anything: a case may take as long as every answer may.
   void before_asking(std::function<void()> call) { before_asking_ = std::move(call); }
-  /// Whether it says the same again, bit for bit, with the same misdeed in a batch and none alone.
+  /// Whether it says the same again, bit for bit, with the same misdeed at the same place in a batch and none alone.
   [[nodiscard]] bool stands_by(const MotionQuery& query, const Answer& before, BatchSize batch) const;
   /// What loading did besides: a misdeed, or nothing.
   [[nodiscard]] const std::string& load_misdeed() const { return load_misdeed_; }
