@@ -39,14 +39,16 @@ struct Persistent {
         contacts(step_mesh, step_options, std::move(surfaces)),
         hierarchy(step_mesh),
         parts(step_mesh),
-        straight(step_mesh),
-        proximities(step_mesh, contacts) {}
+        faces(step_mesh),
+        straight(step_mesh, faces),
+        proximities(step_mesh, contacts, faces) {}
 
   const Mesh& mesh;
   CollisionOptions options;
   ContactTable contacts;
   BoxHierarchy hierarchy;
   SurfaceParts parts;
+  VertexFaces faces;
   StraightSurfaces straight;
   StartProximities proximities;
   std::vector<RepulsionContact> room_of_found;

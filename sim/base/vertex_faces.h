@@ -19,6 +19,10 @@ class VertexFaces {
     const auto at = static_cast<std::size_t>(vertex);
     return std::span(faces_).subspan(begin_[at], begin_[at + 1] - begin_[at]);
   }
+  /// Those of the end of an edge that has fewer, among which are the edge's own; ascending.
+  [[nodiscard]] std::span<const FaceId> of_either(VertexId a, VertexId b) const {
+    return of(a).size() < of(b).size() ? of(a) : of(b);
+  }
 
  private:
   std::vector<std::size_t> begin_;  ///< of each vertex's; one more at the end

@@ -30,8 +30,9 @@ bool holds(const std::array<VertexId, 3>& face, VertexId vertex) {
 
 class LocalTest {
  public:
-  LocalTest(const Mesh& mesh, const Positions& V, const std::vector<PairProximity>& proximities, double thickness_m)
-      : mesh_(mesh), V_(V), thickness_m_(thickness_m) {
+  LocalTest(const Mesh& mesh, const VertexFaces& faces, const Positions& V,
+            const std::vector<PairProximity>& proximities, double thickness_m)
+      : mesh_(mesh), faces_(faces), V_(V), thickness_m_(thickness_m) {
     const auto is_vf = [](const PairProximity& pair) { return pair.kind == PairKind::kVf; };
     vf_ = {proximities.begin(), std::ranges::partition_point(proximities, is_vf)};
     const auto ee = std::span(proximities).subspan(vf_.size());
@@ -52,7 +53,6 @@ class LocalTest {
         nearest = std::min(nearest, pair.proximity.distance);
       }
     }
-    if (!ee.empty()) list_faces_of_edges();
   }
 
   [[nodiscard]] bool is_local(const PairProximity& pair) const {
@@ -60,24 +60,6 @@ class LocalTest {
   }
 
  private:
-  void list_faces_of_edges() {
-    faces_begin_.assign(mesh_.edges.size() + 1, 0);
-    for (const auto& edges : mesh_.face_edges) {
-      for (const EdgeId e : edges) ++faces_begin_[static_cast<std::size_t>(e) + 1];
-    }
-    std::partial_sum(faces_begin_.begin(), faces_begin_.end(), faces_begin_.begin());
-    faces_.resize(3 * mesh_.face_edges.size());
-    std::vector<std::size_t> next(faces_begin_.begin(), faces_begin_.end() - 1);
-    for (std::size_t f = 0; f < mesh_.face_edges.size(); ++f) {
-      for (const EdgeId e : mesh_.face_edges[f]) faces_[next[static_cast<std::size_t>(e)]++] = static_cast<FaceId>(f);
-    }
-  }
-  /// Usually two.
-  [[nodiscard]] std::span<const FaceId> faces_of(EdgeId edge) const {
-    const auto e = static_cast<std::size_t>(edge);
-    return std::span(faces_).subspan(faces_begin_[e], faces_begin_[e + 1] - faces_begin_[e]);
-  }
-
   /// The edge pairs that the vertex belongs to.
   [[nodiscard]] std::span<const PairProximity* const> edges_near(VertexId vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
@@ -146,7 +128,10 @@ class LocalTest {
       // The faces of the edge, not those near the vertex: of two fans of n faces n^2 pairs of spokes end at a hub that
       // is near n faces.
       const std::span<const PairProximity> near = faces_near(pair.vertices[end]);
-      const bool covered = std::ranges::any_of(faces_of(end < 2 ? pair.second : pair.first), [&](FaceId face) {
+      const VertexId a = pair.vertices[end < 2 ? 2 : 0], b = pair.vertices[end < 2 ? 3 : 1];
+      const bool covered = std::ranges::any_of(faces_.of_either(a, b), [&](FaceId face) {
+        const std::array<VertexId, 3>& corners = mesh_.faces[static_cast<std::size_t>(face)];
+        if (!holds(corners, a) || !holds(corners, b)) return false;
         const auto other = std::ranges::lower_bound(near, face, {}, &PairProximity::second);
         return other != near.end() && other->second == face && other->proximity.distance <= pair.proximity.distance;
       });
@@ -156,21 +141,20 @@ class LocalTest {
   }
 
   const Mesh& mesh_;
+  const VertexFaces& faces_;
   const Positions& V_;
   const double thickness_m_;
   std::span<const PairProximity> vf_;
   std::vector<const PairProximity*> ee_at_;  ///< each edge pair at its four vertices, by vertex
   std::vector<std::size_t> ee_begin_;        ///< of each vertex's; one more at the end
   std::vector<double> nearest_edge_;         ///< #V: the least distance of those, or infinity
-  std::vector<FaceId> faces_;                ///< each face at its three edges, by edge; none without edge pairs
-  std::vector<std::size_t> faces_begin_;     ///< of each edge's; one more at the end
 };
 
 }  // namespace
 
-std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
+std::vector<PairProximity> local_proximities(const Mesh& mesh, const VertexFaces& faces, const Positions& V,
                                              const std::vector<PairProximity>& proximities, double thickness_m) {
-  const LocalTest test(mesh, V, proximities, thickness_m);
+  const LocalTest test(mesh, faces, V, proximities, thickness_m);
   std::vector<std::uint8_t> is_local(proximities.size());
   parallel_each(std::ssize(proximities), [&](Eigen::Index i) {
     const auto pair = static_cast<std::size_t>(i);

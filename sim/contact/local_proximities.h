@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/proximities.h"
+#include "sim/base/vertex_faces.h"
 
 namespace selvage::sim {
 
@@ -20,9 +21,10 @@ namespace selvage::sim {
 ///   other edge; of parallel edges, whose nearest points are anywhere, the same for all four ends.
 /// A pair is left out for one that is nearer, or for a vf pair in place of an ee pair, so of any set of pairs that
 /// share features the nearest stays. `proximities` as from find_proximities: sorted by (kind, first, second). Linear in
-/// their number and that of faces but for binary searches, and for vf pairs whose vertex holds edges that are nearer:
+/// their number but for binary searches, and for vf pairs whose vertex holds edges that are nearer:
 /// those walk its pairs; in parallel, same bits for any number of threads.
-[[nodiscard]] std::vector<PairProximity> local_proximities(const Mesh& mesh, const Positions& V,
+[[nodiscard]] std::vector<PairProximity> local_proximities(const Mesh& mesh, const VertexFaces& faces,
+                                                           const Positions& V,
                                                            const std::vector<PairProximity>& proximities,
                                                            double thickness_m);
 

@@ -72,7 +72,7 @@ void StartProximities::decide(const std::vector<std::size_t>& pairs) {
                kContactReach * contacts_.of(pair.kind, pair.first, pair.second).thickness_m);
     });
   }
-  const std::vector<PairProximity> found = local_proximities(mesh_, V_t0_, near, contacts_.thickness_upper());
+  const std::vector<PairProximity> found = local_proximities(mesh_, faces_, V_t0_, near, contacts_.thickness_upper());
   local_.reserve(local_.size() + found.size());  // nothing throws from here on
   for (const std::size_t pair : open) decision_[pair] = kNotLocal;
   // All three are in the same order.

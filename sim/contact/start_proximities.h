@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernel/proximities.h"
+#include "sim/base/vertex_faces.h"
 #include "sim/contact/near_pairs.h"
 #include "sim/contact/repulsion_contact.h"
 
@@ -11,8 +12,9 @@ namespace selvage::sim {
 
 class StartProximities {
  public:
-  /// Both must outlive this.
-  StartProximities(const Mesh& mesh, const ContactTable& contacts) : mesh_(mesh), contacts_(contacts) {}
+  /// All must outlive this.
+  StartProximities(const Mesh& mesh, const ContactTable& contacts, const VertexFaces& faces)
+      : mesh_(mesh), contacts_(contacts), faces_(faces) {}
 
   /// A step from V_t0, of pairs with a flagged vertex (`surface`, #V). Where the bits of both are those of the last
   /// call, the near pairs of that are used again.
@@ -36,6 +38,7 @@ class StartProximities {
 
   const Mesh& mesh_;
   const ContactTable& contacts_;
+  const VertexFaces& faces_;
   Positions V_t0_;
   std::vector<std::uint8_t> surface_;
   NearPairs near_;

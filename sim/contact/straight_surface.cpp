@@ -82,10 +82,11 @@ StraightSurface StraightSurfaces::at(VertexId vertex, const Positions& V) const 
 /// In the plane of its two faces, or else a corner: nearest points within an edge are across it.
 StraightSurface StraightSurfaces::within(VertexId a, VertexId b, const Positions& V) const {
   std::vector<VertexId> opposite;
-  for (const FaceId face : faces_.of(a)) {
+  for (const FaceId face : faces_.of_either(a, b)) {
     const auto& corners = mesh_.faces[static_cast<std::size_t>(face)];
-    if (std::ranges::find(corners, b) == corners.end()) continue;
-    opposite.push_back(*std::ranges::find_if(corners, [&](VertexId v) { return v != a && v != b; }));
+    const auto third = std::ranges::find_if(corners, [&](VertexId v) { return v != a && v != b; });
+    const bool holds_both = std::ranges::count_if(corners, [&](VertexId v) { return v == a || v == b; }) == 2;
+    if (holds_both) opposite.push_back(*third);
   }
   if (opposite.size() != 2) return {};
   const Vec3 edge = way(V, a, b);

@@ -45,8 +45,8 @@ inline constexpr double kLeastAcross = 0x1p-20;
 
 class StraightSurfaces {
  public:
-  /// The mesh must outlive it.
-  explicit StraightSurfaces(const Mesh& mesh) : mesh_(mesh), faces_(mesh) {}
+  /// Both must outlive it.
+  StraightSurfaces(const Mesh& mesh, const VertexFaces& faces) : mesh_(mesh), faces_(faces) {}
 
   /// Of the body in a pair as in PairProximity: its vertex in vf, or its edge in ee. A vertex of cloth against a face,
   /// and two edges of cloth, have corners alone. `is_cloth` is #V. O(faces around the feature, squared).
@@ -58,7 +58,7 @@ class StraightSurfaces {
   [[nodiscard]] StraightSurface within(VertexId a, VertexId b, const Positions& V) const;
 
   const Mesh& mesh_;
-  VertexFaces faces_;
+  const VertexFaces& faces_;
 };
 
 }  // namespace selvage::sim

@@ -204,7 +204,7 @@ TEST(LocalProximities, prop_are_those_of_the_plain_reading) {
       if (count != 1) continue;
       ++by_one_rule_alone[static_cast<std::size_t>(std::ranges::find(rules[i], true) - rules[i].begin())];
     }
-    for (const PairProximity& pair : local_proximities(mesh, scene.V_t0, all, kLayerThickness))
+    for (const PairProximity& pair : local_proximities(mesh, VertexFaces(mesh), scene.V_t0, all, kLayerThickness))
       local.push_back(name(pair));
     kept += std::ssize(local);
     RC_ASSERT(local == expected);

@@ -29,7 +29,7 @@ TEST(LocalProximities, AboveFlatGroundPointUpwardsAlone) {
     return std::abs(pair.proximity.normal.z()) > 1e-9 && std::abs(pair.proximity.normal.z()) < 1 - 1e-9;
   };
   const std::vector<PairProximity> all = near_pairs(mesh, scene.V_t0),
-                                   local = local_proximities(mesh, scene.V_t0, all, kThickness);
+                                   local = local_proximities(mesh, VertexFaces(mesh), scene.V_t0, all, kThickness);
   EXPECT_GT(std::ranges::count_if(all, is_slanted), 100);
   EXPECT_EQ(std::ranges::count_if(local, is_slanted), 0);
   // Every vertex of the upper sheet still stands on the ground.
@@ -48,7 +48,7 @@ TEST(LocalProximities, HoldEveryVertexOfASheetThatLiesALittleTiltedOnAnother) {
   for (Eigen::Index v = 16; v < 32; ++v) scene.V_t0(v, 2) += 0.01 * scene.V_t0(v, 0) + 0.02 * scene.V_t0(v, 1);
   const Mesh mesh = scene.mesh();
   const std::vector<PairProximity> local =
-      local_proximities(mesh, scene.V_t0, near_pairs(mesh, scene.V_t0), kThickness);
+      local_proximities(mesh, VertexFaces(mesh), scene.V_t0, near_pairs(mesh, scene.V_t0), kThickness);
   for (VertexId v = 0; v < 32; ++v) {
     EXPECT_TRUE(std::ranges::any_of(local, [&](const PairProximity& pair) {
       const auto at = std::ranges::find(pair.vertices, v) - pair.vertices.begin();
@@ -72,7 +72,7 @@ TEST(LocalProximities, KeepsRidgesThatAreContacts) {
   scene.add(tip, Vec3::Zero());
   const Mesh mesh = scene.mesh();
   const std::vector<PairProximity> local =
-      local_proximities(mesh, scene.V_t0, near_pairs(mesh, scene.V_t0), kThickness);
+      local_proximities(mesh, VertexFaces(mesh), scene.V_t0, near_pairs(mesh, scene.V_t0), kThickness);
   EXPECT_TRUE(std::ranges::any_of(local, [](const PairProximity& pair) {
     return pair.kind == PairKind::kVf && pair.first == 4 && std::abs(pair.proximity.distance - 0.01) < 1e-12;
   }));
@@ -88,7 +88,7 @@ TEST(LocalProximities, KeepsTheNearestPairAndWhatIsInsideAFace) {
     for (Eigen::Index i = 0; i < scene.V_t0.size(); ++i) scene.V_t0.data()[i] += 0.02 * unit(engine);
     const Mesh mesh = scene.mesh();
     const std::vector<PairProximity> all = near_pairs(mesh, scene.V_t0),
-                                     local = local_proximities(mesh, scene.V_t0, all, kThickness);
+                                     local = local_proximities(mesh, VertexFaces(mesh), scene.V_t0, all, kThickness);
     ASSERT_LT(local.size(), all.size());
     const auto nearer = [](const PairProximity& a, const PairProximity& b) {
       return a.proximity.distance < b.proximity.distance;

@@ -55,7 +55,8 @@ struct NearTwoSheets {
   Mesh mesh = scene.mesh();
   ContactTable contacts{mesh, scene.options, {}};
   BoxHierarchy hierarchy{mesh};
-  StartProximities near{mesh, contacts};
+  VertexFaces faces{mesh};
+  StartProximities near{mesh, contacts, faces};
 
   void start(const Positions& V_t0) {
     near.start(hierarchy, V_t0, std::vector<std::uint8_t>(scene.inverse_mass.size(), 1));
@@ -92,10 +93,11 @@ TEST(StartProximities, PropAreAllThatApproachAndAreLocalAndOnceEach) {
     const ContactTable contacts(mesh, scene.options, {});
     const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
     BoxHierarchy hierarchy(mesh);
-    StartProximities near(mesh, contacts);
+    const VertexFaces faces(mesh);
+    StartProximities near(mesh, contacts, faces);
     const double thickness_m = scene.options.thickness_m;
     const std::vector<PairProximity> all = find_proximities(mesh, hierarchy, scene.V_t0, kContactReach * thickness_m);
-    const std::vector<PairProximity> local = local_proximities(mesh, scene.V_t0, all, thickness_m);
+    const std::vector<PairProximity> local = local_proximities(mesh, faces, scene.V_t0, all, thickness_m);
 
     near.start(hierarchy, scene.V_t0, surface);
     std::set<Name> known;
@@ -129,12 +131,13 @@ TEST(StartProximities, PropDoNotDependOnWhatWasAskedBefore) {
     const ContactTable contacts(mesh, scene.options, {});
     const std::vector<std::uint8_t> surface(scene.inverse_mass.size(), 1);
     BoxHierarchy hierarchy(mesh);
-    StartProximities near(mesh, contacts);
+    const VertexFaces faces(mesh);
+    StartProximities near(mesh, contacts, faces);
     for (int n = 0; n < 4; ++n) {
       const Positions motion = scene.V_candidate - scene.V_t0;
       const Positions V_t0 = scene.V_t0 + *rc::gen::element(0.0, 0.0, 0.5) * motion;  // often as before
       const Positions V_t1 = V_t0 + number_between(-1, 1) * motion;
-      StartProximities fresh(mesh, contacts);
+      StartProximities fresh(mesh, contacts, faces);
       fresh.start(hierarchy, V_t0, surface);
       near.start(hierarchy, V_t0, surface);
       std::vector<Name> found, expected;
@@ -158,7 +161,8 @@ TEST(StartProximities, OfClothThatRestsOnClothFindWhatAFallOfOneWouldPress) {
     const Mesh mesh = scene.mesh();
     const ContactTable contacts(mesh, scene.options, {});
     BoxHierarchy hierarchy(mesh);
-    StartProximities near(mesh, contacts);
+    const VertexFaces faces(mesh);
+    StartProximities near(mesh, contacts, faces);
     near.start(hierarchy, scene.V_t0, std::vector<std::uint8_t>(scene.inverse_mass.size(), 1));
     const Positions both_fallen = scene.V_t0.rowwise() + 2 * fall.transpose();
     return near.find(both_fallen, fall).size();
@@ -217,7 +221,8 @@ TEST(StartProximities, AreOfTheSurfaceThatIsFlagged) {
   const ContactTable contacts(mesh, scene.options, {});
   const std::vector<std::uint8_t> all(scene.inverse_mass.size(), 1), none(scene.inverse_mass.size(), 0);
   BoxHierarchy hierarchy(mesh);
-  StartProximities near(mesh, contacts);
+  const VertexFaces faces(mesh);
+  StartProximities near(mesh, contacts, faces);
   for (int time = 0; time < 2; ++time) {
     near.start(hierarchy, scene.V_t0, all);
     EXPECT_GT(near.find(scene.V_candidate).size(), 10U);

@@ -31,10 +31,12 @@ struct Roof {
     mesh = make_mesh(15, faces);
   }
   [[nodiscard]] StraightSurface at(VertexId vertex) const {
-    return StraightSurfaces(mesh).of(PairKind::kVf, {vertex, 0, 1, 2}, V, is_cloth).parts[StraightFeature::kWithin];
+    return StraightSurfaces(mesh, VertexFaces(mesh))
+        .of(PairKind::kVf, {vertex, 0, 1, 2}, V, is_cloth)
+        .parts[StraightFeature::kWithin];
   }
   [[nodiscard]] std::array<Kind, 3> along(VertexId a, VertexId b) const {
-    const StraightFeature edge = StraightSurfaces(mesh).of(PairKind::kEe, {a, b, 0, 1}, V, is_cloth);
+    const StraightFeature edge = StraightSurfaces(mesh, VertexFaces(mesh)).of(PairKind::kEe, {a, b, 0, 1}, V, is_cloth);
     return {edge.parts[0].kind, edge.parts[1].kind, edge.parts[2].kind};
   }
 };
@@ -60,7 +62,7 @@ TEST(StraightSurface, AnEdgeHasThatOfItsFacesAndThatOfItsEnds) {
   EXPECT_EQ(roof.along(4, 1), (Kinds{Kind::kCorner, Kind::kLine, Kind::kCorner}));
   EXPECT_EQ(roof.along(6, 7), (Kinds{Kind::kPlane, Kind::kLine, Kind::kLine}));
   EXPECT_EQ(Roof(0).along(4, 7), (Kinds{Kind::kPlane, Kind::kPlane, Kind::kPlane}));
-  const Vec3 rafter = StraightSurfaces(roof.mesh)
+  const Vec3 rafter = StraightSurfaces(roof.mesh, VertexFaces(roof.mesh))
                           .of(PairKind::kEe, {6, 7, 0, 1}, roof.V, roof.is_cloth)
                           .parts[StraightFeature::kWithin]
                           .direction(roof.V);
@@ -74,7 +76,8 @@ TEST(StraightSurface, IsOfBodiesAlone) {
   roof.is_cloth.assign(15, 1);
   EXPECT_EQ(roof.along(4, 7), (std::array<Kind, 3>{}));
   roof.is_cloth[1] = roof.is_cloth[4] = 0;
-  const StraightFeature second = StraightSurfaces(roof.mesh).of(PairKind::kEe, {6, 7, 1, 4}, roof.V, roof.is_cloth);
+  const StraightFeature second =
+      StraightSurfaces(roof.mesh, VertexFaces(roof.mesh)).of(PairKind::kEe, {6, 7, 1, 4}, roof.V, roof.is_cloth);
   EXPECT_EQ(second.parts[StraightFeature::kSecondEnd].kind, Kind::kLine);
   EXPECT_TRUE(second.is_anywhere());
   EXPECT_EQ(second.part(PairKind::kEe, {0.5, 0.5, -1, 0}), StraightFeature::kFirstEnd);
