@@ -1,7 +1,6 @@
 #include "sim/dynamics/contact_pack.h"
 
 #include <limits>
-#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/dynamics/contact_pack.cpp"
@@ -9,47 +8,11 @@
 #include <hwy/highway.h>
 
 #include "sim/contact/nearest_points-inl.h"
+#include "sim/dynamics/pack_columns-inl.h"
 #include "sim/response/friction_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
-
-HWY_INLINE std::size_t VectorLanes() { return hn::Lanes(Real()); }
-HWY_INLINE Truth TruthOf(Lanes which, std::size_t first) {
-  const std::uint8_t bits[8] = {static_cast<std::uint8_t>(which >> first)};  // as many are read
-  return hn::LoadMaskBits(Real(), bits);
-}
-HWY_INLINE Lanes LanesOf(Truth truth, std::size_t first) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(Real(), truth, bits);
-  const auto all = static_cast<Lanes>((1U << VectorLanes()) - 1);
-  return static_cast<Lanes>((bits[0] & all) << first);
-}
-
-HWY_INLINE Value Read(const LaneColumn<double>& column, std::size_t first) { return hn::LoadU(Real(), &column[first]); }
-HWY_INLINE Vector Read(const LaneColumn3& columns, std::size_t first) {
-  return {Read(columns[0], first), Read(columns[1], first), Read(columns[2], first)};
-}
-template <class Columns>
-HWY_INLINE auto ReadFour(const Columns& columns, std::size_t first) {
-  return std::array{Read(columns[0], first), Read(columns[1], first), Read(columns[2], first), Read(columns[3], first)};
-}
-HWY_INLINE void Write(Value value, std::size_t first, LaneColumn<double>& column) {
-  hn::StoreU(value, Real(), &column[first]);
-}
-HWY_INLINE void Write(const Vector& value, std::size_t first, LaneColumn3& columns) {
-  Write(value.x, first, columns[0]);
-  Write(value.y, first, columns[1]);
-  Write(value.z, first, columns[2]);
-}
-template <class T, class Column>
-HWY_INLINE void WriteWhere(Truth which, const T& value, std::size_t first, Column& column) {
-  if constexpr (std::is_same_v<T, Vector>) {
-    Write(lanes::Choose<Real>(which, value, Read(column, first)), first, column);
-  } else {
-    Write(hn::IfThenElse(which, value, Read(column, first)), first, column);
-  }
-}
 
 /// From the ends of a step of h seconds and the velocities in it to its start and the displacements.
 void GoBack(double h, PackMotion& motion) {
@@ -118,40 +81,6 @@ void FindNearestOf(const PackMotion& motion, PackNearest& result) {
 }
 void FindNearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   kind == PairKind::kVf ? FindNearestOf<PairKind::kVf>(motion, result) : FindNearestOf<PairKind::kEe>(motion, result);
-}
-
-/// Lanes whose nearest points are at the end of the body's edge that is its first, or second, vertex.
-HWY_INLINE Truth IsAtEnd(std::size_t end, const PackStraight& straight, const PackNearest& nearest, std::size_t first) {
-  const auto is_zero = [&](std::size_t k) { return hn::Eq(Read(nearest.weights[k], first), hn::Zero(Real())); };
-  return hn::Or(hn::And(TruthOf(straight.edges[0], first), is_zero(1 - end)),
-                hn::And(TruthOf(straight.edges[1], first), is_zero(3 - end)));
-}
-
-void TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
-  const Value one = Number(1);
-  for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
-    const auto direction_of = [&](const PackStraight::Part& part) {
-      const Vector t0 = Read(part.direction_t0, first), t1 = Read(part.direction_t1, first);
-      return Sum(t0, Scaled(Number(share), Difference(t1, t0)));
-    };
-    Vector along = direction_of(straight.parts[0]);
-    Truth is_line = TruthOf(straight.parts[0].lines, first), is_plane = TruthOf(straight.parts[0].planes, first);
-    for (const std::size_t end : {0U, 1U}) {
-      const PackStraight::Part& part = straight.parts[end + 1];
-      const Truth is_there = IsAtEnd(end, straight, nearest, first);
-      along = lanes::Choose<Real>(is_there, direction_of(part), along);
-      is_line = hn::Or(hn::And(is_there, TruthOf(part.lines, first)), hn::AndNot(is_there, is_line));
-      is_plane = hn::Or(hn::And(is_there, TruthOf(part.planes, first)), hn::AndNot(is_there, is_plane));
-    }
-    const Vector unit = Scaled(hn::Div(one, hn::Sqrt(DotOf(along, along))), along);
-    const Vector direction = Read(nearest.direction, first);
-    const Vector part = Scaled(DotOf(direction, unit), unit);
-    const Vector left = lanes::Choose<Real>(is_line, Difference(direction, part), part);
-    const Value size = hn::Sqrt(DotOf(left, left));
-    const Truth turns = hn::And(hn::Or(is_line, is_plane), hn::Gt(size, Number(kLeastAcross)));
-    WriteWhere(turns, Scaled(hn::Div(one, size), left), first, nearest.direction);
-    WriteWhere(turns, hn::Mul(size, Read(nearest.distance, first)), first, nearest.distance);
-  }
 }
 
 Lanes TakeNearest(const PackNearest& nearest, Lanes asked, ContactPack& pack) {
@@ -375,22 +304,6 @@ std::array<const double*, 3> axes_of(const LaneVectors& vectors) {
 
 }  // namespace
 
-void set_straight(PairKind kind, const StraightFeature& feature, const Positions& V_t0, const Positions& V_t1,
-                  std::size_t lane, PackStraight& pack) {
-  if (kind == PairKind::kEe) pack.edges[feature.first == 0 ? 0 : 1] |= only_lane(lane);
-  for (std::size_t i = 0; i < feature.parts.size(); ++i) {
-    const StraightSurface& surface = feature.parts[i];
-    PackStraight::Part& part = pack.parts[i];
-    if (surface.kind == StraightSurface::Kind::kLine) part.lines |= only_lane(lane);
-    if (surface.kind == StraightSurface::Kind::kPlane) part.planes |= only_lane(lane);
-    const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
-    for (std::size_t k = 0; k < 3; ++k) {
-      part.direction_t0[k][lane] = t0[static_cast<Eigen::Index>(k)];
-      part.direction_t1[k][lane] = t1[static_cast<Eigen::Index>(k)];
-    }
-  }
-}
-
 void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack) {
   pack.load_m_s2[lane] = along_m_s2;
   for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = friction_m_s2[k];
@@ -460,7 +373,6 @@ HWY_EXPORT(GoBack);
 HWY_EXPORT(NewlyPressed);
 HWY_EXPORT(FindWorkFromOutside);
 HWY_EXPORT(FindNearest);
-HWY_EXPORT(TurnAcross);
 HWY_EXPORT(TakeNearest);
 HWY_EXPORT(BearLoads);
 HWY_EXPORT(Press);
@@ -480,9 +392,6 @@ void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, L
 }
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   HWY_DYNAMIC_DISPATCH(FindNearest)(kind, motion, result);
-}
-void turn_across(const PackStraight& straight, double share, PackNearest& nearest) {
-  HWY_DYNAMIC_DISPATCH(TurnAcross)(straight, share, nearest);
 }
 Lanes take_nearest(const PackNearest& nearest, Lanes lanes, ContactPack& pack) {
   return HWY_DYNAMIC_DISPATCH(TakeNearest)(nearest, lanes, pack);

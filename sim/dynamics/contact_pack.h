@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "sim/base/lane_vectors.h"
-#include "sim/contact/straight_surface.h"
 #include "sim/dynamics/contact_groups.h"
 
 namespace selvage::sim {
@@ -55,16 +54,6 @@ struct alignas(64) PackMotion {
   Lanes lanes = 0;                             ///< that were read; zero in the others
 };
 
-/// What is straight of the bodies in a pack (straight_surface.h), at both ends of the collision step.
-struct PackStraight {
-  struct Part {
-    Lanes lines = 0, planes = 0;
-    LaneColumn3 direction_t0{}, direction_t1{};
-  };
-  std::array<Part, 3> parts;     ///< as in StraightFeature
-  std::array<Lanes, 2> edges{};  ///< whose body is the first, and the second edge
-};
-
 /// Nearest points of the pairs of a pack at the start of the step, as in QuickProximity.
 struct PackNearest {
   LaneColumn<double> distance;
@@ -72,9 +61,6 @@ struct PackNearest {
   std::array<LaneColumn<double>, 4> weights;
   Lanes on_border = 0;  ///< a corner has no weight: the surface may go on beyond
 };
-
-void set_straight(PairKind kind, const StraightFeature& feature, const Positions& V_t0, const Positions& V_t1,
-                  std::size_t lane, PackStraight& pack);
 
 /// What its contact begins the next step with.
 void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack);
@@ -92,9 +78,6 @@ void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& moti
 [[nodiscard]] Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
 
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
-
-/// Directions as across() has them `share` in [0, 1] into the step, and the distances along them.
-void turn_across(const PackStraight& straight, double share, PackNearest& nearest);
 
 /// The contacts at their nearest points, but for those that are nearer than the thickness on the other side, which stay
 /// as they are. Leaves out those whose points are all on vertices that cannot move.

@@ -17,6 +17,7 @@
 #include "sim/dynamics/contact_groups.h"
 #include "sim/dynamics/contact_load.h"
 #include "sim/dynamics/contact_pack.h"
+#include "sim/dynamics/straight_lanes.h"
 
 namespace selvage::sim {
 

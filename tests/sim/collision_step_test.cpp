@@ -16,15 +16,6 @@
 namespace selvage::sim::testbed {
 namespace {
 
-/// A single triangle of about `size_m`, in the plane z = 0, around the origin.
-Shape triangle(double size_m) {
-  Shape shape;
-  shape.x.resize(3, 3);
-  shape.x << -size_m, -size_m, 0, size_m, -size_m, 0, 0, size_m, 0;
-  shape.triangles = {{0, 1, 2}};
-  return shape;
-}
-
 Eigen::RowVector3d momentum(const StepScene& scene, const Positions& velocity) {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (Eigen::Index v = 0; v < velocity.rows(); ++v)
@@ -135,86 +126,6 @@ TEST(CollisionStep, MeetsCollisionsThatItResolvesOrIsAbandonedFor) {
   }
   scene.options.repulsion = false;
   EXPECT_TRUE(scene.step().met.empty());
-}
-
-TEST(CollisionStep, CandidatesBeyondTheDomainAreCutNotRefused) {
-  for (const double far : {0x1.8p+1000, 1e308}) {  // S1: any finite candidate
-    StepScene scene;
-    scene.add(sheet(3), Vec3(0, 0, 0));
-    const auto upper = scene.add(sheet(3), Vec3(0.003, 0.002, 5e-3));
-    scene.V_candidate.row(upper.begin) << far, -far, -far;
-    scene.V_candidate.row(upper.begin + 4) << 0, 0, -far;
-    const CollisionStepResult result = scene.step();
-    SCOPED_TRACE(far);
-    ASSERT_EQ(result.report.input_error, InputError::kNone);
-    EXPECT_EQ(exact_defect(scene, result), "");
-    EXPECT_LE(result.x.cwiseAbs().maxCoeff(), kMaxCoordinate);
-  }
-}
-
-// Of 128 vertices 75,000 pairs would touch there.
-TEST(CollisionStep, AMeshAtOnePointIsCutBackBeforeAllPairsAreListed) {
-  StepScene scene;
-  scene.add(sheet(8), Vec3::Zero());
-  scene.add(sheet(8), Vec3(0, 0, 0.5));
-  ASSERT_EQ(scene.V_t0.rows(), 128);
-  scene.V_candidate.setZero();
-  const CollisionStepResult result = scene.step();
-  EXPECT_EQ(exact_defect(scene, result), "");
-  EXPECT_EQ(result.report.cut_candidates, 128);
-  EXPECT_LT(result.report.first_collisions, 1 << 14);
-
-  const Mesh mesh = scene.mesh();
-  CollisionStep step(mesh, scene.options);
-  const CollisionStepResult abandoned =
-      step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, Patience{.collisions = 1000});
-  EXPECT_EQ(abandoned.report.status, StepStatus::kAbandoned);
-  EXPECT_EQ(abandoned.report.first_collisions, (1 << 14) + 1);
-  EXPECT_EQ(abandoned.x, scene.V_t0);
-}
-
-/// Every vertex of a sheet of 15 x 15 cells of a centimetre flies in a direction of its own: pairs of all parts of it
-/// meet until the ways are about as long as an edge, far below 1024 diagonals of the scene.
-TEST(CollisionStep, ASheetThatIsThrownInAllDirectionsIsCutBackUntilFewOfItsPairsMeet) {
-  for (const bool on_ground : {false, true}) {  // a kilometre wide: the scene is no measure of the cloth
-    StepScene scene;
-    const auto cloth = scene.add(sheet(16, 0.15), Vec3::Zero());
-    if (on_ground) scene.add(triangle(1000), Vec3(0, 0, -0.1), 0);
-    std::mt19937_64 engine(1);
-    std::normal_distribution<double> normal(0, on_ground ? 1e4 : 1e3);
-    for (VertexId v = cloth.begin; v < cloth.end; ++v) {
-      scene.V_candidate.row(v) += Eigen::RowVector3d(normal(engine), normal(engine), normal(engine));
-    }
-    SCOPED_TRACE(on_ground);
-    const CollisionStepResult result = scene.step();
-    EXPECT_EQ(exact_defect(scene, result), "");
-    EXPECT_EQ(result.report.cut_candidates, cloth.end - cloth.begin);
-    EXPECT_LE(result.report.first_collisions, 64 * scene.V_t0.rows());
-  }
-}
-
-/// Nothing touches on the way to a billionth of the size, and in the end all 108,000 pairs are within the tolerance.
-TEST(CollisionStep, AMeshThatShrinksToAPointIsCutBackBeforeAllPairsAreNear) {
-  StepScene scene;
-  scene.add(sheet(12), Vec3::Zero());
-  scene.V_candidate = 1e-9 * scene.V_t0;
-  const CollisionStepResult result = scene.step();
-  EXPECT_EQ(exact_defect(scene, result), "");
-  EXPECT_EQ(result.report.cut_candidates, 144);
-  EXPECT_LE(result.report.first_collisions, 1 << 14);
-}
-
-/// Where it is the tolerance that is large, cloth moves whatever is near, as it was as near before.
-TEST(CollisionStep, NothingIsCutBackForPairsThatAreNearInAnyCase) {
-  StepScene scene;
-  const auto cloth = scene.add(sheet(12), Vec3::Zero());
-  scene.options.tolerance_m = 0.1;
-  scene.push(cloth, Vec3(0, 0, 0.01));
-  const CollisionStepResult result = scene.step();
-  EXPECT_EQ(exact_defect(scene, result), "");
-  EXPECT_EQ(result.report.cut_candidates, 0);
-  EXPECT_GT(result.report.first_collisions, 1 << 14);
-  EXPECT_GT(result.report.below_tolerance.size(), 1U << 14);
 }
 
 TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRound) {

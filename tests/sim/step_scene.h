@@ -15,6 +15,15 @@ namespace selvage::sim::testbed {
 
 inline Shape sheet(std::int32_t side, double width_m = 0.1) { return make_sheet(side, side, width_m, width_m); }
 
+/// A single triangle of about `size_m`, in the plane z = 0, around the origin.
+inline Shape triangle(double size_m) {
+  Shape shape;
+  shape.x.resize(3, 3);
+  shape.x << -size_m, -size_m, 0, size_m, -size_m, 0, 0, size_m, 0;
+  shape.triangles = {{0, 1, 2}};
+  return shape;
+}
+
 struct StepScene {
   struct Part {
     VertexId begin = 0, end = 0;

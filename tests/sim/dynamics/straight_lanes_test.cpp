@@ -1,10 +1,10 @@
 // What eight contacts at once are told of the bodies below them, against one contact at a time.
+#include "sim/dynamics/straight_lanes.h"
+
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
-
-#include "sim/dynamics/contact_pack.h"
 
 namespace selvage::sim {
 namespace {

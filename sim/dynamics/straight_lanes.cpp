@@ -1,0 +1,75 @@
+#include "sim/dynamics/straight_lanes.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sim/dynamics/straight_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sim/dynamics/pack_columns-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace selvage::sim::HWY_NAMESPACE {
+
+/// Lanes whose nearest points are at the end of the body's edge that is its first, or second, vertex.
+HWY_INLINE Truth IsAtEnd(std::size_t end, const PackStraight& straight, const PackNearest& nearest, std::size_t first) {
+  const auto is_zero = [&](std::size_t k) { return hn::Eq(Read(nearest.weights[k], first), hn::Zero(Real())); };
+  return hn::Or(hn::And(TruthOf(straight.edges[0], first), is_zero(1 - end)),
+                hn::And(TruthOf(straight.edges[1], first), is_zero(3 - end)));
+}
+
+void TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
+  const Value one = Number(1);
+  for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
+    const auto direction_of = [&](const PackStraight::Part& part) {
+      const Vector t0 = Read(part.direction_t0, first), t1 = Read(part.direction_t1, first);
+      return Sum(t0, Scaled(Number(share), Difference(t1, t0)));
+    };
+    Vector along = direction_of(straight.parts[0]);
+    Truth is_line = TruthOf(straight.parts[0].lines, first), is_plane = TruthOf(straight.parts[0].planes, first);
+    for (const std::size_t end : {0U, 1U}) {
+      const PackStraight::Part& part = straight.parts[end + 1];
+      const Truth is_there = IsAtEnd(end, straight, nearest, first);
+      along = lanes::Choose<Real>(is_there, direction_of(part), along);
+      is_line = hn::Or(hn::And(is_there, TruthOf(part.lines, first)), hn::AndNot(is_there, is_line));
+      is_plane = hn::Or(hn::And(is_there, TruthOf(part.planes, first)), hn::AndNot(is_there, is_plane));
+    }
+    const Vector unit = Scaled(hn::Div(one, hn::Sqrt(DotOf(along, along))), along);
+    const Vector direction = Read(nearest.direction, first);
+    const Vector part = Scaled(DotOf(direction, unit), unit);
+    const Vector left = lanes::Choose<Real>(is_line, Difference(direction, part), part);
+    const Value size = hn::Sqrt(DotOf(left, left));
+    const Truth turns = hn::And(hn::Or(is_line, is_plane), hn::Gt(size, Number(kLeastAcross)));
+    WriteWhere(turns, Scaled(hn::Div(one, size), left), first, nearest.direction);
+    WriteWhere(turns, hn::Mul(size, Read(nearest.distance, first)), first, nearest.distance);
+  }
+}
+
+}  // namespace selvage::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace selvage::sim {
+
+void set_straight(PairKind kind, const StraightFeature& feature, const Positions& V_t0, const Positions& V_t1,
+                  std::size_t lane, PackStraight& pack) {
+  if (kind == PairKind::kEe) pack.edges[feature.first == 0 ? 0 : 1] |= only_lane(lane);
+  for (std::size_t i = 0; i < feature.parts.size(); ++i) {
+    const StraightSurface& surface = feature.parts[i];
+    PackStraight::Part& part = pack.parts[i];
+    if (surface.kind == StraightSurface::Kind::kLine) part.lines |= only_lane(lane);
+    if (surface.kind == StraightSurface::Kind::kPlane) part.planes |= only_lane(lane);
+    const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      part.direction_t0[k][lane] = t0[static_cast<Eigen::Index>(k)];
+      part.direction_t1[k][lane] = t1[static_cast<Eigen::Index>(k)];
+    }
+  }
+}
+
+HWY_EXPORT(TurnAcross);
+void turn_across(const PackStraight& straight, double share, PackNearest& nearest) {
+  HWY_DYNAMIC_DISPATCH(TurnAcross)(straight, share, nearest);
+}
+
+}  // namespace selvage::sim
+#endif
