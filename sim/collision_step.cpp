@@ -64,7 +64,7 @@ std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>
   parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
     const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
     auto made = make_contact(pair, step.contacts.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
-    if (made) turn_across(step.straight.of(pair.kind, pair.vertices, V_t0, is_cloth), V_t0, *made);
+    if (made && !turn_across(step.straight.of(pair.kind, pair.vertices, V_t0, is_cloth), V_t0, *made)) made.reset();
     contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
   });
   const auto none_was_made = [](const RepulsionContact& contact) { return !(contact.mobility > 0); };

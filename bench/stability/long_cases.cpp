@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "bench/stability/cases.h"
@@ -74,8 +76,12 @@ position_m = [0, 0, -0.1]
 )",
                              rubbing_start(), n, n, kLinen, n / 2, n / 2, kLinen),
                  1);
-  play.run_to(trial.variant().quick ? 0.05 : 1.4);
-  trial.at_most("largest strain", play.largest_strain(), 0.5);
+  double most = 0;
+  for (int frame = 1; frame <= (trial.variant().quick ? 2 : 42); ++frame) {
+    play.run_to(frame / 30.0);
+    most = std::max(most, play.largest_strain());
+  }
+  trial.at_most("largest strain on the way", most, 0.5);
 }
 
 void ball_through_stack(Trial& trial) {
@@ -122,7 +128,7 @@ sheet = {{nx = 2, ny = 2, width_m = 4, height_m = 4}}
 std::vector<StabilityCase> long_cases() {
   return {
       {"funnel", "a sheet is pulled through a hole of a third of its width", "it goes down", funnel},
-      {"tablecloth-pull", "a cloth is pulled from under another, over an edge", "strain at most 0.5", tablecloth_pull},
+      {"tablecloth-pull", "a cloth is pulled from under another, over an edge", "strain at most 0.5 on the way", tablecloth_pull},
       {"ball-on-stack", "a ball presses four cloths onto the ground", "it waits", ball_through_stack},
   };
 }

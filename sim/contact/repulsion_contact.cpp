@@ -44,12 +44,17 @@ std::optional<RepulsionContact> make_contact(const Collision& collision, const s
   return if_it_acts(contact);
 }
 
-void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact) {
+bool turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact) {
   contact.straight = straight;
-  const StraightSurface& surface = straight.parts.at(straight.part(contact.kind, contact.interaction.weights));
-  if (surface.kind == StraightSurface::Kind::kCorner) return;  // with the distance as it was, to the bit
-  contact.normal = across(surface.kind, surface.direction(V_t0), contact.normal);
+  const std::array<double, 4>& weights = contact.interaction.weights;
+  const StraightSurface& surface = straight.parts.at(straight.part(contact.kind, weights));
+  if (surface.kind == StraightSurface::Kind::kCorner) return true;  // with the distance as it was, to the bit
+  const Vec3 direction = surface.direction(V_t0);
+  const Vec3 part = along(surface.kind, direction, contact.normal);
+  const bool lies_over_it = is_over(contact.distance, part, straight.extent_m(contact.kind, weights));
+  contact.normal = across(surface.kind, direction, contact.normal);
   contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
+  return lies_over_it;
 }
 
 void add_pair(const RepulsionContact& contact, Candidates& pairs) {

@@ -39,8 +39,9 @@ struct RepulsionContact {
                                                            const ContactProperties& properties, const Positions& V_t0,
                                                            std::span<const double> inverse_mass);
 
-/// Has it repel across what is straight (straight_surface.h) from now on.
-void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact);
+/// Has it repel across what is straight (straight_surface.h) from now on. Whether its points lie over that: if not,
+/// other pairs are nearer. Those of a collision may be over it when they meet.
+bool turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact);
 
 /// Behind the others, which sort_pairs() brings into the order that Candidates has, each once.
 void add_pair(const RepulsionContact& contact, Candidates& pairs);

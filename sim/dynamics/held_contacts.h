@@ -166,7 +166,7 @@ class HeldContacts {
   struct Slid {
     Refused refused;
     Lanes on = 0;       ///< to other faces
-    Lanes cannot = 0;   ///< move there
+    Lanes cannot = 0;   ///< move there, or are not over what is straight
     Lanes through = 0;  ///< the surface: stay as they are
   };
   [[nodiscard]] Slid slide(std::size_t pack, Lanes lanes, const Reach& reach, const ContactMotion& motion);

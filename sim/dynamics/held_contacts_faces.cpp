@@ -17,20 +17,22 @@ constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf
 
 /// The pairs' nearest points now, seen from the side on which they are while they are farther apart than the thickness;
 /// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
-/// that cannot move do not act.
+/// that cannot move do not act, nor do those whose points are not over what is straight between them.
 HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reach, const ContactMotion& motion,
                                                PackMotion& read, Lanes& lanes) {
   ContactPack& pack = packs_[id];
   const PairKind kind = kind_of(id);
   PackNearest nearest;
   find_nearest(kind, read, nearest);
-  if ((lanes & states_[id].straight) != 0) turn_across(straight_[states_[id].straight_at], motion.share, nearest);
+  const Lanes straight = lanes & states_[id].straight;
+  Lanes beyond = 0;
+  if (straight != 0) beyond = straight & ~turn_across(straight_[states_[id].straight_at], motion.share, nearest);
   const Lanes on_border = lanes & nearest.on_border;
   Slid slid;
   if (kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, motion);
   if (slid.on != 0) read_motion(pack, read.lanes, motion, read);
   const Lanes acting = slid.on | slid.through;
-  const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot;
+  const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot | beyond;
   lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
   return slid.refused;
 }
@@ -55,9 +57,11 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
     now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
     now.interaction.weights = nearest.weights;
     const StraightSurface& straight = now.straight.parts[StraightFeature::kWithin];  // where the vertex is a body's
-    const Vec3 direction = (1 - motion.share) * straight.direction(V_t0_) + motion.share * straight.direction(V_t1_);
-    now.normal = across(straight.kind, direction.normalized(), nearest.direction);
-    if (!(effective_mobility(now.interaction) > 0)) {
+    const Vec3 direction =
+        ((1 - motion.share) * straight.direction(V_t0_) + motion.share * straight.direction(V_t1_)).normalized();
+    now.normal = across(straight.kind, direction, nearest.direction);
+    const Vec3 part = along(straight.kind, direction, nearest.direction);
+    if (!(effective_mobility(now.interaction) > 0) || !is_over(nearest.distance, part, straight.extent_m)) {
       slid.cannot |= only_lane(lane);
       continue;
     }

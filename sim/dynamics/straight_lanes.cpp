@@ -10,6 +10,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
 
+/// Of the body's edge, the weight of its nearer end: 1 where it is a vertex that is in the pair.
+HWY_INLINE Value NearerEnd(const PackStraight& straight, const PackNearest& nearest, std::size_t first) {
+  const auto weight = [&](std::size_t k) { return hn::Abs(Read(nearest.weights[k], first)); };
+  const Value of_first = hn::Min(weight(0), weight(1)), of_second = hn::Min(weight(2), weight(3));
+  const Value of_edge = hn::IfThenElse(TruthOf(straight.edges[1], first), of_second, Number(1));
+  return hn::IfThenElse(TruthOf(straight.edges[0], first), of_first, of_edge);
+}
+
 /// Lanes whose nearest points are at the end of the body's edge that is its first, or second, vertex.
 HWY_INLINE Truth IsAtEnd(std::size_t end, const PackStraight& straight, const PackNearest& nearest, std::size_t first) {
   const auto is_zero = [&](std::size_t k) { return hn::Eq(Read(nearest.weights[k], first), hn::Zero(Real())); };
@@ -17,31 +25,39 @@ HWY_INLINE Truth IsAtEnd(std::size_t end, const PackStraight& straight, const Pa
                 hn::And(TruthOf(straight.edges[1], first), is_zero(3 - end)));
 }
 
-void TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
+Lanes TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
   const Value one = Number(1);
+  Lanes over = 0;
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const auto direction_of = [&](const PackStraight::Part& part) {
       const Vector t0 = Read(part.direction_t0, first), t1 = Read(part.direction_t1, first);
       return Sum(t0, Scaled(Number(share), Difference(t1, t0)));
     };
-    Vector along = direction_of(straight.parts[0]);
+    Vector straight_way = direction_of(straight.parts[0]);
+    Value extent = hn::Mul(NearerEnd(straight, nearest, first), Read(straight.parts[0].extent_m, first));
     Truth is_line = TruthOf(straight.parts[0].lines, first), is_plane = TruthOf(straight.parts[0].planes, first);
     for (const std::size_t end : {0U, 1U}) {
       const PackStraight::Part& part = straight.parts[end + 1];
       const Truth is_there = IsAtEnd(end, straight, nearest, first);
-      along = lanes::Choose<Real>(is_there, direction_of(part), along);
+      straight_way = lanes::Choose<Real>(is_there, direction_of(part), straight_way);
+      extent = hn::IfThenElse(is_there, Read(part.extent_m, first), extent);
       is_line = hn::Or(hn::And(is_there, TruthOf(part.lines, first)), hn::AndNot(is_there, is_line));
       is_plane = hn::Or(hn::And(is_there, TruthOf(part.planes, first)), hn::AndNot(is_there, is_plane));
     }
-    const Vector unit = Scaled(hn::Div(one, hn::Sqrt(DotOf(along, along))), along);
+    const Vector unit = Scaled(hn::Div(one, hn::Sqrt(DotOf(straight_way, straight_way))), straight_way);
     const Vector direction = Read(nearest.direction, first);
-    const Vector part = Scaled(DotOf(direction, unit), unit);
-    const Vector left = lanes::Choose<Real>(is_line, Difference(direction, part), part);
-    const Value size = hn::Sqrt(DotOf(left, left));
-    const Truth turns = hn::And(hn::Or(is_line, is_plane), hn::Gt(size, Number(kLeastAcross)));
+    const Vector part = Scaled(DotOf(direction, unit), unit), rest = Difference(direction, part);
+    const Vector along = lanes::Choose<Real>(is_line, part, rest), left = lanes::Choose<Real>(is_line, rest, part);
+    const Truth is_straight = hn::Or(is_line, is_plane);
+    const Value size = hn::Sqrt(DotOf(left, left)), distance = Read(nearest.distance, first);
+    const Value farthest = hn::Add(extent, hn::Mul(Number(kStraight), distance));
+    const Truth is_beyond = hn::And(is_straight, hn::Gt(hn::Mul(distance, hn::Sqrt(DotOf(along, along))), farthest));
+    over |= LanesOf(hn::Not(is_beyond), first);
+    const Truth turns = hn::And(is_straight, hn::Gt(size, Number(kLeastAcross)));
     WriteWhere(turns, Scaled(hn::Div(one, size), left), first, nearest.direction);
-    WriteWhere(turns, hn::Mul(size, Read(nearest.distance, first)), first, nearest.distance);
+    WriteWhere(turns, hn::Mul(size, distance), first, nearest.distance);
   }
+  return over;
 }
 
 }  // namespace selvage::sim::HWY_NAMESPACE
@@ -58,6 +74,7 @@ void set_straight(PairKind kind, const StraightFeature& feature, const Positions
     PackStraight::Part& part = pack.parts[i];
     if (surface.kind == StraightSurface::Kind::kLine) part.lines |= only_lane(lane);
     if (surface.kind == StraightSurface::Kind::kPlane) part.planes |= only_lane(lane);
+    part.extent_m[lane] = surface.extent_m;
     const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
     for (std::size_t k = 0; k < 3; ++k) {
       part.direction_t0[k][lane] = t0[static_cast<Eigen::Index>(k)];
@@ -67,8 +84,8 @@ void set_straight(PairKind kind, const StraightFeature& feature, const Positions
 }
 
 HWY_EXPORT(TurnAcross);
-void turn_across(const PackStraight& straight, double share, PackNearest& nearest) {
-  HWY_DYNAMIC_DISPATCH(TurnAcross)(straight, share, nearest);
+Lanes turn_across(const PackStraight& straight, double share, PackNearest& nearest) {
+  return HWY_DYNAMIC_DISPATCH(TurnAcross)(straight, share, nearest);
 }
 
 }  // namespace selvage::sim

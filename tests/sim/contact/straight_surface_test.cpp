@@ -1,5 +1,7 @@
 #include "sim/contact/straight_surface.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "kernel/mesh.h"
@@ -89,6 +91,39 @@ TEST(StraightSurface, IsOfBodiesAlone) {
 TEST(StraightSurface, RoundingIsStraightAndABendIsNot) {
   EXPECT_EQ(Roof(1, 1e-5).at(7).kind, Kind::kLine);
   EXPECT_EQ(Roof(1, 1e-2).at(7).kind, Kind::kCorner);
+}
+
+TEST(StraightSurface, GoesAsFarAsTheFacesAroundIt) {
+  Roof flat(0);
+  flat.V.col(0) *= 2;  // faces of 2 by 1, whose diagonals are from 3 i + side + 1 to 3 (i + 1) + side
+  EXPECT_EQ(Roof(1).at(7).extent_m, 1) << "along the ridge";
+  EXPECT_NEAR(flat.at(7).extent_m, 2 / std::sqrt(5), 1e-15) << "the height over a diagonal";
+  const auto within = [&](VertexId a, VertexId b, double share) {
+    const StraightFeature edge =
+        StraightSurfaces(flat.mesh, VertexFaces(flat.mesh)).of(PairKind::kEe, {a, b, 0, 1}, flat.V, flat.is_cloth);
+    return edge.extent_m(PairKind::kEe, {share - 1, -share, 0.5, 0.5});
+  };
+  EXPECT_NEAR(within(7, 6, 0.5), 1, 1e-15) << "2 over the edge in the middle, at most";
+  EXPECT_NEAR(within(7, 6, 0.25), 0.5, 1e-15);
+  EXPECT_NEAR(within(7, 6, 0.75), 0.5, 1e-15);
+  EXPECT_NEAR(within(7, 6, 0), 2 / std::sqrt(5), 1e-15) << "that of its end";
+  flat.V.row(8).x() += 8;  // now the face beyond the diagonal stands beside that
+  flat.V.row(11).x() += 8;
+  const double beside = within(7, 10, 0.5);
+  EXPECT_GT(beside, 0);
+  EXPECT_LT(beside, 0.5) << "leaving out what is not above the edge";
+}
+
+TEST(StraightSurface, APointIsOverItOrBeyond) {
+  const Vec3 x = Vec3::UnitX(), tilted = Vec3(3, 0, 4).normalized();
+  EXPECT_TRUE(along(Kind::kLine, x, tilted).isApprox(0.6 * x));
+  EXPECT_TRUE(along(Kind::kPlane, -x, tilted).isApprox(Vec3(0, 0, 0.8)));
+  EXPECT_EQ(along(Kind::kCorner, Vec3::Zero(), tilted), Vec3::Zero());
+  for (const double extent_m : {2.9, 3.1}) {
+    EXPECT_EQ(is_over(5, along(Kind::kLine, x, tilted), extent_m), extent_m > 3);
+    EXPECT_EQ(is_over(5, along(Kind::kPlane, Vec3::UnitZ(), tilted), extent_m), extent_m > 3);
+  }
+  EXPECT_TRUE(is_over(1, 1e-4 * x, 0)) << "as straight as it must be";
 }
 
 TEST(StraightSurface, DirectionsAreAcrossIt) {

@@ -31,7 +31,8 @@ Positions four_points() {
 
 StraightSurface any_surface() {
   constexpr std::array<Kind, 3> kKinds{Kind::kCorner, Kind::kLine, Kind::kPlane};
-  return {kKinds.at(engine()() % 3), {0, 1, 2, 3}};
+  constexpr double kMost = 4;  // twice the distance
+  return {kKinds.at(engine()() % 3), {0, 1, 2, 3}, kMost * std::abs(any_point().x())};
 }
 
 /// On the edge of the body, from vertex `first` on: within it, or at one of its ends.
@@ -47,12 +48,13 @@ std::array<double, 4> any_weights(std::uint8_t first) {
 }  // namespace
 
 TEST(StraightLanes, TurnDirectionsAsOneContactAlone) {
-  constexpr double kShare = 0.3;
+  constexpr double kShare = 0.3, kDistance = 2;
   for (int round = 0; round < 200; ++round) {
     const PairKind kind = round % 2 == 0 ? PairKind::kEe : PairKind::kVf;
     const Positions V_t0 = four_points(), V_t1 = four_points();
     PackStraight pack;
     PackNearest nearest{}, expected{};
+    Lanes expected_over = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       StraightFeature feature{{any_surface(), any_surface(), any_surface()}, {}};
       if (kind == PairKind::kVf) feature.parts[1] = feature.parts[2] = {};
@@ -63,15 +65,17 @@ TEST(StraightLanes, TurnDirectionsAsOneContactAlone) {
       const StraightSurface& surface = feature.parts.at(feature.part(kind, weights));
       const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
       const Vec3 turned = across(surface.kind, (t0 + kShare * (t1 - t0)).normalized(), direction);
-      nearest.distance[lane] = 2;
-      expected.distance[lane] = 2 * turned.dot(direction);  // of the same two points
+      const Vec3 part = along(surface.kind, (t0 + kShare * (t1 - t0)).normalized(), direction);
+      if (is_over(kDistance, part, feature.extent_m(kind, weights))) expected_over |= only_lane(lane);
+      nearest.distance[lane] = kDistance;
+      expected.distance[lane] = kDistance * turned.dot(direction);  // of the same two points
       for (std::size_t k = 0; k < 4; ++k) nearest.weights[k][lane] = weights[k];
       for (std::size_t k = 0; k < 3; ++k) {
         nearest.direction[k][lane] = direction[static_cast<Eigen::Index>(k)];
         expected.direction[k][lane] = turned[static_cast<Eigen::Index>(k)];
       }
     }
-    turn_across(pack, kShare, nearest);
+    EXPECT_EQ(turn_across(pack, kShare, nearest), expected_over) << round;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       EXPECT_LT((vector_in(nearest.direction, lane) - vector_in(expected.direction, lane)).norm(), 1e-12) << lane;
       EXPECT_NEAR(nearest.distance[lane], expected.distance[lane], 1e-12) << lane;
