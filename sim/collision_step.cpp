@@ -64,7 +64,7 @@ std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>
   parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
     const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
     auto made = make_contact(pair, step.contacts.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
-    if (made && !turn_across(step.straight.of(pair.kind, pair.vertices, V_t0, is_cloth), V_t0, *made)) made.reset();
+    if (made) turn_across(step.straight.of(pair.kind, pair.vertices, V_t0, is_cloth), V_t0, *made);
     contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
   });
   const auto none_was_made = [](const RepulsionContact& contact) { return !(contact.mobility > 0); };
@@ -150,7 +150,13 @@ void Attempt::repel() {
   }
   Contacts& contacts = step_.room_of_swept;
   contacts.clear();
-  for (const RepulsionContact& held : held_) contacts.add(held);
+  const auto add_all = [&](std::span<const RepulsionContact> given) {
+    for (const RepulsionContact& contact : given) {
+      if (!contact.is_beyond) contacts.add(contact);
+    }
+  };
+  add_all(held_);
+  const std::size_t held_count = contacts.size();
   for (const int sweeps : {kFirstSweeps, kRepulsionSweeps - kFirstSweeps}) {
     std::span<const RepulsionContact> found;
     {
@@ -158,10 +164,10 @@ void Attempt::repel() {
       found = make_contacts(step_.proximities.find(motion_.x()), motion_.V_t0(), bodies_.inverse_mass, surface_, step_);
     }
     const PhaseTimer timer(report_.phases.repulsion);
-    for (const RepulsionContact& contact : found) contacts.add(contact);
+    add_all(found);
     contacts.repel(step_.options, dt_s_, sweeps, motion_);
   }
-  met_ = contacts.pressed(held_.size());
+  met_ = contacts.pressed(held_count);
   report_.proximities = std::ssize(held_) + step_.proximities.count();
   report_.repulsions = contacts.count().repulsions;
   report_.frictions = contacts.count().frictions;
@@ -303,6 +309,11 @@ CollisionStep::CollisionStep(const Mesh& mesh, const CollisionOptions& options, 
 CollisionStep::~CollisionStep() = default;
 CollisionStep::CollisionStep(CollisionStep&&) noexcept = default;
 CollisionStep& CollisionStep::operator=(CollisionStep&&) noexcept = default;
+
+const VertexFaces& CollisionStep::vertex_faces() const {
+  SELVAGE_REQUIRE(impl_ != nullptr);
+  return impl_->faces;
+}
 
 const ContactTable& CollisionStep::contact_table() const {
   SELVAGE_REQUIRE(impl_ != nullptr);

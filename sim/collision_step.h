@@ -119,6 +119,7 @@ class CollisionStep {
 
   /// Of the mesh and its surfaces.
   [[nodiscard]] const ContactTable& contact_table() const;
+  [[nodiscard]] const VertexFaces& vertex_faces() const;
 
  private:
   struct Impl;

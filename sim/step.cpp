@@ -61,7 +61,6 @@ Simulation::Simulation(const Scene& scene, const FpEnvGuard& /*during*/)
       parts_(world_.mesh),
       allowance_(scene_, world_, parts_),
       script_(scene_, world_),
-      vertex_faces_(world_.mesh),
       x_(world_.x_t0),
       v_(world_.v_t0) {}
 
@@ -159,7 +158,7 @@ const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<
   const Eigen::Index cloth = world_.cloth_vertex_count;
   const HeldSurface surface{world_.mesh,
                             parts_,
-                            vertex_faces_,
+                            collision_step_.vertex_faces(),
                             collision_step_.contact_table(),
                             script_.inverse_mass(),
                             world_.cloth_vertex_count,

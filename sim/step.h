@@ -107,7 +107,6 @@ class Simulation {
   SurfaceParts parts_;
   StepAllowance allowance_;
   ScriptedMotion script_;
-  VertexFaces vertex_faces_;
   Positions x_, v_;
   ContactLoads loads_;
   Candidates pressed_;

@@ -128,7 +128,8 @@ sheet = {{nx = 2, ny = 2, width_m = 4, height_m = 4}}
 std::vector<StabilityCase> long_cases() {
   return {
       {"funnel", "a sheet is pulled through a hole of a third of its width", "it goes down", funnel},
-      {"tablecloth-pull", "a cloth is pulled from under another, over an edge", "strain at most 0.5 on the way", tablecloth_pull},
+      {"tablecloth-pull", "a cloth is pulled from under another, over an edge", "strain at most 0.5 on the way",
+       tablecloth_pull},
       {"ball-on-stack", "a ball presses four cloths onto the ground", "it waits", ball_through_stack},
   };
 }

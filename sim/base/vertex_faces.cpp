@@ -1,8 +1,15 @@
 #include "sim/base/vertex_faces.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace selvage::sim {
+
+std::optional<VertexId> corner_across(const std::array<VertexId, 3>& face, VertexId a, VertexId b) {
+  const auto is_end = [&](VertexId v) { return v == a || v == b; };
+  if (std::ranges::count_if(face, is_end) != 2) return std::nullopt;
+  return *std::ranges::find_if_not(face, is_end);
+}
 
 VertexFaces::VertexFaces(const Mesh& mesh) : begin_(static_cast<std::size_t>(mesh.vertex_count) + 1) {
   for (const auto& face : mesh.faces) {

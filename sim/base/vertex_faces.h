@@ -1,13 +1,18 @@
 // The faces around each vertex: where the surface goes on beside a face.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "kernel/mesh.h"
 
 namespace selvage::sim {
+
+/// The corner of a face across from an edge, if that is one of its edges.
+[[nodiscard]] std::optional<VertexId> corner_across(const std::array<VertexId, 3>& face, VertexId a, VertexId b);
 
 class VertexFaces {
  public:

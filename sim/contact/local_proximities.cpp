@@ -130,8 +130,7 @@ class LocalTest {
       const std::span<const PairProximity> near = faces_near(pair.vertices[end]);
       const VertexId a = pair.vertices[end < 2 ? 2 : 0], b = pair.vertices[end < 2 ? 3 : 1];
       const bool covered = std::ranges::any_of(faces_.of_either(a, b), [&](FaceId face) {
-        const std::array<VertexId, 3>& corners = mesh_.faces[static_cast<std::size_t>(face)];
-        if (!holds(corners, a) || !holds(corners, b)) return false;
+        if (!corner_across(mesh_.faces[static_cast<std::size_t>(face)], a, b)) return false;
         const auto other = std::ranges::lower_bound(near, face, {}, &PairProximity::second);
         return other != near.end() && other->second == face && other->proximity.distance <= pair.proximity.distance;
       });

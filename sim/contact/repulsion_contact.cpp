@@ -44,17 +44,17 @@ std::optional<RepulsionContact> make_contact(const Collision& collision, const s
   return if_it_acts(contact);
 }
 
-bool turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact) {
+void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact) {
   contact.straight = straight;
   const std::array<double, 4>& weights = contact.interaction.weights;
   const StraightSurface& surface = straight.parts.at(straight.part(contact.kind, weights));
-  if (surface.kind == StraightSurface::Kind::kCorner) return true;  // with the distance as it was, to the bit
-  const Vec3 direction = surface.direction(V_t0);
-  const Vec3 part = along(surface.kind, direction, contact.normal);
-  const bool lies_over_it = is_over(contact.distance, part, straight.extent_m(contact.kind, weights));
-  contact.normal = across(surface.kind, direction, contact.normal);
+  if (surface.kind == StraightSurface::Kind::kCorner) return;  // with the distance as it was, to the bit
+  const double extent_share = straight.extent_share(contact.kind, weights);
+  const Across turned = across(surface, extent_share, surface.direction(V_t0), contact.normal, contact.distance);
+  contact.is_beyond = turned.is_beyond;
+  if (turned.is_beyond) return;
+  contact.normal = turned.unit;
   contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
-  return lies_over_it;
 }
 
 void add_pair(const RepulsionContact& contact, Candidates& pairs) {

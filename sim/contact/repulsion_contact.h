@@ -24,6 +24,7 @@ struct RepulsionContact {
   double distance = 0;         ///< of the points, along the normal, at the start of the step
   double mobility = 0;         ///< effective_mobility(interaction) > 0
   StraightFeature straight;    ///< of the body in it
+  bool is_beyond = false;      ///< as in Across, when it was last looked at: it does not repel
 };
 
 /// A pair that is near at the start of the step. Nothing where no vertex that matters can move, or where the points
@@ -39,9 +40,8 @@ struct RepulsionContact {
                                                            const ContactProperties& properties, const Positions& V_t0,
                                                            std::span<const double> inverse_mass);
 
-/// Has it repel across what is straight (straight_surface.h) from now on. Whether its points lie over that: if not,
-/// other pairs are nearer. Those of a collision may be over it when they meet.
-bool turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact);
+/// Has it repel across what is straight (straight_surface.h) from now on, or finds it beyond that, at V_t0.
+void turn_across(const StraightFeature& straight, const Positions& V_t0, RepulsionContact& contact);
 
 /// Behind the others, which sort_pairs() brings into the order that Candidates has, each once.
 void add_pair(const RepulsionContact& contact, Candidates& pairs);

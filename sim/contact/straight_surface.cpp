@@ -2,22 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 namespace selvage::sim {
 namespace {
 
-/// The sine of the angle between two lines that span a plane.
-constexpr double kSpanning = 0.1;
+/// Cloth that slides at 3 m/s passes 10 cm in a step of a 30th of a second: 32 edges of 3 mm, which is what it is
+/// thick.
+constexpr int kMostAhead = 32;
+
+/// Normals of faces around a vertex that are tried: of a cube's corner cut into any faces there are three, and a hub of
+/// hundreds of faces is asked in linear time.
+constexpr std::size_t kMostPlanes = 4;
+
+/// Faces around a vertex that has pairs of them tried.
+constexpr std::size_t kMostOnLine = 64;
 
 Vec3 way(const Positions& V, VertexId from, VertexId to) { return (V.row(to) - V.row(from)).stableNormalized(); }
 
 double length(const Positions& V, VertexId from, VertexId to) { return (V.row(to) - V.row(from)).stableNorm(); }
 
 double height_over(const Positions& V, VertexId a, VertexId b, VertexId third) {
-  return way(V, a, b).cross(V.row(third) - V.row(a)).norm();
+  return way(V, a, b).cross(V.row(third) - V.row(a)).stableNorm();
 }
 
 /// How far a face goes on beside an edge of it, over the weight of the nearer end of where on the edge that is: its
@@ -27,7 +39,31 @@ double extent_beside(const Positions& V, VertexId a, VertexId b, VertexId third)
   return height_over(V, a, b, third) / std::max({foot, 1 - foot, 1.0});
 }
 
+/// Whether the faces, which lie in the plane, leave no gap around their common vertex.
+bool surrounds(std::span<const Sector> faces, const Vec3& normal) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  std::vector<std::pair<double, double>> spans;  // first and last angles
+  for (const Sector& face : faces) {
+    std::array<double, 2> angles{};
+    for (const std::size_t k : {0U, 1U}) angles[k] = std::atan2(face.ways[k].dot(y), face.ways[k].dot(x));
+    const double turn = std::remainder(angles[1] - angles[0], kTurn);
+    const double first = turn > 0 ? angles[0] : angles[1];
+    spans.emplace_back(first, first + std::abs(turn));
+  }
+  if (spans.empty()) return false;
+  std::ranges::sort(spans);
+  double till = spans.front().first;
+  for (const auto& [first, last] : spans) {
+    if (first > till + kStraight) return false;
+    till = std::max(till, last);
+  }
+  return till >= spans.front().first + kTurn - kStraight;
+}
+
 }  // namespace
+
+double Sector::sine() const { return ways[0].cross(ways[1]).norm(); }
 
 Vec3 StraightSurface::direction(const Positions& V) const {
   if (kind == Kind::kCorner) return Vec3::Zero();
@@ -45,28 +81,22 @@ StraightFeature::Part StraightFeature::part(PairKind kind, const std::array<doub
   return weights[first] == 0 ? kSecondEnd : kWithin;
 }
 
-double StraightFeature::extent_m(PairKind kind, const std::array<double, 4>& weights) const {
-  const Part on = part(kind, weights);
-  const bool is_within_edge = kind == PairKind::kEe && on == kWithin;
-  const double share = is_within_edge ? std::min(std::abs(weights[first]), std::abs(weights[first + 1U])) : 1;
-  return share * parts.at(on).extent_m;
+double StraightFeature::extent_share(PairKind kind, const std::array<double, 4>& weights) const {
+  if (kind == PairKind::kVf || part(kind, weights) != kWithin) return 1;
+  return std::min(std::abs(weights[first]), std::abs(weights[first + 1U]));
 }
 
-Vec3 along(StraightSurface::Kind kind, const Vec3& direction, const Vec3& vector) {
-  if (kind == StraightSurface::Kind::kCorner) return Vec3::Zero();
-  const Vec3 part = vector.dot(direction) * direction;
-  return kind == StraightSurface::Kind::kLine ? part : Vec3(vector - part);
-}
-
-Vec3 across(StraightSurface::Kind kind, const Vec3& direction, const Vec3& unit) {
-  if (kind == StraightSurface::Kind::kCorner) return unit;
-  const Vec3 left = unit - along(kind, direction, unit);
+Across across(const StraightSurface& surface, double extent_share, const Vec3& direction, const Vec3& unit,
+              double distance) {
+  if (surface.kind == StraightSurface::Kind::kCorner) return {unit};
+  const double along_direction = unit.dot(direction);
+  const Vec3 part = along_direction * direction, rest = unit - part;
+  const bool is_line = surface.kind == StraightSurface::Kind::kLine;
+  const Vec3 &along = is_line ? part : rest, &left = is_line ? rest : part;
+  const double extent = extent_share * surface.extents_m[along_direction > 0 ? 1 : 0];
   const double size = left.norm();
-  return size > kLeastAcross ? Vec3(left / size) : unit;
-}
-
-bool is_over(double distance, const Vec3& part, double extent_m) {
-  return distance * part.norm() <= extent_m + kStraight * distance;
+  if (!(size > kLeastAcross)) return {unit, true};
+  return {left / size, distance * along.norm() > extent + kStraight * distance};
 }
 
 StraightFeature StraightSurfaces::of(PairKind kind, const std::array<VertexId, 4>& vertices, const Positions& V,
@@ -79,61 +109,97 @@ StraightFeature StraightSurfaces::of(PairKind kind, const std::array<VertexId, 4
   return {{within(a, b, V), at(a, V), at(b, V)}, first};
 }
 
-/// Through two neighbours on opposite sides, and two more. A line goes as far as to the nearer neighbour, a plane as
-/// far as to the nearest edge around the vertex.
 StraightSurface StraightSurfaces::at(VertexId vertex, const Positions& V) const {
-  StraightSurface result;
-  Vec3 line = Vec3::Zero();
-  std::vector<VertexId> neighbours;
-  std::vector<Vec3> ways;
-  for (const FaceId face : faces_.of(vertex)) {
-    for (const VertexId corner : mesh_.faces[static_cast<std::size_t>(face)]) {
-      if (corner == vertex || std::ranges::find(neighbours, corner) != neighbours.end()) continue;
-      const Vec3 there = way(V, vertex, corner);
-      for (std::size_t i = 0; i < neighbours.size(); ++i) {
-        if (!((ways[i] + there).squaredNorm() < kStraight * kStraight)) continue;
-        if (result.kind == StraightSurface::Kind::kCorner) {
-          const double extent_m = std::min(length(V, vertex, neighbours[i]), length(V, vertex, corner));
-          result = {StraightSurface::Kind::kLine, {neighbours[i], corner, 0, 0}, extent_m};
-          line = there;
-        } else if (line.cross(there).norm() > kSpanning) {
-          const std::array<VertexId, 4> ends{result.ends[0], result.ends[1], neighbours[i], corner};
-          return {StraightSurface::Kind::kPlane, ends, extent_around(vertex, V)};
-        }
-      }
-      neighbours.push_back(corner);
-      ways.push_back(there);
-    }
-  }
-  return result;
-}
-
-double StraightSurfaces::extent_around(VertexId vertex, const Positions& V) const {
-  double result = std::numeric_limits<double>::infinity();
+  Fan fan;
   for (const FaceId face : faces_.of(vertex)) {
     const auto& [a, b, c] = mesh_.faces[static_cast<std::size_t>(face)];
-    const std::array<VertexId, 2> edge{a == vertex ? b : a, c == vertex ? b : c};
-    result = std::min(result, height_over(V, edge[0], edge[1], vertex));
+    const std::array<VertexId, 2> ends{a == vertex ? b : a, c == vertex ? b : c};
+    fan.push_back({ends, {way(V, vertex, ends[0]), way(V, vertex, ends[1])}});
   }
-  return result;
+  const StraightSurface plane = plane_around(vertex, fan, V);
+  return plane.kind == StraightSurface::Kind::kPlane ? plane : line_through(vertex, fan, V);
 }
 
-/// In the plane of its two faces, or else a corner: nearest points within an edge are across it.
-StraightSurface StraightSurfaces::within(VertexId a, VertexId b, const Positions& V) const {
-  std::vector<VertexId> opposite;
-  for (const FaceId face : faces_.of_either(a, b)) {
-    const auto& corners = mesh_.faces[static_cast<std::size_t>(face)];
-    const auto third = std::ranges::find_if(corners, [&](VertexId v) { return v != a && v != b; });
-    const bool holds_both = std::ranges::count_if(corners, [&](VertexId v) { return v == a || v == b; }) == 2;
-    if (holds_both) opposite.push_back(*third);
+/// That of faces which surround the vertex; others may leave it, as ribs below a plate do. It goes as far as to the
+/// nearest edge around it.
+StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan, const Positions& V) {
+  std::vector<Vec3> tried;
+  for (const Sector& face : fan) {
+    const Vec3 normal = face.ways[0].cross(face.ways[1]).stableNormalized();
+    const auto was_tried = [&](const Vec3& other) { return other.cross(normal).norm() < kStraight; };
+    if (normal.isZero(0) || std::ranges::any_of(tried, was_tried)) continue;
+    if (tried.size() == kMostPlanes) break;
+    tried.push_back(normal);
+    Fan in_plane;
+    std::ranges::copy_if(fan, std::back_inserter(in_plane), [&](const Sector& other) {
+      return std::abs(other.ways[0].dot(normal)) < kStraight && std::abs(other.ways[1].dot(normal)) < kStraight;
+    });
+    if (!surrounds(in_plane, normal)) continue;
+    const Sector& widest = *std::ranges::max_element(in_plane, {}, &Sector::sine);
+    double extent_m = std::numeric_limits<double>::infinity();
+    for (const Sector& each : in_plane) {
+      extent_m = std::min(extent_m, height_over(V, each.ends[0], each.ends[1], vertex));
+    }
+    return {StraightSurface::Kind::kPlane, {vertex, widest.ends[0], vertex, widest.ends[1]}, {extent_m, extent_m}};
   }
-  if (opposite.size() != 2) return {};
+  return {};
+}
+
+/// Through two neighbours on opposite sides, if all faces go along it.
+StraightSurface StraightSurfaces::line_through(VertexId vertex, const Fan& fan, const Positions& V) const {
+  if (fan.size() > kMostOnLine) return {};
+  for (std::size_t j = 0; j < 2 * fan.size(); ++j) {
+    const Vec3& there = fan[j / 2].ways[j % 2];
+    for (std::size_t i = 0; i < j; ++i) {
+      if (!((fan[i / 2].ways[i % 2] + there).squaredNorm() < kStraight * kStraight)) continue;
+      const auto goes_along = [&](const Sector& face) {
+        return std::abs(there.dot(face.ways[0].cross(face.ways[1]))) < kStraight;
+      };
+      if (!std::ranges::all_of(fan, goes_along)) continue;
+      const VertexId first = fan[i / 2].ends[i % 2], second = fan[j / 2].ends[j % 2];
+      return {StraightSurface::Kind::kLine,
+              {first, second, 0, 0},
+              {line_extent(vertex, first, V), line_extent(vertex, second, V)}};
+    }
+  }
+  return {};
+}
+
+/// As long as there is a neighbour straight ahead.
+double StraightSurfaces::line_extent(VertexId from, VertexId to, const Positions& V) const {
+  const Vec3 ahead = way(V, from, to);
+  VertexId before = from, end = to;
+  for (int edges = 1; edges < kMostAhead; ++edges) {
+    VertexId next = before;
+    for (const FaceId face : faces_.of(end)) {
+      for (const VertexId corner : mesh_.faces[static_cast<std::size_t>(face)]) {
+        if (corner != end && (way(V, end, corner) - ahead).squaredNorm() < kStraight * kStraight) next = corner;
+      }
+    }
+    if (next == before) break;
+    before = std::exchange(end, next);
+  }
+  return length(V, from, end);
+}
+
+/// In the plane of two of its faces, or else a corner: nearest points within an edge are across it.
+StraightSurface StraightSurfaces::within(VertexId a, VertexId b, const Positions& V) const {
   const Vec3 edge = way(V, a, b);
-  const Vec3 one = edge.cross(way(V, a, opposite[0])).stableNormalized();
-  const Vec3 other = way(V, a, opposite[1]).cross(edge).stableNormalized();
-  if (one.isZero(0) || !((one - other).squaredNorm() < kStraight * kStraight)) return {};
-  const double extent_m = std::min(extent_beside(V, a, b, opposite[0]), extent_beside(V, a, b, opposite[1]));
-  return {StraightSurface::Kind::kPlane, {a, b, opposite[0], opposite[1]}, extent_m};
+  std::vector<std::pair<VertexId, Vec3>> beside;  // corners, and the ways to them across the edge
+  for (const FaceId face : faces_.of_either(a, b)) {
+    const auto corner = corner_across(mesh_.faces[static_cast<std::size_t>(face)], a, b);
+    if (!corner) continue;
+    const Vec3 there = way(V, a, *corner);
+    const Vec3 across_edge = (there - there.dot(edge) * edge).stableNormalized();
+    if (across_edge.isZero(0)) continue;
+    for (const auto& [other, across_other] : beside) {
+      if (!((across_edge + across_other).squaredNorm() < kStraight * kStraight)) continue;
+      const double extent_m = std::min(extent_beside(V, a, b, *corner), extent_beside(V, a, b, other));
+      return {StraightSurface::Kind::kPlane, {a, b, a, *corner}, {extent_m, extent_m}};
+    }
+    beside.emplace_back(*corner, across_edge);
+  }
+  return {};
 }
 
 }  // namespace selvage::sim

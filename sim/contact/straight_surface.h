@@ -5,8 +5,8 @@
 // a ridge with rows of vertices kept 1.58 of 2.66 m/s, and a rod that moved along its own axis took cloth along
 // (docs/stability.md).
 //
-// It is straight as far as the faces around the feature go. Cloth beyond them is over another feature, which repels it:
-// behind the plane of a box's side lies what slides on its top.
+// It is straight as far as the line, or the faces around the feature, go. Cloth beyond that is nearer to another
+// feature and not repelled by this one: behind the plane of a box's side lies what slides on its top.
 #pragma once
 
 #include <array>
@@ -23,7 +23,9 @@ struct StraightSurface {
   enum class Kind : std::uint8_t { kCorner, kLine, kPlane };
   Kind kind = Kind::kCorner;
   std::array<VertexId, 4> ends{};  ///< kLine: it goes from 0 to 1. kPlane: so does one in it, and one from 2 to 3.
-  double extent_m = 0;  ///< along it, all ways from a vertex; from within an edge, a share of this (StraightFeature)
+  /// How far it surely goes on from a vertex: against direction(), and along it; of a plane, all ways, both the same.
+  /// From within an edge a share of that goes on (StraightFeature).
+  std::array<double, 2> extents_m{};
 
   /// Unit: along the line, either way, or the normal of the plane, on either side. Zero for a corner.
   [[nodiscard]] Vec3 direction(const Positions& V) const;
@@ -38,8 +40,8 @@ struct StraightFeature {
   [[nodiscard]] bool is_anywhere() const;
   /// The part that points with these weights are on, as in Interaction.
   [[nodiscard]] Part part(PairKind kind, const std::array<double, 4>& weights) const;
-  /// How far it surely goes straight on from there, m: within an edge by the weight of its nearer end.
-  [[nodiscard]] double extent_m(PairKind kind, const std::array<double, 4>& weights) const;
+  /// The share of its extents that goes on from there: within an edge the weight of the nearer end.
+  [[nodiscard]] double extent_share(PairKind kind, const std::array<double, 4>& weights) const;
 };
 
 /// The angle by which what is straight may bend. A vertex of a file in float32, a metre from the origin and a
@@ -50,14 +52,23 @@ inline constexpr double kStraight = 1e-3;
 /// Less is left of a direction by rounding alone.
 inline constexpr double kLeastAcross = 0x1p-20;
 
-/// The part of a vector along such a surface, whose direction is as above: in the line, or in the plane.
-[[nodiscard]] Vec3 along(StraightSurface::Kind kind, const Vec3& direction, const Vec3& vector);
+/// The direction from a point of such a surface to another one.
+struct Across {
+  Vec3 unit;               ///< without the part along the line or in the plane; as it was where nothing is left
+  bool is_beyond = false;  ///< the other point lies farther along than it is straight, or in it: it is not over it
+};
 
-/// A unit vector without that part; unit again. As it is for a corner, and where nothing would be left.
-[[nodiscard]] Vec3 across(StraightSurface::Kind kind, const Vec3& direction, const Vec3& unit);
+/// `direction` is the surface's, `unit` that of the other point, which is `distance` away. A corner changes nothing.
+[[nodiscard]] Across across(const StraightSurface& surface, double extent_share, const Vec3& direction,
+                            const Vec3& unit, double distance);
 
-/// Whether a point at `distance` lies over what is straight so far, if `part` of the unit vector to it is along it.
-[[nodiscard]] bool is_over(double distance, const Vec3& part, double extent_m);
+/// A face at a vertex: its other corners, and the unit vectors to them.
+struct Sector {
+  std::array<VertexId, 2> ends;
+  std::array<Vec3, 2> ways;
+  [[nodiscard]] double sine() const;  ///< of its angle
+};
+using Fan = std::vector<Sector>;
 
 class StraightSurfaces {
  public:
@@ -65,14 +76,17 @@ class StraightSurfaces {
   StraightSurfaces(const Mesh& mesh, const VertexFaces& faces) : mesh_(mesh), faces_(faces) {}
 
   /// Of the body in a pair as in PairProximity: its vertex in vf, or its edge in ee. A vertex of cloth against a face,
-  /// and two edges of cloth, have corners alone. `is_cloth` is #V. O(faces around the feature, squared).
+  /// and two edges of cloth, have corners alone. `is_cloth` is #V. O(f log f) of the faces around the feature, and
+  /// those along a few dozen edges of a line.
   [[nodiscard]] StraightFeature of(PairKind kind, const std::array<VertexId, 4>& vertices, const Positions& V,
                                    const std::vector<std::uint8_t>& is_cloth) const;
 
  private:
   [[nodiscard]] StraightSurface at(VertexId vertex, const Positions& V) const;
   [[nodiscard]] StraightSurface within(VertexId a, VertexId b, const Positions& V) const;
-  [[nodiscard]] double extent_around(VertexId vertex, const Positions& V) const;
+  [[nodiscard]] static StraightSurface plane_around(VertexId vertex, const Fan& fan, const Positions& V);
+  [[nodiscard]] StraightSurface line_through(VertexId vertex, const Fan& fan, const Positions& V) const;
+  [[nodiscard]] double line_extent(VertexId from, VertexId to, const Positions& V) const;
 
   const Mesh& mesh_;
   const VertexFaces& faces_;

@@ -309,6 +309,13 @@ void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std
   for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = friction_m_s2[k];
 }
 
+void see_anew(const PackNearest& nearest, Lanes lanes, ContactPack& pack) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!has_lane(lanes, lane)) continue;
+    for (std::size_t k = 0; k < 3; ++k) pack.normal[k][lane] = nearest.direction[k][lane];
+  }
+}
+
 Lanes above_zero(const LaneColumn<double>& column) {
   Lanes result = 0;
   for (std::size_t lane = 0; lane < kLanes; ++lane) result |= static_cast<Lanes>((column[lane] > 0 ? 1U : 0U) << lane);

@@ -83,6 +83,9 @@ void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
 /// as they are. Leaves out those whose points are all on vertices that cannot move.
 [[nodiscard]] Lanes take_nearest(const PackNearest& nearest, Lanes lanes, ContactPack& pack);
 
+/// From where they are, whatever the side was from which they were seen.
+void see_anew(const PackNearest& nearest, Lanes lanes, ContactPack& pack);
+
 /// Their loads with their friction.
 void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion);
 

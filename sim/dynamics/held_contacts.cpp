@@ -137,6 +137,7 @@ void HeldContacts::set_straight() {
     PackState& state = states_[place / kLanes];
     if (state.straight == 0) state.straight_at = static_cast<std::uint32_t>(straight_.size()), straight_.emplace_back();
     state.straight |= only_lane(place % kLanes);
+    if (contact_at(place).is_beyond) state.beyond |= only_lane(place % kLanes);
   }
   each_pack([&](std::size_t id) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -368,6 +369,7 @@ void HeldContacts::measure() {
     contact.x_t0 = gather(contact.interaction, V_t0_);
     contact.distance = relative(contact.interaction, contact.x_t0).dot(contact.normal);
     contact.mobility = effective_mobility(contact.interaction);
+    contact.is_beyond = has_lane(states_[place_of_[i] / kLanes].beyond, lane);
   });
 }
 

@@ -54,20 +54,20 @@ class HeldContacts {
   /// First the loads with their friction, where the contacts are now; then `limit`, the limits on strain, which else
   /// see cloth fall that is borne, and have it pull on what bears it (docs/numerics.md); then sweeps of inelastic
   /// impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike masses, and those beside them, take
-  /// more sweeps than others, the first ones (contact_sweeps.h). A contact alone ends no nearer than its thickness, or
-  /// than it was before the step, after any number of sweeps, and adds no energy: it takes back what its load or an
-  /// earlier sweep, over-relaxed, pushed too far, and the friction that it began with. Where its lever is limited
-  /// (interaction.h) it is pushed once, as far as that lets it. Of many something is left (tests/sim/energy_test.cpp
-  /// asks their energy). They keep linear momentum. Every contact that presses is first looked at where it is now: held
-  /// where they were at the start of the collision step, cloth that a ball pulls along at 3.6 m/s gained 8 % of kinetic
-  /// energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. A vertex that has left its face
-  /// is held by the one on which it is now: held by the border that it left, cloth without friction that slid at 2 m/s
-  /// over a flat ground of small faces slowed to 1.5 m/s in a second. In turn back and forth, but vertices before edges
-  /// always: in cloth at rest on a plane they leave nothing for the edges between them to press, while edges alone lift
-  /// one end to hold the other (a corner swung by 2 micrometres for ever). Call for the steps of a collision step in
-  /// their order. O(contacts) a sweep, eight at once and in parallel where contacts share no vertex (contact_groups.h);
-  /// one that slides on to a vertex of another of its eight acts alone from then on. Same bits for any number of
-  /// threads and any vector unit.
+  /// more sweeps than others, the first ones (contact_sweeps.h). A contact alone, but for one beyond what is straight
+  /// in it, ends no nearer than its thickness, or than it was before the step, after any number of sweeps, and adds no
+  /// energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the friction that it
+  /// began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it. Of many
+  /// something is left (tests/sim/energy_test.cpp asks their energy). They keep linear momentum. Every contact that
+  /// presses is first looked at where it is now: held where they were at the start of the collision step, cloth that a
+  /// ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was
+  /// held in the air. A vertex that has left its face is held by the one on which it is now: held by the border that it
+  /// left, cloth without friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second.
+  /// In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave nothing for the
+  /// edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2 micrometres for
+  /// ever). Call for the steps of a collision step in their order. O(contacts) a sweep, eight at once and in parallel
+  /// where contacts share no vertex (contact_groups.h); one that slides on to a vertex of another of its eight acts
+  /// alone from then on. Same bits for any number of threads and any vector unit.
   ///
   /// Where loads and sweeps have given cloth that hangs together more energy than it falls by in 100 steps, past what
   /// bodies bring by their motion, all contacts act once more, without the loads of that cloth, and `limit` with them,
@@ -120,6 +120,7 @@ class HeldContacts {
     Lanes loaded = 0;               ///< whose load is above zero
     Lanes withheld = 0;             ///< of cloth to which loads have added energy in this step
     Lanes straight = 0;             ///< on bodies that go straight on there
+    Lanes beyond = 0;               ///< of these, whose points were not over what is straight when last looked at
     std::uint32_t straight_at = 0;  ///< of straight_
     bool has_acted = false;         ///< in this step: what pressed and rubbed may be other than zero
   };
@@ -166,7 +167,8 @@ class HeldContacts {
   struct Slid {
     Refused refused;
     Lanes on = 0;       ///< to other faces
-    Lanes cannot = 0;   ///< move there, or are not over what is straight
+    Lanes cannot = 0;   ///< move there
+    Lanes beyond = 0;   ///< what is straight
     Lanes through = 0;  ///< the surface: stay as they are
   };
   [[nodiscard]] Slid slide(std::size_t pack, Lanes lanes, const Reach& reach, const ContactMotion& motion);

@@ -24,14 +24,19 @@ HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reac
   const PairKind kind = kind_of(id);
   PackNearest nearest;
   find_nearest(kind, read, nearest);
-  const Lanes straight = lanes & states_[id].straight;
+  PackState& state = states_[id];
+  const Lanes were_beyond = lanes & state.beyond;
+  state.beyond &= static_cast<Lanes>(~lanes);
   Lanes beyond = 0;
-  if (straight != 0) beyond = straight & ~turn_across(straight_[states_[id].straight_at], motion.share, nearest);
+  if ((lanes & state.straight) != 0) beyond = lanes & turn_across(straight_[state.straight_at], motion.share, nearest);
+  see_anew(nearest, were_beyond & ~beyond, pack);
   const Lanes on_border = lanes & nearest.on_border;
   Slid slid;
   if (kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, motion);
   if (slid.on != 0) read_motion(pack, read.lanes, motion, read);
   const Lanes acting = slid.on | slid.through;
+  beyond = static_cast<Lanes>((beyond & ~acting) | slid.beyond);
+  state.beyond |= beyond;
   const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot | beyond;
   lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
   return slid.refused;
@@ -59,10 +64,10 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
     const StraightSurface& straight = now.straight.parts[StraightFeature::kWithin];  // where the vertex is a body's
     const Vec3 direction =
         ((1 - motion.share) * straight.direction(V_t0_) + motion.share * straight.direction(V_t1_)).normalized();
-    now.normal = across(straight.kind, direction, nearest.direction);
-    const Vec3 part = along(straight.kind, direction, nearest.direction);
-    if (!(effective_mobility(now.interaction) > 0) || !is_over(nearest.distance, part, straight.extent_m)) {
-      slid.cannot |= only_lane(lane);
+    const Across turned = across(straight, 1, direction, nearest.direction, nearest.distance);
+    now.normal = turned.unit;
+    if (turned.is_beyond || !(effective_mobility(now.interaction) > 0)) {
+      (turned.is_beyond ? slid.beyond : slid.cannot) |= only_lane(lane);
       continue;
     }
     now.properties = surface_.properties.of(now.kind, now.first, now.second);

@@ -34,7 +34,7 @@ void StageContacts::add_term(std::size_t held_id, const Positions& x, std::span<
                              std::span<const double> resistance_kg) {
   const RepulsionContact& contact = held_.contact(held_id);
   const Interaction& interaction = contact.interaction;
-  if (lever_share(interaction) < 1) return;
+  if (contact.is_beyond || lever_share(interaction) < 1) return;
   Term term;
   term.held = held_id;
   PairVectors at_start = zero_vectors(), scripted = zero_vectors();

@@ -27,37 +27,45 @@ HWY_INLINE Truth IsAtEnd(std::size_t end, const PackStraight& straight, const Pa
 
 Lanes TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
   const Value one = Number(1);
-  Lanes over = 0;
+  Lanes beyond = 0;
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const auto direction_of = [&](const PackStraight::Part& part) {
       const Vector t0 = Read(part.direction_t0, first), t1 = Read(part.direction_t1, first);
       return Sum(t0, Scaled(Number(share), Difference(t1, t0)));
     };
     Vector straight_way = direction_of(straight.parts[0]);
-    Value extent = hn::Mul(NearerEnd(straight, nearest, first), Read(straight.parts[0].extent_m, first));
+    Value share_on = NearerEnd(straight, nearest, first);
+    std::array<Value, 2> extents{Read(straight.parts[0].extents_m[0], first),
+                                 Read(straight.parts[0].extents_m[1], first)};
     Truth is_line = TruthOf(straight.parts[0].lines, first), is_plane = TruthOf(straight.parts[0].planes, first);
     for (const std::size_t end : {0U, 1U}) {
       const PackStraight::Part& part = straight.parts[end + 1];
       const Truth is_there = IsAtEnd(end, straight, nearest, first);
       straight_way = lanes::Choose<Real>(is_there, direction_of(part), straight_way);
-      extent = hn::IfThenElse(is_there, Read(part.extent_m, first), extent);
+      share_on = hn::IfThenElse(is_there, one, share_on);
+      for (const std::size_t side : {0U, 1U}) {
+        extents[side] = hn::IfThenElse(is_there, Read(part.extents_m[side], first), extents[side]);
+      }
       is_line = hn::Or(hn::And(is_there, TruthOf(part.lines, first)), hn::AndNot(is_there, is_line));
       is_plane = hn::Or(hn::And(is_there, TruthOf(part.planes, first)), hn::AndNot(is_there, is_plane));
     }
     const Vector unit = Scaled(hn::Div(one, hn::Sqrt(DotOf(straight_way, straight_way))), straight_way);
     const Vector direction = Read(nearest.direction, first);
-    const Vector part = Scaled(DotOf(direction, unit), unit), rest = Difference(direction, part);
+    const Value along_unit = DotOf(direction, unit);
+    const Vector part = Scaled(along_unit, unit), rest = Difference(direction, part);
     const Vector along = lanes::Choose<Real>(is_line, part, rest), left = lanes::Choose<Real>(is_line, rest, part);
     const Truth is_straight = hn::Or(is_line, is_plane);
     const Value size = hn::Sqrt(DotOf(left, left)), distance = Read(nearest.distance, first);
-    const Value farthest = hn::Add(extent, hn::Mul(Number(kStraight), distance));
-    const Truth is_beyond = hn::And(is_straight, hn::Gt(hn::Mul(distance, hn::Sqrt(DotOf(along, along))), farthest));
-    over |= LanesOf(hn::Not(is_beyond), first);
-    const Truth turns = hn::And(is_straight, hn::Gt(size, Number(kLeastAcross)));
+    const Value extent = hn::IfThenElse(hn::Gt(along_unit, hn::Zero(Real())), extents[1], extents[0]);
+    const Value farthest = hn::Add(hn::Mul(share_on, extent), hn::Mul(Number(kStraight), distance));
+    const Truth is_far = hn::Gt(hn::Mul(distance, hn::Sqrt(DotOf(along, along))), farthest);
+    const Truth is_left = hn::Gt(size, Number(kLeastAcross));
+    beyond |= LanesOf(hn::And(is_straight, hn::Or(is_far, hn::Not(is_left))), first);
+    const Truth turns = hn::And(is_straight, is_left);
     WriteWhere(turns, Scaled(hn::Div(one, size), left), first, nearest.direction);
     WriteWhere(turns, hn::Mul(size, distance), first, nearest.distance);
   }
-  return over;
+  return beyond;
 }
 
 }  // namespace selvage::sim::HWY_NAMESPACE
@@ -74,7 +82,7 @@ void set_straight(PairKind kind, const StraightFeature& feature, const Positions
     PackStraight::Part& part = pack.parts[i];
     if (surface.kind == StraightSurface::Kind::kLine) part.lines |= only_lane(lane);
     if (surface.kind == StraightSurface::Kind::kPlane) part.planes |= only_lane(lane);
-    part.extent_m[lane] = surface.extent_m;
+    for (const std::size_t side : {0U, 1U}) part.extents_m[side][lane] = surface.extents_m[side];
     const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
     for (std::size_t k = 0; k < 3; ++k) {
       part.direction_t0[k][lane] = t0[static_cast<Eigen::Index>(k)];

@@ -13,7 +13,7 @@ struct PackStraight {
   struct Part {
     Lanes lines = 0, planes = 0;
     LaneColumn3 direction_t0{}, direction_t1{};
-    LaneColumn<double> extent_m{};
+    std::array<LaneColumn<double>, 2> extents_m{};
   };
   std::array<Part, 3> parts;     ///< as in StraightFeature
   std::array<Lanes, 2> edges{};  ///< whose body is the first, and the second edge
@@ -22,8 +22,8 @@ struct PackStraight {
 void set_straight(PairKind kind, const StraightFeature& feature, const Positions& V_t0, const Positions& V_t1,
                   std::size_t lane, PackStraight& pack);
 
-/// Directions as across() has them `share` in [0, 1] into the step, and the distances along them. Those of the lanes
-/// whose points lie over what is straight (is_over()), or that have nothing straight.
+/// Directions as across() has them `share` in [0, 1] into the step, and the distances along them. The lanes whose
+/// points are beyond what is straight.
 [[nodiscard]] Lanes turn_across(const PackStraight& straight, double share, PackNearest& nearest);
 
 }  // namespace selvage::sim

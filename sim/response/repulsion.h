@@ -56,6 +56,7 @@ class Contacts {
  public:
   void clear();
   void add(const RepulsionContact& contact) { contacts_.push_back(contact); }
+  [[nodiscard]] std::size_t size() const { return contacts_.size(); }
   /// Sweeps over the contacts in their order, then back, and so on, so that neither end of the cloth is favoured, until
   /// no contact has anything to change, at most `sweeps` times. No sweep adds energy but for the spring's, as no
   /// contact does. Serial: same bits for any thread count. May be called again after contacts have been added.

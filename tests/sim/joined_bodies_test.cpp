@@ -1,5 +1,5 @@
-// Bodies whose meshes have several vertices at one place, as STL files and seams of textures have: cloth slides on them
-// as on one surface.
+// Bodies whose meshes have several vertices at one place, as STL files and seams of textures have, or faces cut in any
+// way: cloth slides on them as on one surface.
 #include <array>
 #include <cmath>
 #include <set>
@@ -83,6 +83,23 @@ Shape turned_polygons() {
   return ground;
 }
 
+/// Columns of bricks of 50 by 50 mm, every second one shifted: the corners within lie on one straight line each.
+Shape bricks() {
+  constexpr VertexId kColumns = 60, kRows = 24;
+  Shape ground;
+  ground.x.resize((kColumns + 1) * (kRows + 1), 3);
+  for (VertexId i = 0; i <= kColumns; ++i) {
+    for (VertexId j = 0; j <= kRows; ++j) {
+      const VertexId a = i * (kRows + 1) + j, b = a + kRows + 1;
+      ground.x.row(a) << 0.05 * i - 1.5, 0.05 * (j + 0.3 * (i % 2)) - 0.6, 0;
+      if (i == kColumns || j == kRows) continue;
+      ground.triangles.push_back({a, b, b + 1});
+      ground.triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  return ground;
+}
+
 std::string obj(const Shape& shape) {
   std::string text;
   for (const auto& v : shape.x.rowwise()) text += fmt::format("v {} {} {}\n", v[0], v[1], v[2]);
@@ -141,6 +158,8 @@ TEST_F(JoinedBodies, FacesBetweenVerticesOfOnePlaceAreNotFelt) {
 }
 
 TEST_F(JoinedBodies, PolygonsWithAVertexWithinASideAreNotFelt) { slides_without_a_bump(turned_polygons()); }
+
+TEST_F(JoinedBodies, BricksAreNotFelt) { slides_without_a_bump(bricks()); }
 
 TEST_F(JoinedBodies, VerticesKeepTheirNumbers) {
   const Shape soup = soup_of(ground());

@@ -1,6 +1,7 @@
 #include "sim/contact/straight_surface.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,22 @@ struct Roof {
     return {edge.parts[0].kind, edge.parts[1].kind, edge.parts[2].kind};
   }
 };
+
+/// Spokes from a vertex in the plane z = 0 at these angles, in turns; one face between each and the next.
+StraightSurface around(const std::vector<double>& turns, const std::vector<std::array<VertexId, 3>>& more = {},
+                       double height_m = 0) {
+  const auto count = static_cast<VertexId>(turns.size());
+  Positions V = Positions::Zero(count + 1, 3);
+  std::vector<std::array<VertexId, 3>> faces = more;
+  for (VertexId k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * turns[static_cast<std::size_t>(k)];
+    V.row(k + 1) << std::cos(angle), std::sin(angle), k == 0 ? height_m : 0;
+    if (k > 0) faces.push_back({0, k, k + 1});
+  }
+  const Mesh mesh = make_mesh(count + 1, faces);
+  const std::vector<std::uint8_t> is_cloth(static_cast<std::size_t>(count) + 1, 0);
+  return StraightSurfaces(mesh, VertexFaces(mesh)).of(PairKind::kVf, {0, 0, 0, 0}, V, is_cloth).parts[0];
+}
 
 }  // namespace
 
@@ -93,45 +110,114 @@ TEST(StraightSurface, RoundingIsStraightAndABendIsNot) {
   EXPECT_EQ(Roof(1, 1e-2).at(7).kind, Kind::kCorner);
 }
 
-TEST(StraightSurface, GoesAsFarAsTheFacesAroundIt) {
+TEST(StraightSurface, ALineGoesOnWhileItIsStraight) {
+  Roof roof(1);
+  roof.V.row(13).x() = 6;
+  EXPECT_EQ(roof.at(4).extents_m, (std::array<double, 2>{1, 5}));
+  roof.V.row(10).y() = 0.1;
+  EXPECT_EQ(roof.at(4).extents_m, (std::array<double, 2>{1, 1})) << "to where it bends";
+}
+
+TEST(StraightSurface, APlaneGoesAsFarAsTheFacesAroundIt) {
   Roof flat(0);
   flat.V.col(0) *= 2;  // faces of 2 by 1, whose diagonals are from 3 i + side + 1 to 3 (i + 1) + side
-  EXPECT_EQ(Roof(1).at(7).extent_m, 1) << "along the ridge";
-  EXPECT_NEAR(flat.at(7).extent_m, 2 / std::sqrt(5), 1e-15) << "the height over a diagonal";
+  const auto around = [&] { return flat.at(7).extents_m; };
   const auto within = [&](VertexId a, VertexId b, double share) {
     const StraightFeature edge =
         StraightSurfaces(flat.mesh, VertexFaces(flat.mesh)).of(PairKind::kEe, {a, b, 0, 1}, flat.V, flat.is_cloth);
-    return edge.extent_m(PairKind::kEe, {share - 1, -share, 0.5, 0.5});
+    const std::array<double, 4> weights{share - 1, -share, 0.5, 0.5};
+    const double extent_m = edge.parts.at(edge.part(PairKind::kEe, weights)).extents_m[0];
+    return extent_m * edge.extent_share(PairKind::kEe, weights);
   };
-  EXPECT_NEAR(within(7, 6, 0.5), 1, 1e-15) << "2 over the edge in the middle, at most";
-  EXPECT_NEAR(within(7, 6, 0.25), 0.5, 1e-15);
-  EXPECT_NEAR(within(7, 6, 0.75), 0.5, 1e-15);
-  EXPECT_NEAR(within(7, 6, 0), 2 / std::sqrt(5), 1e-15) << "that of its end";
-  flat.V.row(8).x() += 8;  // now the face beyond the diagonal stands beside that
+  const double over_diagonal = 2 / std::sqrt(5);
+  for (const double scale : {1.0, 0x1p+600, 0x1p-600}) {
+    SCOPED_TRACE(scale);
+    flat.V *= scale;
+    EXPECT_NEAR(around()[0] / scale, over_diagonal, 1e-15);
+    EXPECT_EQ(around()[0], around()[1]);
+    EXPECT_NEAR(within(7, 6, 0.5) / scale, 1, 1e-15) << "2 over the edge, half of it beside its middle";
+    EXPECT_NEAR(within(7, 6, 0.25) / scale, 0.5, 1e-15);
+    EXPECT_NEAR(within(7, 6, 0.75) / scale, 0.5, 1e-15);
+    EXPECT_NEAR(within(7, 6, 0) / scale, over_diagonal, 1e-15) << "that of its end";
+    flat.V /= scale;
+  }
+  flat.V.row(8).x() += 8;  // the face on this side of the edge from 7 to 10 leans over it by four lengths
   flat.V.row(11).x() += 8;
-  const double beside = within(7, 10, 0.5);
-  EXPECT_GT(beside, 0);
-  EXPECT_LT(beside, 0.5) << "leaving out what is not above the edge";
+  EXPECT_NEAR(within(7, 10, 0.5), 0.125, 1e-15) << "height 1, of which a quarter is left above the end";
+  EXPECT_NEAR(within(10, 7, 0.5), 0.125, 1e-15);
 }
 
-TEST(StraightSurface, APointIsOverItOrBeyond) {
-  const Vec3 x = Vec3::UnitX(), tilted = Vec3(3, 0, 4).normalized();
-  EXPECT_TRUE(along(Kind::kLine, x, tilted).isApprox(0.6 * x));
-  EXPECT_TRUE(along(Kind::kPlane, -x, tilted).isApprox(Vec3(0, 0, 0.8)));
-  EXPECT_EQ(along(Kind::kCorner, Vec3::Zero(), tilted), Vec3::Zero());
-  for (const double extent_m : {2.9, 3.1}) {
-    EXPECT_EQ(is_over(5, along(Kind::kLine, x, tilted), extent_m), extent_m > 3);
-    EXPECT_EQ(is_over(5, along(Kind::kPlane, Vec3::UnitZ(), tilted), extent_m), extent_m > 3);
+TEST(StraightSurface, AVertexWithinAPlaneIsThatHoweverItsFacesAreCut) {
+  const std::vector<double> no_two_opposite{0, 0.2, 0.45, 0.6, 0.85}, one_line{0, 0.2, 0.5, 0.6, 0.85};
+  const std::array<VertexId, 3> last{0, 5, 1};
+  for (const auto& turns : {no_two_opposite, one_line}) {
+    EXPECT_EQ(around(turns, {last}).kind, Kind::kPlane);
+    EXPECT_EQ(around(turns, {last, {0, 2, 1}, {0, 3, 2}, {0, 4, 3}}).kind, Kind::kPlane) << "some faces twice";
+    EXPECT_EQ(around(turns, {last}, 0.01).kind, Kind::kCorner) << "one neighbour is higher";
   }
-  EXPECT_TRUE(is_over(1, 1e-4 * x, 0)) << "as straight as it must be";
+  EXPECT_EQ(around(no_two_opposite).kind, Kind::kCorner) << "a face is missing";
+  EXPECT_EQ(around({0, 0.1, 0.3, 0.5}).kind, Kind::kLine) << "a border";
+  EXPECT_EQ(around({0, 0.1, 0.3, 0.5}, {{0, 2, 1}, {0, 3, 2}, {0, 4, 3}}).kind, Kind::kLine) << "the same, twice";
+  EXPECT_EQ(around({0, 0.1, 0.3, 0.4}).kind, Kind::kCorner) << "a corner of an open sheet";
+}
+
+TEST(StraightSurface, ARibBelowAPlaneLeavesItOne) {
+  Positions V(5, 3);
+  V << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, -1, 0, 0.5, 0, -1;
+  for (const bool has_rib : {false, true}) {
+    std::vector<std::array<VertexId, 3>> faces{{0, 1, 2}, {1, 0, 3}};
+    if (has_rib) faces.push_back({0, 1, 4});
+    const Mesh mesh = make_mesh(5, faces);
+    const StraightFeature edge =
+        StraightSurfaces(mesh, VertexFaces(mesh)).of(PairKind::kEe, {0, 1, 2, 3}, V, std::vector<std::uint8_t>(5, 0));
+    EXPECT_EQ(edge.parts[StraightFeature::kWithin].kind, Kind::kPlane);
+    EXPECT_NEAR(std::abs(edge.parts[StraightFeature::kWithin].direction(V).z()), 1, 1e-15);
+  }
+}
+
+TEST(StraightSurface, WhatIsNotFlatAllRoundIsNoPlane) {
+  Roof flat(0);
+  flat.V(11, 2) = 0.1;
+  EXPECT_EQ(flat.at(7).kind, Kind::kPlane) << "no neighbour";
+  flat.V(9, 2) = 0.1;
+  EXPECT_EQ(flat.at(7).kind, Kind::kCorner) << "beside two lines across it";
+}
+
+TEST(StraightSurface, WhatHasNoSizeIsACorner) {
+  Roof flat(0);
+  flat.V.row(7) = flat.V.row(6);
+  EXPECT_EQ(flat.along(6, 7)[0], Kind::kCorner);
 }
 
 TEST(StraightSurface, DirectionsAreAcrossIt) {
   const Vec3 x = Vec3::UnitX(), tilted = Vec3(3, 0, 4).normalized();
-  EXPECT_TRUE(across(Kind::kLine, x, tilted).isApprox(Vec3(0, 0, 1)));
-  EXPECT_TRUE(across(Kind::kPlane, -x, tilted).isApprox(x)) << "on the side on which it was";
-  EXPECT_EQ(across(Kind::kCorner, Vec3::Zero(), tilted), tilted);
-  EXPECT_EQ(across(Kind::kLine, x, x), x) << "nothing would be left";
+  const auto turned = [](Kind kind, const Vec3& direction, const Vec3& unit) -> Vec3 {
+    return across({kind, {}, {9, 9}}, 1, direction, unit, 5).unit;
+  };
+  EXPECT_TRUE(turned(Kind::kLine, x, tilted).isApprox(Vec3(0, 0, 1)));
+  EXPECT_TRUE(turned(Kind::kPlane, -x, tilted).isApprox(x)) << "on the side on which it was";
+  EXPECT_EQ(turned(Kind::kCorner, Vec3::Zero(), tilted), tilted);
+  EXPECT_EQ(turned(Kind::kLine, x, x), x) << "nothing is left";
+}
+
+TEST(StraightSurface, APointIsOverItOrBeyond) {
+  const Vec3 x = Vec3::UnitX(), tilted = Vec3(3, 0, 4).normalized();
+  for (const double extent_m : {2.9, 3.1}) {
+    const auto is_beyond = [&](Kind kind, const std::array<double, 2>& extents_m, const Vec3& direction, double share) {
+      return across({kind, {}, extents_m}, share, direction, tilted, 5).is_beyond;
+    };
+    EXPECT_EQ(is_beyond(Kind::kLine, {0, extent_m}, x, 1), extent_m < 3);
+    EXPECT_EQ(is_beyond(Kind::kLine, {extent_m, 0}, -x, 1), extent_m < 3);
+    EXPECT_EQ(is_beyond(Kind::kPlane, {extent_m, extent_m}, Vec3::UnitZ(), 1), extent_m < 3);
+    EXPECT_TRUE(is_beyond(Kind::kPlane, {extent_m, extent_m}, Vec3::UnitZ(), 0.5));
+    EXPECT_FALSE(is_beyond(Kind::kCorner, {}, Vec3::Zero(), 1));
+  }
+  EXPECT_TRUE(across({Kind::kLine, {}, {9, 9}}, 1, x, x, 5).is_beyond) << "in it";
+  EXPECT_TRUE(across({Kind::kPlane, {}, {9, 9}}, 1, Vec3::UnitZ(), x, 5).is_beyond) << "in it";
+  for (const double tilt : {0.5e-3, 2e-3}) {
+    const Vec3 unit = Vec3(tilt, 0, 1).normalized();
+    EXPECT_EQ(across({Kind::kPlane}, 1, Vec3::UnitZ(), unit, 5).is_beyond, tilt > 1e-3) << "as straight as it must be";
+  }
 }
 
 }  // namespace selvage::sim

@@ -104,7 +104,8 @@ TEST(HeldContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
   using Case = std::pair<double, double>;
   for (const auto& [extent_m, passes_m] : {Case{9, 2}, Case{9, 0}, Case{0, 2}, Case{0, 0}}) {
     SCOPED_TRACE(testing::Message() << extent_m << " m, passes over by " << passes_m);
-    contact.straight.parts[StraightFeature::kWithin] = {StraightSurface::Kind::kLine, {5, 6, 0, 0}, extent_m};
+    contact.straight.parts[StraightFeature::kWithin] = {
+        StraightSurface::Kind::kLine, {5, 6, 0, 0}, {extent_m, extent_m}};
     LaneVectors x, v;
     x.copy(V.topRows(4));
     v.resize(4);
@@ -118,8 +119,9 @@ TEST(HeldContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
     }
     EXPECT_EQ(held.count().repulsions, extent_m > 0 ? 1 : 0);
     for (Eigen::Index row = 0; row < 4; ++row) EXPECT_EQ(v.row(row).y(), 0) << row;
-    if (extent_m == 0) continue;
     const RepulsionContact now = held.contacts().front();
+    EXPECT_EQ(now.is_beyond, extent_m == 0);
+    if (now.is_beyond) continue;
     EXPECT_EQ(now.second, passes_m > 0 ? 1 : 0);
     EXPECT_LT((now.normal + Vec3::UnitZ()).norm(), 1e-15);
   }

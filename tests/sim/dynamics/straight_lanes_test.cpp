@@ -32,7 +32,8 @@ Positions four_points() {
 StraightSurface any_surface() {
   constexpr std::array<Kind, 3> kKinds{Kind::kCorner, Kind::kLine, Kind::kPlane};
   constexpr double kMost = 4;  // twice the distance
-  return {kKinds.at(engine()() % 3), {0, 1, 2, 3}, kMost * std::abs(any_point().x())};
+  const Vec3 extents = kMost * any_point().cwiseAbs();
+  return {kKinds.at(engine()() % 3), {0, 1, 2, 3}, {extents[0], extents[1]}};
 }
 
 /// On the edge of the body, from vertex `first` on: within it, or at one of its ends.
@@ -54,7 +55,7 @@ TEST(StraightLanes, TurnDirectionsAsOneContactAlone) {
     const Positions V_t0 = four_points(), V_t1 = four_points();
     PackStraight pack;
     PackNearest nearest{}, expected{};
-    Lanes expected_over = 0;
+    Lanes beyond = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       StraightFeature feature{{any_surface(), any_surface(), any_surface()}, {}};
       if (kind == PairKind::kVf) feature.parts[1] = feature.parts[2] = {};
@@ -64,18 +65,18 @@ TEST(StraightLanes, TurnDirectionsAsOneContactAlone) {
       const Vec3 direction = any_point().normalized();
       const StraightSurface& surface = feature.parts.at(feature.part(kind, weights));
       const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
-      const Vec3 turned = across(surface.kind, (t0 + kShare * (t1 - t0)).normalized(), direction);
-      const Vec3 part = along(surface.kind, (t0 + kShare * (t1 - t0)).normalized(), direction);
-      if (is_over(kDistance, part, feature.extent_m(kind, weights))) expected_over |= only_lane(lane);
+      const Across turned = across(surface, feature.extent_share(kind, weights), (t0 + kShare * (t1 - t0)).normalized(),
+                                   direction, kDistance);
+      if (turned.is_beyond) beyond |= only_lane(lane);
       nearest.distance[lane] = kDistance;
-      expected.distance[lane] = kDistance * turned.dot(direction);  // of the same two points
+      expected.distance[lane] = kDistance * turned.unit.dot(direction);  // of the same two points
       for (std::size_t k = 0; k < 4; ++k) nearest.weights[k][lane] = weights[k];
       for (std::size_t k = 0; k < 3; ++k) {
         nearest.direction[k][lane] = direction[static_cast<Eigen::Index>(k)];
-        expected.direction[k][lane] = turned[static_cast<Eigen::Index>(k)];
+        expected.direction[k][lane] = turned.unit[static_cast<Eigen::Index>(k)];
       }
     }
-    EXPECT_EQ(turn_across(pack, kShare, nearest), expected_over) << round;
+    EXPECT_EQ(turn_across(pack, kShare, nearest), beyond) << round;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       EXPECT_LT((vector_in(nearest.direction, lane) - vector_in(expected.direction, lane)).norm(), 1e-12) << lane;
       EXPECT_NEAR(nearest.distance[lane], expected.distance[lane], 1e-12) << lane;
