@@ -64,7 +64,7 @@ std::span<const RepulsionContact> make_contacts(const std::vector<PairProximity>
   parallel_each(std::ssize(pairs), [&](Eigen::Index i) {
     const PairProximity& pair = pairs[static_cast<std::size_t>(i)];
     auto made = make_contact(pair, step.contacts.of(pair.kind, pair.first, pair.second), V_t0, inverse_mass);
-    if (made) turn_across(step.straight.of(pair.kind, pair.vertices, V_t0, is_cloth), V_t0, *made);
+    if (made) turn_across(step.straight.of(pair.kind, pair.vertices, is_cloth), V_t0, *made);
     contacts[static_cast<std::size_t>(i)] = made.value_or(RepulsionContact{});
   });
   const auto none_was_made = [](const RepulsionContact& contact) { return !(contact.mobility > 0); };
@@ -146,6 +146,7 @@ void Attempt::repel() {
   {
     const PhaseTimer timer(report_.phases.proximity);
     step_.proximities.start(step_.hierarchy, motion_.V_t0(), surface_);
+    step_.straight.start(motion_.V_t0());
     step_.proximities.leave_out(held_);
   }
   Contacts& contacts = step_.room_of_swept;
@@ -204,7 +205,7 @@ void Attempt::meet_collisions() {
     const ContactProperties properties = step_.contacts.of(collision.kind, collision.first, collision.second);
     auto contact = make_contact(collision, pair, properties, motion_.V_t0(), bodies_.inverse_mass);
     if (!contact) continue;
-    turn_across(step_.straight.of(collision.kind, pair, motion_.V_t0(), surface_), motion_.V_t0(), *contact);
+    turn_across(step_.straight.of(collision.kind, pair, surface_), motion_.V_t0(), *contact);
     met_.push_back(*contact);
   }
 }
@@ -363,6 +364,7 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   const std::vector<std::uint8_t> surface = impl.parts.cloth_flags(bodies);
   impl.proximities.start(impl.hierarchy, V_t0, surface);
+  impl.straight.start(V_t0);
   const std::vector<PairProximity> near = impl.proximities.find(V_candidate, fall, pressed);
   const auto contacts = make_contacts(near, V_t0, bodies.inverse_mass, surface, impl);
   return {contacts.begin(), contacts.end()};

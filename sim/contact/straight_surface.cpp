@@ -1,6 +1,7 @@
 #include "sim/contact/straight_surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -9,6 +10,8 @@
 #include <utility>
 
 #include <Eigen/Geometry>
+
+#include "sim/base/points.h"
 
 namespace selvage::sim {
 namespace {
@@ -99,30 +102,50 @@ Across across(const StraightSurface& surface, double extent_share, const Vec3& d
   return {left / size, distance * along.norm() > extent + kStraight * distance};
 }
 
-StraightFeature StraightSurfaces::of(PairKind kind, const std::array<VertexId, 4>& vertices, const Positions& V,
+void StraightSurfaces::start(const Positions& V) {
+  if (V.rows() > 0 && same_bits(V, V_)) return;
+  V_.resize(0, 3);  // if an exception ends this, what is known is of no positions
+  std::ranges::fill(is_known_, kNo);
+  V_ = V;
+}
+
+StraightFeature StraightSurfaces::of(PairKind kind, const std::array<VertexId, 4>& vertices,
                                      const std::vector<std::uint8_t>& is_cloth) const {
   const auto is_body = [&](std::size_t k) { return is_cloth[static_cast<std::size_t>(vertices[k])] == 0; };
-  if (kind == PairKind::kVf) return is_body(0) ? StraightFeature{{at(vertices[0], V)}} : StraightFeature{};
+  if (kind == PairKind::kVf) return is_body(0) ? StraightFeature{{at(vertices[0])}} : StraightFeature{};
   const std::uint8_t first = is_body(0) ? 0 : 2;
   if (!is_body(first)) return {};
   const VertexId a = vertices[first], b = vertices[first + 1U];
-  return {{within(a, b, V), at(a, V), at(b, V)}, first};
+  return {{within(a, b), at(a), at(b)}, first};
 }
 
-StraightSurface StraightSurfaces::at(VertexId vertex, const Positions& V) const {
+StraightSurface StraightSurfaces::at(VertexId vertex) const {
+  const auto at = static_cast<std::size_t>(vertex);
+  const std::atomic_ref is_known(is_known_[at]);
+  if (is_known.load(std::memory_order_acquire) == kYes) return at_[at];
+  const StraightSurface found = find_at(vertex);
+  std::uint8_t expected = kNo;
+  if (is_known.compare_exchange_strong(expected, kBeingFound, std::memory_order_relaxed)) {
+    at_[at] = found;
+    is_known.store(kYes, std::memory_order_release);
+  }
+  return found;
+}
+
+StraightSurface StraightSurfaces::find_at(VertexId vertex) const {
   Fan fan;
   for (const FaceId face : faces_.of(vertex)) {
     const auto& [a, b, c] = mesh_.faces[static_cast<std::size_t>(face)];
     const std::array<VertexId, 2> ends{a == vertex ? b : a, c == vertex ? b : c};
-    fan.push_back({ends, {way(V, vertex, ends[0]), way(V, vertex, ends[1])}});
+    fan.push_back({ends, {way(V_, vertex, ends[0]), way(V_, vertex, ends[1])}});
   }
-  const StraightSurface plane = plane_around(vertex, fan, V);
-  return plane.kind == StraightSurface::Kind::kPlane ? plane : line_through(vertex, fan, V);
+  const StraightSurface plane = plane_around(vertex, fan);
+  return plane.kind == StraightSurface::Kind::kPlane ? plane : line_through(vertex, fan);
 }
 
 /// That of faces which surround the vertex; others may leave it, as ribs below a plate do. It goes as far as to the
 /// nearest edge around it.
-StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan, const Positions& V) {
+StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan) const {
   std::vector<Vec3> tried;
   for (const Sector& face : fan) {
     const Vec3 normal = face.ways[0].cross(face.ways[1]).stableNormalized();
@@ -138,7 +161,7 @@ StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan, 
     const Sector& widest = *std::ranges::max_element(in_plane, {}, &Sector::sine);
     double extent_m = std::numeric_limits<double>::infinity();
     for (const Sector& each : in_plane) {
-      extent_m = std::min(extent_m, height_over(V, each.ends[0], each.ends[1], vertex));
+      extent_m = std::min(extent_m, height_over(V_, each.ends[0], each.ends[1], vertex));
     }
     return {StraightSurface::Kind::kPlane, {vertex, widest.ends[0], vertex, widest.ends[1]}, {extent_m, extent_m}};
   }
@@ -146,7 +169,7 @@ StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan, 
 }
 
 /// Through two neighbours on opposite sides, if all faces go along it.
-StraightSurface StraightSurfaces::line_through(VertexId vertex, const Fan& fan, const Positions& V) const {
+StraightSurface StraightSurfaces::line_through(VertexId vertex, const Fan& fan) const {
   if (fan.size() > kMostOnLine) return {};
   for (std::size_t j = 0; j < 2 * fan.size(); ++j) {
     const Vec3& there = fan[j / 2].ways[j % 2];
@@ -159,42 +182,42 @@ StraightSurface StraightSurfaces::line_through(VertexId vertex, const Fan& fan, 
       const VertexId first = fan[i / 2].ends[i % 2], second = fan[j / 2].ends[j % 2];
       return {StraightSurface::Kind::kLine,
               {first, second, 0, 0},
-              {line_extent(vertex, first, V), line_extent(vertex, second, V)}};
+              {line_extent(vertex, first), line_extent(vertex, second)}};
     }
   }
   return {};
 }
 
 /// As long as there is a neighbour straight ahead.
-double StraightSurfaces::line_extent(VertexId from, VertexId to, const Positions& V) const {
-  const Vec3 ahead = way(V, from, to);
+double StraightSurfaces::line_extent(VertexId from, VertexId to) const {
+  const Vec3 ahead = way(V_, from, to);
   VertexId before = from, end = to;
   for (int edges = 1; edges < kMostAhead; ++edges) {
     VertexId next = before;
     for (const FaceId face : faces_.of(end)) {
       for (const VertexId corner : mesh_.faces[static_cast<std::size_t>(face)]) {
-        if (corner != end && (way(V, end, corner) - ahead).squaredNorm() < kStraight * kStraight) next = corner;
+        if (corner != end && (way(V_, end, corner) - ahead).squaredNorm() < kStraight * kStraight) next = corner;
       }
     }
     if (next == before) break;
     before = std::exchange(end, next);
   }
-  return length(V, from, end);
+  return length(V_, from, end);
 }
 
 /// In the plane of two of its faces, or else a corner: nearest points within an edge are across it.
-StraightSurface StraightSurfaces::within(VertexId a, VertexId b, const Positions& V) const {
-  const Vec3 edge = way(V, a, b);
+StraightSurface StraightSurfaces::within(VertexId a, VertexId b) const {
+  const Vec3 edge = way(V_, a, b);
   std::vector<std::pair<VertexId, Vec3>> beside;  // corners, and the ways to them across the edge
   for (const FaceId face : faces_.of_either(a, b)) {
     const auto corner = corner_across(mesh_.faces[static_cast<std::size_t>(face)], a, b);
     if (!corner) continue;
-    const Vec3 there = way(V, a, *corner);
+    const Vec3 there = way(V_, a, *corner);
     const Vec3 across_edge = (there - there.dot(edge) * edge).stableNormalized();
     if (across_edge.isZero(0)) continue;
     for (const auto& [other, across_other] : beside) {
       if (!((across_edge + across_other).squaredNorm() < kStraight * kStraight)) continue;
-      const double extent_m = std::min(extent_beside(V, a, b, *corner), extent_beside(V, a, b, other));
+      const double extent_m = std::min(extent_beside(V_, a, b, *corner), extent_beside(V_, a, b, other));
       return {StraightSurface::Kind::kPlane, {a, b, a, *corner}, {extent_m, extent_m}};
     }
     beside.emplace_back(*corner, across_edge);

@@ -73,23 +73,34 @@ using Fan = std::vector<Sector>;
 class StraightSurfaces {
  public:
   /// Both must outlive it.
-  StraightSurfaces(const Mesh& mesh, const VertexFaces& faces) : mesh_(mesh), faces_(faces) {}
+  StraightSurfaces(const Mesh& mesh, const VertexFaces& faces)
+      : mesh_(mesh), faces_(faces), at_(static_cast<std::size_t>(mesh.vertex_count)), is_known_(at_.size()) {}
+
+  /// From now on where the vertices are at V, #V by 3. What is known of these very positions is kept.
+  void start(const Positions& V);
 
   /// Of the body in a pair as in PairProximity: its vertex in vf, or its edge in ee. A vertex of cloth against a face,
   /// and two edges of cloth, have corners alone. `is_cloth` is #V. O(f log f) of the faces around the feature, and
   /// those along a few dozen edges of a line.
-  [[nodiscard]] StraightFeature of(PairKind kind, const std::array<VertexId, 4>& vertices, const Positions& V,
+  /// Of a vertex it is found once after start(). For any number of threads.
+  [[nodiscard]] StraightFeature of(PairKind kind, const std::array<VertexId, 4>& vertices,
                                    const std::vector<std::uint8_t>& is_cloth) const;
 
  private:
-  [[nodiscard]] StraightSurface at(VertexId vertex, const Positions& V) const;
-  [[nodiscard]] StraightSurface within(VertexId a, VertexId b, const Positions& V) const;
-  [[nodiscard]] static StraightSurface plane_around(VertexId vertex, const Fan& fan, const Positions& V);
-  [[nodiscard]] StraightSurface line_through(VertexId vertex, const Fan& fan, const Positions& V) const;
-  [[nodiscard]] double line_extent(VertexId from, VertexId to, const Positions& V) const;
+  [[nodiscard]] StraightSurface at(VertexId vertex) const;
+  [[nodiscard]] StraightSurface find_at(VertexId vertex) const;
+  [[nodiscard]] StraightSurface within(VertexId a, VertexId b) const;
+  [[nodiscard]] StraightSurface plane_around(VertexId vertex, const Fan& fan) const;
+  [[nodiscard]] StraightSurface line_through(VertexId vertex, const Fan& fan) const;
+  [[nodiscard]] double line_extent(VertexId from, VertexId to) const;
+
+  enum Known : std::uint8_t { kNo, kBeingFound, kYes };
 
   const Mesh& mesh_;
   const VertexFaces& faces_;
+  Positions V_;
+  mutable std::vector<StraightSurface> at_;     ///< #V, written by the one thread that finds it
+  mutable std::vector<std::uint8_t> is_known_;  ///< #V, Known
 };
 
 }  // namespace selvage::sim

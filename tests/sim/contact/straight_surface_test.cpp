@@ -12,6 +12,14 @@ namespace {
 
 using Kind = StraightSurface::Kind;
 
+StraightFeature feature_of(PairKind kind, const std::array<VertexId, 4>& vertices, const Mesh& mesh, const Positions& V,
+                           const std::vector<std::uint8_t>& is_cloth) {
+  const VertexFaces faces(mesh);
+  StraightSurfaces surfaces(mesh, faces);
+  surfaces.start(V);
+  return surfaces.of(kind, vertices, is_cloth);
+}
+
 /// A roof whose ridge goes along x through five vertices, `bend_m` to the side at the middle one; row i has vertices
 /// 3 i (eaves), 3 i + 1 (ridge) and 3 i + 2 (eaves).
 struct Roof {
@@ -34,12 +42,10 @@ struct Roof {
     mesh = make_mesh(15, faces);
   }
   [[nodiscard]] StraightSurface at(VertexId vertex) const {
-    return StraightSurfaces(mesh, VertexFaces(mesh))
-        .of(PairKind::kVf, {vertex, 0, 1, 2}, V, is_cloth)
-        .parts[StraightFeature::kWithin];
+    return feature_of(PairKind::kVf, {vertex, 0, 1, 2}, mesh, V, is_cloth).parts[StraightFeature::kWithin];
   }
   [[nodiscard]] std::array<Kind, 3> along(VertexId a, VertexId b) const {
-    const StraightFeature edge = StraightSurfaces(mesh, VertexFaces(mesh)).of(PairKind::kEe, {a, b, 0, 1}, V, is_cloth);
+    const StraightFeature edge = feature_of(PairKind::kEe, {a, b, 0, 1}, mesh, V, is_cloth);
     return {edge.parts[0].kind, edge.parts[1].kind, edge.parts[2].kind};
   }
 };
@@ -57,7 +63,7 @@ StraightSurface around(const std::vector<double>& turns, const std::vector<std::
   }
   const Mesh mesh = make_mesh(count + 1, faces);
   const std::vector<std::uint8_t> is_cloth(static_cast<std::size_t>(count) + 1, 0);
-  return StraightSurfaces(mesh, VertexFaces(mesh)).of(PairKind::kVf, {0, 0, 0, 0}, V, is_cloth).parts[0];
+  return feature_of(PairKind::kVf, {0, 0, 0, 0}, mesh, V, is_cloth).parts[0];
 }
 
 }  // namespace
@@ -81,11 +87,24 @@ TEST(StraightSurface, AnEdgeHasThatOfItsFacesAndThatOfItsEnds) {
   EXPECT_EQ(roof.along(4, 1), (Kinds{Kind::kCorner, Kind::kLine, Kind::kCorner}));
   EXPECT_EQ(roof.along(6, 7), (Kinds{Kind::kPlane, Kind::kLine, Kind::kLine}));
   EXPECT_EQ(Roof(0).along(4, 7), (Kinds{Kind::kPlane, Kind::kPlane, Kind::kPlane}));
-  const Vec3 rafter = StraightSurfaces(roof.mesh, VertexFaces(roof.mesh))
-                          .of(PairKind::kEe, {6, 7, 0, 1}, roof.V, roof.is_cloth)
+  const Vec3 rafter = feature_of(PairKind::kEe, {6, 7, 0, 1}, roof.mesh, roof.V, roof.is_cloth)
                           .parts[StraightFeature::kWithin]
                           .direction(roof.V);
   EXPECT_NEAR(std::abs(rafter.dot(Vec3(0, -1, 1).normalized())), 1, 1e-15);
+}
+
+TEST(StraightSurface, IsFoundAnewWhereVerticesHaveMoved) {
+  Roof roof(1);
+  const VertexFaces faces(roof.mesh);
+  StraightSurfaces surfaces(roof.mesh, faces);
+  for (const double bend_m : {0.0, 0.0, 0.1}) {
+    roof.V(7, 1) = bend_m;
+    surfaces.start(roof.V);
+    for (int again = 0; again < 2; ++again) {
+      const StraightFeature ridge = surfaces.of(PairKind::kVf, {7, 0, 1, 2}, roof.is_cloth);
+      EXPECT_EQ(ridge.parts[0].kind, bend_m == 0 ? Kind::kLine : Kind::kCorner);
+    }
+  }
 }
 
 TEST(StraightSurface, IsOfBodiesAlone) {
@@ -95,8 +114,7 @@ TEST(StraightSurface, IsOfBodiesAlone) {
   roof.is_cloth.assign(15, 1);
   EXPECT_EQ(roof.along(4, 7), (std::array<Kind, 3>{}));
   roof.is_cloth[1] = roof.is_cloth[4] = 0;
-  const StraightFeature second =
-      StraightSurfaces(roof.mesh, VertexFaces(roof.mesh)).of(PairKind::kEe, {6, 7, 1, 4}, roof.V, roof.is_cloth);
+  const StraightFeature second = feature_of(PairKind::kEe, {6, 7, 1, 4}, roof.mesh, roof.V, roof.is_cloth);
   EXPECT_EQ(second.parts[StraightFeature::kSecondEnd].kind, Kind::kLine);
   EXPECT_TRUE(second.is_anywhere());
   EXPECT_EQ(second.part(PairKind::kEe, {0.5, 0.5, -1, 0}), StraightFeature::kFirstEnd);
@@ -123,8 +141,7 @@ TEST(StraightSurface, APlaneGoesAsFarAsTheFacesAroundIt) {
   flat.V.col(0) *= 2;  // faces of 2 by 1, whose diagonals are from 3 i + side + 1 to 3 (i + 1) + side
   const auto around = [&] { return flat.at(7).extents_m; };
   const auto within = [&](VertexId a, VertexId b, double share) {
-    const StraightFeature edge =
-        StraightSurfaces(flat.mesh, VertexFaces(flat.mesh)).of(PairKind::kEe, {a, b, 0, 1}, flat.V, flat.is_cloth);
+    const StraightFeature edge = feature_of(PairKind::kEe, {a, b, 0, 1}, flat.mesh, flat.V, flat.is_cloth);
     const std::array<double, 4> weights{share - 1, -share, 0.5, 0.5};
     const double extent_m = edge.parts.at(edge.part(PairKind::kEe, weights)).extents_m[0];
     return extent_m * edge.extent_share(PairKind::kEe, weights);
@@ -168,8 +185,7 @@ TEST(StraightSurface, ARibBelowAPlaneLeavesItOne) {
     std::vector<std::array<VertexId, 3>> faces{{0, 1, 2}, {1, 0, 3}};
     if (has_rib) faces.push_back({0, 1, 4});
     const Mesh mesh = make_mesh(5, faces);
-    const StraightFeature edge =
-        StraightSurfaces(mesh, VertexFaces(mesh)).of(PairKind::kEe, {0, 1, 2, 3}, V, std::vector<std::uint8_t>(5, 0));
+    const StraightFeature edge = feature_of(PairKind::kEe, {0, 1, 2, 3}, mesh, V, std::vector<std::uint8_t>(5, 0));
     EXPECT_EQ(edge.parts[StraightFeature::kWithin].kind, Kind::kPlane);
     EXPECT_NEAR(std::abs(edge.parts[StraightFeature::kWithin].direction(V).z()), 1, 1e-15);
   }
