@@ -155,7 +155,8 @@ StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan) 
     tried.push_back(normal);
     Fan in_plane;
     std::ranges::copy_if(fan, std::back_inserter(in_plane), [&](const Sector& other) {
-      return std::abs(other.ways[0].dot(normal)) < kStraight && std::abs(other.ways[1].dot(normal)) < kStraight;
+      const auto lies_in_it = [&](const Vec3& way) { return std::abs(way.dot(normal)) < kStraight; };
+      return other.sine() > 0 && std::ranges::all_of(other.ways, lies_in_it);
     });
     if (!surrounds(in_plane, normal)) continue;
     const Sector& widest = *std::ranges::max_element(in_plane, {}, &Sector::sine);

@@ -74,6 +74,25 @@ TEST(CollisionStep, TwoSheetsThrownAtEachOtherStayApart) {
   }
 }
 
+TEST(CollisionStep, HeldContactsThatAreBeyondWhatIsStraightDoNeither) {
+  StepScene scene;
+  scene.options.thickness_m = 2e-3;
+  scene.add(triangle(0.1), Vec3::Zero(), 0);
+  const auto upper = scene.add(triangle(0.01), Vec3(0, 0, 1.5e-3));
+  scene.push(upper, Vec3(0, 0, -0.5e-3));
+  const Mesh mesh = scene.mesh();
+  CollisionStep step(mesh, scene.options);
+  std::vector<RepulsionContact> held = step.find_contacts(scene.V_t0, scene.V_candidate, scene.bodies());
+  ASSERT_FALSE(held.empty());
+  for (const bool are_beyond : {false, true}) {
+    for (RepulsionContact& contact : held) contact.is_beyond = are_beyond;
+    const auto result = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, {}, held);
+    EXPECT_EQ(result.report.repulsions > 0, !are_beyond);
+    EXPECT_TRUE(result.met.empty());
+    EXPECT_EQ(result.x == scene.V_candidate, are_beyond);
+  }
+}
+
 TEST(CollisionStep, HeldContactsActAndAreNotMetAgain) {
   using Name = std::tuple<PairKind, std::int32_t, std::int32_t>;
   const auto names = [](const std::vector<RepulsionContact>& contacts) {

@@ -199,6 +199,22 @@ TEST(StraightSurface, WhatIsNotFlatAllRoundIsNoPlane) {
   EXPECT_EQ(flat.at(7).kind, Kind::kCorner) << "beside two lines across it";
 }
 
+TEST(StraightSurface, AFaceWithoutAreaChangesNothing) {
+  Positions V(6, 3);
+  V << 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 0;
+  const std::vector<std::array<VertexId, 3>> all{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  for (const std::size_t count : {4U, 3U}) {
+    std::vector<std::array<VertexId, 3>> faces(all.begin(), all.begin() + std::ptrdiff_t(count));
+    faces.push_back({0, 5, 1});
+    const StraightFeature vertex =
+        feature_of(PairKind::kVf, {0, 1, 2, 3}, make_mesh(6, faces), V, std::vector<std::uint8_t>(6, 0));
+    EXPECT_EQ(vertex.parts[0].kind == Kind::kPlane, count == 4);
+    if (count == 4) {
+      EXPECT_NEAR(vertex.parts[0].extents_m[0], std::sqrt(0.5), 1e-15);
+    }
+  }
+}
+
 TEST(StraightSurface, WhatHasNoSizeIsACorner) {
   Roof flat(0);
   flat.V.row(7) = flat.V.row(6);

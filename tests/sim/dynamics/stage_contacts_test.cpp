@@ -20,14 +20,16 @@ struct OneStageContact {
   HeldContacts held;
   StageContacts stage;
 
-  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, double load_m_s2)
-      : OneStageContact(pair, cloth_count, friction, ContactLoads{{{0, 0, load_m_s2}}, {}}) {}
-  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, const ContactLoads& loads)
+  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, double load_m_s2,
+                  bool is_beyond = false)
+      : OneStageContact(pair, cloth_count, friction, ContactLoads{{{0, 0, load_m_s2}}, {}}, is_beyond) {}
+  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, const ContactLoads& loads,
+                  bool is_beyond = false)
       : inverse_mass(pair.inverse_mass.begin(), pair.inverse_mass.end()),
         resistance_kg(resistances(pair)),
         x(rows(pair.x_t0)),
         x_t1(x),
-        held({contact(pair, friction)}, loads,
+        held({contact(pair, friction, is_beyond)}, loads,
              HeldSurface{mesh, parts, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()}, x, x_t1,
              kStageStep, 1),
         stage(held, x.topRows(cloth_count), inverse_mass, resistance_kg, {0, 1, kStageStep}) {}
@@ -42,8 +44,9 @@ struct OneStageContact {
     for (Eigen::Index i = 0; i < 4; ++i) result.row(i) = vectors[static_cast<std::size_t>(i)];
     return result;
   }
-  static RepulsionContact contact(const RandomPair& pair, double friction) {
+  static RepulsionContact contact(const RandomPair& pair, double friction, bool is_beyond = false) {
     RepulsionContact result = contact_of(pair, kStageThickness);
+    result.is_beyond = is_beyond;
     result.properties.friction_static = result.properties.friction_kinetic = friction;
     return result;
   }
@@ -64,6 +67,15 @@ Positions random_displacements(Eigen::Index count, double bound) {
 RandomPair pressed_pair() {
   const RandomPair pair = random_contact(number_between(0.5, 1.5) * kStageThickness);
   RC_PRE(lever_share(pair.interaction) == 1);
+  return pair;
+}
+
+/// By 0.3 m; the face is a body's.
+RandomPair vertex_above_a_face() {
+  RandomPair pair;
+  pair.inverse_mass = {2, 0, 0, 0};
+  pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.25, 0.25, 0.5}, pair.inverse_mass);
+  pair.x_t0 = {Vec3(0, 0, 0.3), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
   return pair;
 }
 
@@ -138,10 +150,7 @@ TEST(StageContacts, PropForcesKeepBothMomenta) {
 /// A vertex of 0.5 kg over a face that does not move, pushed with (0.1, 0, -0.4) m: the multipliers find the load, and
 /// friction takes its share of it.
 TEST(StageContacts, MultipliersFindWhatHoldsAVertex) {
-  RandomPair pair;
-  pair.inverse_mass = {2, 0, 0, 0};
-  pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.25, 0.25, 0.5}, pair.inverse_mass);
-  pair.x_t0 = {Vec3(0, 0, 0.3), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
+  const RandomPair pair = vertex_above_a_face();
   const Vec3 push(0.1, 0, -0.4);  // of which 0.35 m is too much
   const double mass = 0.5;
   for (const double friction : {0.0, 0.2, 0.5}) {
@@ -163,6 +172,12 @@ TEST(StageContacts, MultipliersFindWhatHoldsAVertex) {
     EXPECT_EQ(one.held.count().repulsions, 1);
     EXPECT_EQ(one.held.count().frictions, friction > 0 ? 1 : 0);
   }
+}
+
+TEST(StageContacts, OneBeyondWhatIsStraightDoesNotAct) {
+  const Eigen::RowVector3d into_it(0.1, 0, -0.4);
+  EXPECT_GT(OneStageContact(vertex_above_a_face(), 1, 0.2, 0).forces(into_it)(0, 2), 0);
+  EXPECT_TRUE(OneStageContact(vertex_above_a_face(), 1, 0.2, 0, true).forces(into_it).isZero(0));
 }
 
 /// What was found for one stage is the next one's first guess, friction and edges as well: nothing is left to find
