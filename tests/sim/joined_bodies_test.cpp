@@ -129,14 +129,22 @@ class JoinedBodies : public ::testing::Test {
     return build_world(
         scene(start() + sliding_sheet("position_m = [0, 0, 1]") + "[[body]]\nmesh = {file = \"body.obj\"}\n"));
   }
+  struct Way {
+    Eigen::RowVector2d from_m{-0.6, 0.007}, v_m_s{2, 0.3};
+    double duration_s = 0.5;
+  };
   void slides_without_a_bump(const Shape& body, const std::string& solver = "explicit") const {
+    slides_without_a_bump(body, solver, Way{});
+  }
+  void slides_without_a_bump(const Shape& body, const std::string& solver, const Way& way) const {
     testing::spit(folder_ / "body.obj", obj(body));
     Simulation simulation(scene(start(solver) +
-                                sliding_sheet("position_m = [-0.6, 0.007, 0.0041]\nvelocity_m_s = [2, 0.3, 0]") +
+                                sliding_sheet(fmt::format("position_m = [{}, {}, 0.0041]\nvelocity_m_s = [{}, {}, 0]",
+                                                          way.from_m[0], way.from_m[1], way.v_m_s[0], way.v_m_s[1])) +
                                 "[[body]]\nmesh = {file = \"body.obj\"}\n"));
-    while (simulation.clock().time_s() < 0.5 - 1e-9) simulation.step();
+    while (simulation.clock().time_s() < way.duration_s - 1e-9) simulation.step();
     const Positions x = simulation.x().topRows(100), v = simulation.state().v.topRows(100);
-    EXPECT_LT((v.leftCols(2).rowwise() - Eigen::RowVector2d(2, 0.3)).rowwise().norm().maxCoeff(), 1e-3);
+    EXPECT_LT((v.leftCols(2).rowwise() - way.v_m_s).rowwise().norm().maxCoeff(), 1e-3);
     EXPECT_GT(x.col(2).minCoeff(), 0.99 * kThickness);
     EXPECT_LT(x.col(2).maxCoeff(), 1.05 * kThickness);
   }
@@ -159,7 +167,10 @@ TEST_F(JoinedBodies, FacesBetweenVerticesOfOnePlaceAreNotFelt) {
 
 TEST_F(JoinedBodies, PolygonsWithAVertexWithinASideAreNotFelt) { slides_without_a_bump(turned_polygons()); }
 
-TEST_F(JoinedBodies, BricksAreNotFelt) { slides_without_a_bump(bricks()); }
+TEST_F(JoinedBodies, BricksAreNotFelt) {
+  // Where their corners were taken for lines the sheet was slowed to 3.3 to 3.5 m/s along x, and up to 18 mm high.
+  slides_without_a_bump(bricks(), "explicit", {{-0.6, -0.3}, {3.5, 3.5}, 0.2});
+}
 
 TEST_F(JoinedBodies, VerticesKeepTheirNumbers) {
   const Shape soup = soup_of(ground());
