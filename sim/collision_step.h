@@ -107,11 +107,12 @@ class CollisionStep {
                                                std::span<const RepulsionContact> held = {});
 
   /// For dynamics that hold contacts (held_contacts.h): those that a motion from V_t0 to V_candidate would press, to be
-  /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left.
-  /// Those that rest, too: which a fall by `fall`, m, of one of the two alone would press, and of `pressed` all that
-  /// are near. REQUIRES valid arguments, as above; with an invalid one there is none. Time and memory grow with the
-  /// pairs nearer than a thickness, as of a step: O(n log n) where edges are not much shorter than that, all pairs of a
-  /// mesh that is smaller than its cloth is thick. A step from the same V_t0 need not look for near pairs again.
+  /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left,
+  /// but for those beyond what is straight (straight_surface.h). Those that rest, too: which a fall by `fall`, m, of
+  /// one of the two alone would press, and of `pressed` all that are near. REQUIRES valid arguments, as above; with an
+  /// invalid one there is none. Time and memory grow with the pairs nearer than a thickness, as of a step: O(n log n)
+  /// where edges are not much shorter than that, all pairs of a mesh that is smaller than its cloth is thick. A step
+  /// from the same V_t0 need not look for near pairs again.
   [[nodiscard]] std::vector<RepulsionContact> find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                             const CollisionBodies& bodies,
                                                             const Vec3& fall = Vec3::Zero(),
