@@ -209,6 +209,7 @@ double StraightSurfaces::line_extent(VertexId from, VertexId to) const {
 /// In the plane of two of its faces, or else a corner: nearest points within an edge are across it.
 StraightSurface StraightSurfaces::within(VertexId a, VertexId b) const {
   const Vec3 edge = way(V_, a, b);
+  if (edge.isZero(0)) return {};
   std::vector<std::pair<VertexId, Vec3>> beside;  // corners, and the ways to them across the edge
   for (const FaceId face : faces_.of_either(a, b)) {
     const auto corner = corner_across(mesh_.faces[static_cast<std::size_t>(face)], a, b);

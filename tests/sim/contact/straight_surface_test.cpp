@@ -216,9 +216,12 @@ TEST(StraightSurface, AFaceWithoutAreaChangesNothing) {
 }
 
 TEST(StraightSurface, WhatHasNoSizeIsACorner) {
-  Roof flat(0);
-  flat.V.row(7) = flat.V.row(6);
-  EXPECT_EQ(flat.along(6, 7)[0], Kind::kCorner);
+  // Of an edge without length, in whose faces the other corners lie on opposite sides.
+  Positions V(4, 3);
+  V << 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0;
+  const Mesh mesh = make_mesh(4, std::vector<std::array<VertexId, 3>>{{0, 1, 2}, {1, 0, 3}});
+  const StraightFeature edge = feature_of(PairKind::kEe, {0, 1, 2, 3}, mesh, V, std::vector<std::uint8_t>(4, 0));
+  EXPECT_EQ(edge.parts[StraightFeature::kWithin].kind, Kind::kCorner);
 }
 
 TEST(StraightSurface, DirectionsAreAcrossIt) {
