@@ -332,8 +332,7 @@ HeldContacts::Refused HeldContacts::hold(std::size_t id, Lanes lanes, const Reac
   PackMotion read;
   read_motion(pack, lanes, motion, read);
   const Lanes looked_at = lanes & (states_[id].loaded | pressing(id));
-  // What was beyond is looked at in any case: its normal says nothing of the side on which it is now.
-  Lanes pressed = newly_pressed(pack, read, lanes) | (lanes & states_[id].beyond);
+  Lanes pressed = newly_pressed(pack, read, lanes);
   const Refused refused = pressed == 0 ? Refused{} : look_again(id, reach, motion, read, pressed);
   const Lanes acting = looked_at | pressed;
   if (acting == 0) return refused;
