@@ -141,7 +141,7 @@ class Attempt {
 };
 
 /// Sections 7.2 and 7.3: the contacts at the start of the step that the candidate presses, then those that these push
-/// together.
+/// together. What is beyond the straight part of a body is nearer to another feature, whose contact acts.
 void Attempt::repel() {
   {
     const PhaseTimer timer(report_.phases.proximity);

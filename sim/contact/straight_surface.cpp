@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -24,7 +23,8 @@ constexpr int kMostAhead = 32;
 /// hundreds of faces is asked in linear time.
 constexpr std::size_t kMostPlanes = 4;
 
-/// Faces around a vertex that has pairs of them tried.
+/// Faces around a vertex on a line: all pairs of its neighbours are tried, which of the hub of a cone of hundreds of
+/// faces would take longer than all else of a contact, and a ridge has six or so.
 constexpr std::size_t kMostOnLine = 64;
 
 Vec3 way(const Positions& V, VertexId from, VertexId to) { return (V.row(to) - V.row(from)).stableNormalized(); }
@@ -42,31 +42,7 @@ double extent_beside(const Positions& V, VertexId a, VertexId b, VertexId third)
   return height_over(V, a, b, third) / std::max({foot, 1 - foot, 1.0});
 }
 
-/// Whether the faces, which lie in the plane, leave no gap around their common vertex.
-bool surrounds(std::span<const Sector> faces, const Vec3& normal) {
-  constexpr double kTurn = 2 * std::numbers::pi;
-  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
-  std::vector<std::pair<double, double>> spans;  // first and last angles
-  for (const Sector& face : faces) {
-    std::array<double, 2> angles{};
-    for (const std::size_t k : {0U, 1U}) angles[k] = std::atan2(face.ways[k].dot(y), face.ways[k].dot(x));
-    const double turn = std::remainder(angles[1] - angles[0], kTurn);
-    const double first = turn > 0 ? angles[0] : angles[1];
-    spans.emplace_back(first, first + std::abs(turn));
-  }
-  if (spans.empty()) return false;
-  std::ranges::sort(spans);
-  double till = spans.front().first;
-  for (const auto& [first, last] : spans) {
-    if (first > till + kStraight) return false;
-    till = std::max(till, last);
-  }
-  return till >= spans.front().first + kTurn - kStraight;
-}
-
 }  // namespace
-
-double Sector::sine() const { return ways[0].cross(ways[1]).norm(); }
 
 Vec3 StraightSurface::direction(const Positions& V) const {
   if (kind == Kind::kCorner) return Vec3::Zero();
@@ -141,6 +117,30 @@ StraightSurface StraightSurfaces::find_at(VertexId vertex) const {
   }
   const StraightSurface plane = plane_around(vertex, fan);
   return plane.kind == StraightSurface::Kind::kPlane ? plane : line_through(vertex, fan);
+}
+
+double StraightSurfaces::Sector::sine() const { return ways[0].cross(ways[1]).norm(); }
+
+/// Whether the faces, which lie in the plane, leave no gap around their common vertex.
+bool StraightSurfaces::surrounds(const Fan& faces, const Vec3& normal) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  std::vector<std::pair<double, double>> spans;  // first and last angles
+  for (const Sector& face : faces) {
+    std::array<double, 2> angles{};
+    for (const std::size_t k : {0U, 1U}) angles[k] = std::atan2(face.ways[k].dot(y), face.ways[k].dot(x));
+    const double turn = std::remainder(angles[1] - angles[0], kTurn);
+    const double first = turn > 0 ? angles[0] : angles[1];
+    spans.emplace_back(first, first + std::abs(turn));
+  }
+  if (spans.empty()) return false;
+  std::ranges::sort(spans);
+  double till = spans.front().first;
+  for (const auto& [first, last] : spans) {
+    if (first > till + kStraight) return false;
+    till = std::max(till, last);
+  }
+  return till >= spans.front().first + kTurn - kStraight;
 }
 
 /// That of faces which surround the vertex; others may leave it, as ribs below a plate do. It goes as far as to the

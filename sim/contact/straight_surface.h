@@ -62,14 +62,6 @@ struct Across {
 [[nodiscard]] Across across(const StraightSurface& surface, double extent_share, const Vec3& direction,
                             const Vec3& unit, double distance);
 
-/// A face at a vertex: its other corners, and the unit vectors to them.
-struct Sector {
-  std::array<VertexId, 2> ends;
-  std::array<Vec3, 2> ways;
-  [[nodiscard]] double sine() const;  ///< of its angle
-};
-using Fan = std::vector<Sector>;
-
 class StraightSurfaces {
  public:
   /// Both must outlive it.
@@ -80,16 +72,25 @@ class StraightSurfaces {
   void start(const Positions& V);
 
   /// Of the body in a pair as in PairProximity: its vertex in vf, or its edge in ee. A vertex of cloth against a face,
-  /// and two edges of cloth, have corners alone. `is_cloth` is #V. O(f log f) of the faces around the feature, and
-  /// those along a few dozen edges of a line.
-  /// Of a vertex it is found once after start(). For any number of threads.
+  /// and two edges of cloth, have corners alone. `is_cloth` is #V. Of a vertex it is found once after start(), in O(f
+  /// log f) of its f faces, O(f^2) while they are 64 or fewer, and O(faces along a line of 32 edges); of an edge in
+  /// O(faces at one end). Any number of threads may ask.
   [[nodiscard]] StraightFeature of(PairKind kind, const std::array<VertexId, 4>& vertices,
                                    const std::vector<std::uint8_t>& is_cloth) const;
 
  private:
+  /// A face at a vertex: its other corners, and the unit vectors to them.
+  struct Sector {
+    std::array<VertexId, 2> ends;
+    std::array<Vec3, 2> ways;
+    [[nodiscard]] double sine() const;  ///< of its angle
+  };
+  using Fan = std::vector<Sector>;
+
   [[nodiscard]] StraightSurface at(VertexId vertex) const;
   [[nodiscard]] StraightSurface find_at(VertexId vertex) const;
   [[nodiscard]] StraightSurface within(VertexId a, VertexId b) const;
+  [[nodiscard]] static bool surrounds(const Fan& faces, const Vec3& normal);
   [[nodiscard]] StraightSurface plane_around(VertexId vertex, const Fan& fan) const;
   [[nodiscard]] StraightSurface line_through(VertexId vertex, const Fan& fan) const;
   [[nodiscard]] double line_extent(VertexId from, VertexId to) const;

@@ -62,9 +62,13 @@ TEST(StraightLanes, TurnDirectionsAsOneContactAlone) {
       feature.first = kind == PairKind::kEe && lane % 2 == 1 ? 2 : 0;
       set_straight(kind, feature, V_t0, V_t1, lane, pack);
       const std::array<double, 4> weights = any_weights(feature.first);
-      const Vec3 direction = any_point().normalized();
       const StraightSurface& surface = feature.parts.at(feature.part(kind, weights));
       const Vec3 t0 = surface.direction(V_t0), t1 = surface.direction(V_t1);
+      Vec3 direction = any_point().normalized();
+      if (lane == 0 && surface.kind != Kind::kCorner) {  // in it: nothing is left
+        const Vec3 now = (t0 + kShare * (t1 - t0)).normalized();
+        direction = surface.kind == Kind::kLine ? now : now.unitOrthogonal();
+      }
       const Across turned = across(surface, feature.extent_share(kind, weights), (t0 + kShare * (t1 - t0)).normalized(),
                                    direction, kDistance);
       if (turned.is_beyond) beyond |= only_lane(lane);
