@@ -226,4 +226,31 @@ TEST(ImplicitDynamics, StrainLimitHolds) {
   EXPECT_NEAR(motion.x(1, 0) - motion.x(0, 0), 0.11, 1e-4 * 0.03);  // of what would be too much
 }
 
+// Once a spring was limited anywhere, all cloth went on with its mean velocity: it fell with half of gravity.
+TEST(ImplicitDynamics, StrainLimitTakesNoMomentumFromOneNorAnyOther) {
+  const SpringSystem springs({Spring{0, 1, SpringKind::kStructural, 0.1, 0.1, 0}}, 3);
+  ImplicitDynamicsOptions o = options(kFrame);
+  const Eigen::RowVector3d gravity(0, 0, -9.81);
+  o.fields = {gravity.transpose(), 0, 0};
+  Motion start{Positions::Zero(3, 3), Positions::Zero(3, 3)};
+  start.x(1, 0) = 0.1;
+  start.v(0, 0) = -1;
+  start.v(1, 0) = 1;
+  Motion free = start, limited = start;
+  const std::vector<double> w{1, 2, 1};
+  ImplicitDynamics without(springs, o);
+  o.strain.strain = 0.1;
+  ImplicitDynamics with(springs, o);
+  for (int n = 1; n <= 10; ++n) {
+    without.advance(free, start.x, w, kFrame);
+    with.advance(limited, start.x, w, kFrame);
+    EXPECT_EQ(limited.x.row(2), free.x.row(2)) << "to the bit";
+    EXPECT_EQ(limited.v.row(2), free.v.row(2)) << "to the bit";
+    const Eigen::RowVector3d momentum = limited.v.row(0) + limited.v.row(1) / 2;
+    const Eigen::RowVector3d expected = start.v.row(0) + start.v.row(1) / 2 + 1.5 * n * kFrame * gravity;
+    EXPECT_LE((momentum - expected).norm(), 1e-12);
+  }
+  EXPECT_NE(limited.x.row(0), free.x.row(0)) << "the limit acted";
+}
+
 }  // namespace selvage
