@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -105,6 +106,18 @@ Accuracy accuracy_of(const Json& json) {
           by_gap_of(json.at("alarms"))};
 }
 
+/// Of a case beside the ledger, or empty. A path would lead those who merge or go on out of their folders.
+std::string file_name(const Json& json) {
+  const auto name = json.get<std::string>();
+  const bool is_path = name != std::filesystem::path(name).filename() || name == "." || name == "..";
+  if (is_path || io::printable(name) != name) {
+    throw std::invalid_argument("the file of a finding, '" + io::printable(name) +
+                                "', is not the name of one in the campaign's folder; take the campaign again from "
+                                "where it was made");
+  }
+  return name;
+}
+
 PropertyLedger property_of(const Json& json) {
   PropertyLedger property;
   property.name = json.at("name").get<std::string>();
@@ -132,7 +145,7 @@ PropertyLedger property_of(const Json& json) {
   }
   for (const Json& finding : json.at("findings")) {
     property.findings[{finding.at("stream").get<std::string>(), finding.at("failure").get<std::string>()}] = {
-        count(finding.at("count")), count(finding.at("case")), finding.at("file").get<std::string>()};
+        count(finding.at("count")), count(finding.at("case")), file_name(finding.at("file"))};
   }
   return property;
 }
