@@ -39,7 +39,11 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
                              verify::SequenceOptions options, const verify::ReportContext& context) {
   VerifyProgress progress(arguments.json, context);
   std::optional<verify::SequenceReport> earlier;
-  if (arguments.resume) earlier = progress.load();
+  if (arguments.resume) {
+    const auto [first, end] = options.range.value_or(std::pair<std::size_t, std::size_t>(0, sequence.frame_count()));
+    earlier = progress.load({verify::sequence_identity(sequence), static_cast<std::int64_t>(first),
+                             static_cast<std::int64_t>(end), static_cast<std::int64_t>(options.check.max_violations)});
+  }
   options.resume_from = earlier ? &*earlier : nullptr;
   ProgressBar bar("verify");
   options.progress = [&](std::size_t done, std::size_t total) {

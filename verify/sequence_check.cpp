@@ -117,6 +117,7 @@ class SequenceCheck {
     previous_ = std::move(frame);
     if (options_.checkpoint) {
       report_.seconds = seconds();
+      report_.verdict = verdict_of(report_);
       options_.checkpoint(report_);
     }
     return true;

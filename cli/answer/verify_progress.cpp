@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "cli/answer/verdict.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
@@ -20,6 +22,23 @@ std::chrono::steady_clock::time_point paced(std::chrono::steady_clock::time_poin
   return now + 10 * (now - start);
 }
 
+void require_same(const verify::SequenceReport& report, const VerifyProgress::Wanted& wanted, const std::string& file) {
+  if (report.max_violations != wanted.max_violations) {
+    throw UsageError(
+        fmt::format("{}: lists {} violations at most (--max-violations), not {}; resume it with that, or "
+                    "remove it to start anew",
+                    file, report.max_violations, wanted.max_violations));
+  }
+  if (report.sequence != wanted.sequence) {
+    throw io::Error(io::ErrorKind::kBadInput, file + ": is of another sequence; name that, or remove it to start anew");
+  }
+  if (report.first_frame == wanted.first_frame && report.end_frame == wanted.end_frame) return;
+  throw UsageError(
+      fmt::format("{}: is about frames {} to {}, not {} to {}; resume it with the same --shard, or remove "
+                  "it to start anew",
+                  file, report.first_frame, report.end_frame - 1, wanted.first_frame, wanted.end_frame - 1));
+}
+
 }  // namespace
 
 VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
@@ -28,13 +47,14 @@ VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::Repor
       context_(context),
       next_write_(Clock::now() + kInterval) {}
 
-std::optional<verify::SequenceReport> VerifyProgress::load() const {
+std::optional<verify::SequenceReport> VerifyProgress::load(const Wanted& wanted) const {
   for (const std::filesystem::path& file : {file_, report_file_}) {
     if (!std::filesystem::is_regular_file(file)) continue;
     verify::ParsedReport parsed = verify::parse_report(io::read_file(file), file.string());
     if (parsed.context.program != context_.program || parsed.context.options != context_.options) {
       throw UsageError(file.string() + ": made by another version or with other options; remove it to start anew");
     }
+    require_same(parsed.report, wanted, file.string());
     // A report that was cut short counts work on half a frame: only progress can be continued.
     if (file == file_ || is_complete(parsed.report)) return std::move(parsed.report);
   }

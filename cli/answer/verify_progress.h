@@ -17,9 +17,14 @@ class VerifyProgress {
   /// Keeps there the report on the frames that are done. `context` must outlive it.
   VerifyProgress(std::filesystem::path report, const verify::ReportContext& context);
 
+  /// What a report must be about.
+  struct Wanted {
+    std::string sequence;  ///< verify::sequence_identity()
+    std::int64_t first_frame, end_frame, max_violations;
+  };
   /// The report to continue from: progress, or a finished report; nothing where there is neither. Throws UsageError
-  /// where it was made by another program or with other options.
-  [[nodiscard]] std::optional<verify::SequenceReport> load() const;
+  /// where it was made by another program or with other options, io::Error where it is about something else.
+  [[nodiscard]] std::optional<verify::SequenceReport> load(const Wanted& wanted) const;
   /// Keeps the report, and writes it at most once a second. Where a report is so long that either takes more than a
   /// tenth of the time since, it waits.
   void note(const verify::SequenceReport& report);

@@ -38,7 +38,7 @@ endif()
 # (kernel/own_tasks.h). What divides itself within such a task is named.
 set(divides_itself kernel/pair_finder.cpp kernel/spatial_face_tree.cpp)
 foreach(room kernel io sim verify)
-  file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${room}/*.h" "${ROOT}/${room}/*.inl" "${ROOT}/${room}/*.cpp")
+  file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${room}/*.h" "${ROOT}/${room}/*.cpp")
   foreach(source ${sources})
     file(STRINGS "${ROOT}/${source}" loops REGEX "^[^/]*(tbb::parallel_|tbb::task_group |std::execution)")
     if(loops AND NOT source MATCHES "/own_tasks.h$" AND NOT source IN_LIST divides_itself)

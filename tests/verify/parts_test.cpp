@@ -105,6 +105,64 @@ TEST(Parts, WhatIsNoReportIsRefused) {
   }
 }
 
+TEST(Parts, AReportThatContradictsItselfIsRefused) {
+  const SequenceReport good = check_sequence(Frames(frames()), options());
+  ASSERT_EQ(good.verdict, Verdict::kViolated);
+  const auto read = [](const SequenceReport& report) { (void)parse_report(json_report(report, kContext), "a"); };
+  EXPECT_NO_THROW(read(good));
+  const std::vector<std::pair<const char*, std::function<void(SequenceReport&)>>> damages = {
+      {"none in all", [](SequenceReport& report) { report.violations_total = {}; }},
+      {"vf", [](SequenceReport& report) { ++report.violations_total.vf; }},
+      {"ee", [](SequenceReport& report) { ++report.violations_total.ee; }},
+      {"overlap", [](SequenceReport& report) { ++report.violations_total.overlap; }},
+      {"self", [](SequenceReport& report) { ++report.violations_total.self; }},
+      {"of one", [](SequenceReport& report) { ++report.violated[0].counts.overlap; }},
+      {"none of one", [](SequenceReport& report) { report.violated[0].counts = {}; }},
+      {"one less", [](SequenceReport& report) { report.violated.pop_back(); }},
+      {"violated frames", [](SequenceReport& report) { --report.frames.violated; }},
+      {"violated motions", [](SequenceReport& report) { ++report.motions.violated; }},
+      {"checked frames", [](SequenceReport& report) { report.frames.checked = 55; }},
+      {"checked motions", [](SequenceReport& report) { report.motions.checked = 55; }},
+      {"expected frames", [](SequenceReport& report) { --report.frames_expected; }},
+      {"expected motions", [](SequenceReport& report) { ++report.motions_expected; }},
+      {"listed", [](SequenceReport& report) { report.violations.pop_back(); }},
+      {"time", [](SequenceReport& report) { report.violations.back().t.lower_approx = 9; }},
+      {"clean", [](SequenceReport& report) { report.verdict = Verdict::kClean; }},
+      {"unknown", [](SequenceReport& report) { report.verdict = Verdict::kUnknown; }},
+      {"too many for a sum",
+       [](SequenceReport& report) {
+         report.violated.assign(2048, {2, false, {0, 0, std::int64_t{1} << 53, 0}});
+         report.frames.violated = 2048;
+       }},
+      {"a frame behind the last", [](SequenceReport& report) { report.violations[0].frame = 7; }},
+      {"a motion from the last frame",
+       [](SequenceReport& report) {
+         for (Violation& violation : report.violations) violation.frame = violation.motion ? 6 : violation.frame;
+       }},
+      {"a listed motion from the last frame",
+       [](SequenceReport& report) {
+         for (auto& unit : report.violated) unit.frame = unit.motion ? 6 : unit.frame;
+       }},
+  };
+  for (const auto& [what, damage] : damages) {
+    SequenceReport report = good;
+    damage(report);
+    EXPECT_THROW(read(report), io::Error) << what;
+  }
+
+  SequenceReport clean = check_sequence(Frames(std::vector<io::MeshData>(3, sheet(5))), SequenceOptions());
+  ASSERT_EQ(clean.verdict, Verdict::kClean);
+  EXPECT_NO_THROW(read(clean));
+  SequenceReport cut = clean;
+  cut.frame_crc32.clear();
+  cut.surface_crc32.clear();
+  EXPECT_THROW(read(cut), io::Error) << "tied to no bits";
+  clean.second_opinion = SecondOpinionScope::kAll;
+  EXPECT_NO_THROW(read(clean));
+  clean.disagreements.push_back(good.violations.front());
+  EXPECT_THROW(read(clean), io::Error) << "a disagreement that is not counted";
+}
+
 // Found by fuzzing: names were kept in a vector, so one name of a late frame asked for 2^55 bytes.
 TEST(Parts, ANameCostsNoMoreInALateFrame) {
   SequenceReport report = check_sequence(Frames(frames()), options());
@@ -113,6 +171,11 @@ TEST(Parts, ANameCostsNoMoreInALateFrame) {
   report.violated.resize(1);
   report.violations[0].frame = report.violated[0].frame = report.first_frame = late;
   report.end_frame = report.frame_count = late + std::ssize(report.frame_crc32);
+  report.motions_expected = report.frames_expected;
+  report.violations_total = report.violated[0].counts;
+  report.max_violations = 1;
+  report.frames.violated = report.violated[0].motion ? 0 : 1;
+  report.motions.violated = 1 - report.frames.violated;
   const std::string text = json_report(report, {"x", {"memory"}, {{late, "late"}}, {}});
   EXPECT_EQ(parse_report(text, "a").context.frame_names.at(late), "late");
 }

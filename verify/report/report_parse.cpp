@@ -9,6 +9,7 @@
 #include "io/error.h"
 #include "io/json_values.h"
 #include "verify/report/report.h"
+#include "verify/report/report_sums.h"
 
 namespace selvage::verify {
 namespace {
@@ -126,11 +127,11 @@ void parse_allowances(const Json& json, SequenceReport& report) {
   if (!weld.is_null()) report.welded = {count(weld.at("vertices")), count(weld.at("collapsed_faces"))};
 }
 
-/// The frames that violations are in, also of a motion that leads to the first.
-void require_frame(const SequenceReport& report, std::int64_t frame) {
-  if (frame < std::max<std::int64_t>(report.first_frame - 1, 0) || frame >= report.end_frame) {
-    throw Fault{"a violation is in none of its frames"};
-  }
+/// A violation is in one of the frames, or in a motion that leads to one.
+void require_frame(const SequenceReport& report, std::int64_t frame, bool motion) {
+  const std::int64_t first = motion ? std::max<std::int64_t>(report.first_frame - 1, 0) : report.first_frame;
+  const std::int64_t end = motion ? report.end_frame - 1 : report.end_frame;
+  if (frame < first || frame >= end) throw Fault{"a violation is in none of its frames and motions"};
 }
 
 std::vector<std::uint32_t> words(const Json& json) {
@@ -204,7 +205,7 @@ ParsedReport parse(const Json& json) {
   report.violations_total = violation_counts(json.at("violations_total"));
   for (const Json& entry : json.at("violated")) {
     report.violated.push_back({count(entry.at("frame")), is_motion(entry.at("unit")), violation_counts(entry)});
-    require_frame(report, report.violated.back().frame);
+    require_frame(report, report.violated.back().frame, report.violated.back().motion);
   }
   const Json& gap = json.at("gap");
   report.gap_searched = !gap.is_null();
@@ -220,19 +221,25 @@ ParsedReport parse(const Json& json) {
         second.at("scope"), {{{"undecided", SecondOpinionScope::kUndecided}, {"all", SecondOpinionScope::kAll}}});
     report.pairs.asked_again = count(second.at("asked"));
     report.pairs.disagreed = count(second.at("disagreed"));
-    for (const Json& entry : second.at("disagreements")) report.disagreements.push_back(violation(entry));
+    for (const Json& entry : second.at("disagreements")) {
+      report.disagreements.push_back(violation(entry));
+      require_frame(report, report.disagreements.back().frame, report.disagreements.back().motion);
+    }
   }
   parse_allowances(json.at("allowed"), report);
   report.max_violations = count(json.at("max_violations"));
   for (const Json& entry : json.at("violations")) {
     report.violations.push_back(violation(entry));
     const std::int64_t frame = report.violations.back().frame;
-    require_frame(report, frame);
+    require_frame(report, frame, report.violations.back().motion);
     if (entry.contains("frame_name")) parsed.context.frame_names[frame] = entry.at("frame_name");
   }
   report.unchecked = json.at("unchecked").get<std::vector<std::string>>();
   parse_surface(json.at("surface"), report);
   report.seconds = json.at("seconds");
+  if (const std::string what = contradiction_in(report); !what.empty()) {
+    throw Fault{what + "; it is damaged, check again"};
+  }
   return parsed;
 }
 

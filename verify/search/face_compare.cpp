@@ -30,7 +30,7 @@ FaceBoxes boxes_of(const FaceBlock& block) {
 }
 
 namespace baseline {
-#include "verify/search/face_compare.inl"
+#include "verify/search/face_compare-inl.h"
 }
 
 #if defined(__x86_64__)
@@ -42,7 +42,7 @@ namespace baseline {
 #endif
 namespace avx2 {
 #define SELVAGE_AVX2
-#include "verify/search/face_compare.inl"
+#include "verify/search/face_compare-inl.h"
 #undef SELVAGE_AVX2
 }  // namespace avx2
 #if defined(__clang__)

@@ -37,7 +37,6 @@ class ExemptionTable {
   ExemptionTable(std::span<const Exemption> exemptions, std::span<const std::uint8_t> is_body, std::size_t face_count);
 
   [[nodiscard]] bool empty() const { return rule_count_ == 0; }
-  [[nodiscard]] std::size_t rule_count() const { return rule_count_; }
   /// The label of each face.
   [[nodiscard]] const std::vector<Label>& face_labels() const { return face_labels_; }
   /// The label of what is held by all that `x` and `y` stand for. Throws std::invalid_argument above kMostLabels.
