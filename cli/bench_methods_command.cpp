@@ -37,7 +37,9 @@ ExitCode bench_methods(const MethodsArguments& arguments) {
   require_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
   std::vector<bench::SetReport> reports;
   const auto run = [&](const bench::QuerySet& set) {
-    if (set.queries.empty()) return;
+    if (set.queries.empty()) {
+      return print_result(fmt::format("{}: no candidate pairs, so nothing is asked\n", set.name), {arguments.json});
+    }
     reports.push_back(bench::run_method_bench(set, arguments.options));
     print_result(table(reports.back()), {arguments.json});
   };

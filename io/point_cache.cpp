@@ -73,7 +73,8 @@ PointCacheHeader read_pc2(const ByteSource& source, const std::string& name) {
   const auto first = static_cast<double>(load<float>(start.data() + kStartAt, header.order));
   const auto rate = static_cast<double>(load<float>(start.data() + kRateAt, header.order));
   if (!std::isfinite(first) || !std::isfinite(rate)) {
-    bad_input_at_byte(name, kStartAt, "the start frame or the sampling rate is not finite; export it again");
+    bad_input_at_byte(name, std::isfinite(first) ? kRateAt : kStartAt,
+                      "the start frame or the sampling rate is not finite; export it again");
   }
   header.times.reserve(header.frame_count);
   for (std::uint64_t i = 0; i < header.frame_count; ++i) {

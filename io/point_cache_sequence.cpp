@@ -22,6 +22,7 @@ class PointCacheSequence final : public SequenceReader {
       : source_(std::move(source)),
         name_(std::move(name)),
         header_(read_point_cache_header(*source_, format, name_)),
+        counts_frames_(format == PointCacheFormat::kPc2),
         triangles_(std::move(base.triangles)),
         groups_(std::move(base.groups)),
         split_polygons_(base.split_polygons) {
@@ -36,6 +37,7 @@ class PointCacheSequence final : public SequenceReader {
   const std::vector<Group>& groups() const override { return groups_; }
   std::string frame_name(std::size_t frame) const override { return name_ + "[" + std::to_string(frame) + "]"; }
   double time(std::size_t frame) const override { return header_.times.at(frame); }
+  bool counts_frames() const override { return counts_frames_; }
   bool same_faces_as_previous(std::size_t) const override { return true; }
   std::string remark() const override { return split_remark("the base mesh of " + name_, split_polygons_); }
 
@@ -64,6 +66,7 @@ class PointCacheSequence final : public SequenceReader {
   std::shared_ptr<const ByteSource> source_;
   std::string name_;
   PointCacheHeader header_;
+  bool counts_frames_;
   Triangles triangles_;
   std::vector<Group> groups_;
   std::int64_t split_polygons_;  ///< of the base mesh

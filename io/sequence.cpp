@@ -1,5 +1,6 @@
 #include "io/sequence.h"
 
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -40,8 +41,11 @@ std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem:
 }
 
 bool has_times(const SequenceReader& sequence) {
-  for (std::size_t frame = 0; frame < sequence.frame_count(); ++frame) {
-    if (sequence.time(frame) != static_cast<double>(frame)) return true;
+  if (sequence.counts_frames() || sequence.frame_count() == 0) return false;
+  const double first = sequence.time(0);
+  if (first != std::floor(first)) return true;
+  for (std::size_t frame = 1; frame < sequence.frame_count(); ++frame) {
+    if (sequence.time(frame) != first + static_cast<double>(frame)) return true;
   }
   return false;
 }

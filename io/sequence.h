@@ -30,6 +30,8 @@ class SequenceReader {
   [[nodiscard]] virtual std::string frame_name(std::size_t frame) const = 0;
   /// Time of frame i in seconds; in frames for PC2, which counts these; i where the source has no times.
   [[nodiscard]] virtual double time(std::size_t frame) const = 0;
+  /// Whether time() is never in seconds, whatever it is.
+  [[nodiscard]] virtual bool counts_frames() const { return false; }
   /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
   /// True for frame 0.
   [[nodiscard]] virtual bool same_faces_as_previous(std::size_t frame) const = 0;
@@ -45,7 +47,8 @@ class SequenceReader {
 [[nodiscard]] std::unique_ptr<SequenceReader> open_sequence(const std::vector<std::filesystem::path>& sources,
                                                             const std::filesystem::path& base = {});
 
-/// Whether the times are more than the numbers of the frames.
+/// Whether the times are in seconds, as far as one can tell: not those of a PC2, nor whole numbers one after the other,
+/// which count frames from some frame on. O(frames).
 [[nodiscard]] bool has_times(const SequenceReader& sequence);
 
 /// The files that open_sequence() reads. Throws Error where a header cannot be read.

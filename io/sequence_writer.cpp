@@ -45,7 +45,8 @@ void check_header(const SequenceHeader& header, const std::string& name) {
   if (!is_text) bad_input(name, "a group's name or the producer is not UTF-8; rename it");
 }
 
-/// One writer a folder: the lock goes with the process, however it ends.
+/// One writer a folder: the lock goes with the process, however it ends. Some network file systems have no locks
+/// (ENOLCK, EOPNOTSUPP); to refuse all work there would help nobody, so those who write see to it (docs/formats.md).
 PosixFile lock_folder(const fs::path& folder) {
   PosixFile handle(folder, O_RDONLY | O_DIRECTORY);
   if (::flock(handle.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {

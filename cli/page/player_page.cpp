@@ -39,9 +39,10 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t count) {
 Packed pack(const io::SequenceReader& sequence, const page::Box& stage, const std::vector<std::size_t>& frames,
             std::size_t byte_limit, const std::function<void(std::size_t, std::size_t)>& progress) {
   Packed packed{page::Scene(stage, kPlayerBits, page::Prediction::kPrevious)};
+  const bool has_times = io::has_times(sequence);
   for (const std::size_t i : frames) {
     ++packed.frames_tried;
-    if (!add_frame(packed.scene, sequence, i, byte_limit)) return packed;
+    if (!add_frame(packed.scene, sequence, has_times, i, byte_limit)) return packed;
     progress(i + 1, sequence.frame_count());
   }
   packed.is_complete = true;

@@ -47,8 +47,9 @@ ReportScene report_scene(const verify::SequenceReport& report, const io::Sequenc
   if (sequence == nullptr) return {page::Scene(witness_box(report), kReportBits, page::Prediction::kNone), 0};
   const std::vector<std::size_t> frames = wanted_frames(report);
   ReportScene result{page::Scene(stage_of(*sequence, frames), kReportBits, page::Prediction::kNone), frames.size()};
+  const bool has_times = io::has_times(*sequence);
   for (const std::size_t frame : frames) {
-    if (!add_frame(result.scene, *sequence, frame, byte_limit)) break;
+    if (!add_frame(result.scene, *sequence, has_times, frame, byte_limit)) break;
   }
   return result;
 }

@@ -17,12 +17,13 @@ page::Box stage_of(const io::SequenceReader& sequence, const std::vector<std::si
   return cloth.is_empty() ? all : cloth;
 }
 
-bool add_frame(page::Scene& scene, const io::SequenceReader& sequence, std::size_t i, std::size_t byte_limit) {
+bool add_frame(page::Scene& scene, const io::SequenceReader& sequence, bool has_times, std::size_t i,
+               std::size_t byte_limit) {
   const io::MeshData mesh = sequence.frame(i);
   const std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
+  const double time = has_times ? sequence.time(i) : static_cast<double>(i);
   return scene.add_frame(
-      {static_cast<std::int64_t>(i), sequence.frame_name(i), sequence.time(i), mesh.points, mesh.triangles, is_body},
-      byte_limit);
+      {static_cast<std::int64_t>(i), sequence.frame_name(i), time, mesh.points, mesh.triangles, is_body}, byte_limit);
 }
 
 }  // namespace selvage::cli

@@ -33,12 +33,12 @@ std::vector<std::size_t> spread_frames(const io::SequenceReader& sequence, std::
   const std::size_t total = sequence.frame_count();
   std::vector<std::size_t> frames;
   if (total == 0 || count == 0) return frames;
-  const double begin = sequence.time(0), end = sequence.time(total - 1);
+  const auto half_time = [&](std::size_t frame) { return sequence.time(frame) / 2; };  // whose difference is finite
+  const double begin = half_time(0), end = half_time(total - 1);
   std::size_t frame = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double wanted = count == 1 ? end : begin + (end - begin) * double(i) / double(count - 1);
-    while (frame + 1 < total &&
-           std::abs(sequence.time(frame + 1) - wanted) <= std::abs(sequence.time(frame) - wanted)) {
+    const double wanted = count == 1 ? end : begin + (end - begin) * (double(i) / double(count - 1));
+    while (frame + 1 < total && std::abs(half_time(frame + 1) - wanted) <= std::abs(half_time(frame) - wanted)) {
       ++frame;
     }
     if (frames.empty() || frames.back() != frame) frames.push_back(frame);

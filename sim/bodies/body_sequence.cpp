@@ -5,7 +5,6 @@
 
 #include "io/checksum.h"
 #include "io/numbered_files.h"
-#include "io/point_cache.h"
 #include "kernel/mesh.h"
 #include "sim/bodies/mesh_shape.h"
 
@@ -19,14 +18,8 @@ std::unique_ptr<io::SequenceReader> open(const SequenceSpec& spec, const std::fi
   throw io::Error(io::ErrorKind::kBadInput, spec.file.string() + " holds no frame; name another sequence");
 }
 
-/// Whether time() is in seconds. PC2 counts frames of the animation, and mesh files have no times at all.
-bool is_in_seconds(const io::SequenceReader& reader, const std::filesystem::path& file) {
-  const bool is_pc2 = io::is_point_cache(file) && io::point_cache_format(file) == io::PointCacheFormat::kPc2;
-  return !is_pc2 && io::has_times(reader);
-}
-
 std::vector<double> times_of(const io::SequenceReader& reader, const SequenceSpec& spec) {
-  const bool has_seconds = is_in_seconds(reader, spec.file);
+  const bool has_seconds = io::has_times(reader);
   if (!spec.frames_per_s && !has_seconds && reader.frame_count() > 1) {
     throw io::Error(io::ErrorKind::kBadInput,
                     spec.file.string() + " does not say when its frames are; add frames_per_s");

@@ -310,7 +310,7 @@ std::vector<Hostile> hostile_caches() {
            std::string(11840, '\0'),
        "in: byte 11968: 1431586686 frames of 1073793636 vertices make more than 18446744073709551615 bytes"},
       {"pc2_start_nan", "pc2", cache_with(pc2, 20, nan_little), "in: byte 20: the start frame or the sampling rate"},
-      {"pc2_rate_nan", "pc2", cache_with(pc2, 24, nan_little), "in: byte 20: the start frame or the sampling rate"},
+      {"pc2_rate_nan", "pc2", cache_with(pc2, 24, nan_little), "in: byte 24: the start frame or the sampling rate"},
       {"pc2_rate_zero", "pc2", cache_with(pc2, 24, zero), "in: byte 24: the time of frame 1 is not later"},
       {"pc2_nan", "pc2", cache_with(pc2, 32 + 48 + 12 + 4, nan_little), "in: byte 96: frame 1, vertex 1 is not finite"},
       {"mdd_empty", "mdd", "", "in: byte 0: the header is cut short"},

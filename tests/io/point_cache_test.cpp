@@ -57,6 +57,7 @@ TEST(PointCache, Pc2IsReadWithTheMeshBesideIt) {
   const auto reader = open_sequence({folder / "cloth.pc2"});
   expect_frames(*reader);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(reader->time(i), 2.5 + 0.5 * static_cast<double>(i));
+  EXPECT_FALSE(has_times(*reader)) << "it counts frames, whatever the start and the rate";
   EXPECT_EQ(reader->frame_name(2), (folder / "cloth.pc2").string() + "[2]");
 }
 

@@ -286,12 +286,19 @@ TEST(SequenceFolder, FacesThatAreNoneAreNamedWithTheirFile) {
 }
 
 TEST(OpenSequence, TimesAreMoreThanTheNumbersOfFrames) {
-  const TemporaryFolder folder;
-  SequenceWriter writer(folder.path(), square_header());
-  writer.append(0, square(0));
-  EXPECT_FALSE(has_times(*open_sequence({folder.path()})));
-  writer.append(0.5, square(1));
-  EXPECT_TRUE(has_times(*open_sequence({folder.path()})));
+  const auto has_times_at = [](const std::vector<double>& times) {
+    const TemporaryFolder folder;
+    SequenceWriter writer(folder.path(), square_header());
+    for (const double time : times) writer.append(time, square(time));
+    return has_times(*open_sequence({folder.path()}));
+  };
+  EXPECT_FALSE(has_times_at({0}));
+  EXPECT_FALSE(has_times_at({0, 1, 2}));
+  EXPECT_FALSE(has_times_at({10, 11, 12})) << "frames of a longer sequence";
+  EXPECT_FALSE(has_times_at({-1, 0}));
+  EXPECT_TRUE(has_times_at({0, 0.5}));
+  EXPECT_TRUE(has_times_at({0.5, 1.5}));
+  EXPECT_TRUE(has_times_at({10, 11, 13}));
 }
 
 TEST(OpenSequence, WrongSourcesAreNamed) {
