@@ -43,8 +43,7 @@ using CandidateVisitor = std::function<void(const Candidates& part)>;
 /// What counts as a candidate.
 struct CandidateOptions {
   /// Each feature's box is grown by half of this, rounded outward: pairs that come nearer than `reach` are found.
-  /// Finite,
-  /// >= 0.
+  /// Finite, >= 0.
   double reach = 0;
   /// #V flags, or empty for "all": a pair counts only if one of its vertices is active. Scripted bodies against
   /// each other, and pairs that a response did not touch, cost nothing.
@@ -64,6 +63,10 @@ struct CandidateOptions {
   const auto &a = mesh.edges[static_cast<std::size_t>(pair.a)], &b = mesh.edges[static_cast<std::size_t>(pair.b)];
   return {a[0], a[1], b[0], b[1]};
 }
+
+/// As these, or {p, a, b, p} for kSelf, of a vertex and a face that holds it.
+[[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
+                                                    std::int32_t second);
 
 /// O(#V #F + #E^2): the reference for every other broad phase (K6).
 [[nodiscard]] Candidates find_candidates_brute_force(const Mesh& mesh, const PositionsRef& V_t0,

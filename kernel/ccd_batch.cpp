@@ -1,7 +1,6 @@
 #include "kernel/ccd_batch.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "kernel/assert.h"

@@ -21,9 +21,9 @@ constexpr Part kNarrow = Part{kNarrowWidth} << kPartBits;
 constexpr double kNoPreciseGap = 0x1p-94;
 
 /// Where to split an interval that is not certified, of which a direction separates this share at the begin; 0 if none
-/// does. Where the share is tiny, half way to it in powers of two: from a whole step down to a touch this takes a third of the splits that
-/// halving does. With 2^-8 a sixth, but then more contacts of slivers end without an alarm's gap: 16 of 167,000 in the
-/// fuzzer's classes, where halving alone leaves 5 and this 1.
+/// does. Where the share is tiny, half way to it in powers of two: from a whole step down to a touch this takes a third
+/// of the splits that halving does. With 2^-8 a sixth, but then more contacts of slivers end without an alarm's gap: 16
+/// of 167,000 in the fuzzer's classes, where halving alone leaves 5 and this 1.
 double split_share(double reach_share) {
   constexpr double kTiny = 0x1p-20;
   return reach_share < kTiny ? std::sqrt(reach_share) : 0.5;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <tuple>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -173,15 +172,6 @@ class CollisionFinder {
 };
 
 }  // namespace
-
-std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first, std::int32_t second) {
-  if (kind == PairKind::kEe) return pair_vertices(mesh, EeCandidate{first, second});
-  if (kind == PairKind::kVf) return pair_vertices(mesh, VfCandidate{first, second});
-  const auto& corners = mesh.faces[static_cast<std::size_t>(second)];
-  const auto own = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), first) - corners.begin());
-  SELVAGE_ASSERT(own < 3);
-  return {first, corners[(own + 1) % 3], corners[(own + 2) % 3], first};
-}
 
 // A list of 32 for each vertex and edge takes a few times as long as the search in a step in which little moves. Moving
 // boxes take 1.5 times as long there, and are as fast where there are 10 (docs/broad-phase.md).

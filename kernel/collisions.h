@@ -39,10 +39,6 @@ struct CollisionLimits {
   std::size_t most_near = std::numeric_limits<std::size_t>::max();
 };
 
-/// The vertices of a pair in query order: {p, a, b, c}, {a, b, c, d}, or {p, a, b, p} for kSelf.
-[[nodiscard]] std::array<VertexId, 4> pair_vertices(const Mesh& mesh, PairKind kind, std::int32_t first,
-                                                    std::int32_t second);
-
 /// How many candidates of swept boxes find_collisions() lists before it tries moving boxes: where there are more, the
 /// motion is long beside the features, or much is near.
 [[nodiscard]] std::size_t few_candidates(const Mesh& mesh);

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "kernel/assert.h"
+#include "kernel/candidates.h"
 #include "kernel/ccd_detail.h"
-#include "kernel/collisions.h"
 #include "kernel/fp_env.h"
 #include "kernel/lane_cull.h"
 #include "kernel/own_tasks.h"

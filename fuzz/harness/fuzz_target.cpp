@@ -74,8 +74,8 @@ class PropertyTarget final : public FuzzTarget {
       if (!failure.starts_with(property->name() + " ")) continue;
       ChoiceSource source = ChoiceSource::from_bytes(input);
       const Stream& stream = choose_stream(source);
-      return property->kept(stream, source, "fuzz-input:" + stream_word(stream.name), failure.substr(property->name().size() + 1),
-                            true);
+      return property->kept(stream, source, "fuzz-input:" + stream_word(stream.name),
+                            failure.substr(property->name().size() + 1), true);
     }
     return {};
   }

@@ -23,8 +23,8 @@ struct CollisionsJudgement {
   std::string failure;             ///< the first broken promise in a word, or empty
   std::vector<std::string> facts;  ///< the first pairs that break one
 };
-/// A pair that the report leaves out is taken as called separated (K1); the first 500 that it names, at their word (K1 to
-/// K3). toi_lower of all is taken as a claim about each. O(#V #F + #E^2).
+/// A pair that the report leaves out is taken as called separated (K1); the first 500 that it names, at their word (K1
+/// to K3). toi_lower of all is taken as a claim about each. O(#V #F + #E^2).
 [[nodiscard]] CollisionsJudgement judge(const AnsweredMotion& motion);
 
 }  // namespace selvage::fuzz

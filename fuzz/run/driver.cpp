@@ -1,6 +1,7 @@
 #include "fuzz/run/driver.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <functional>
