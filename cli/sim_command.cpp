@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "cli/answer/part_name.h"
-#include "cli/answer/waiting_summary.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/thread_limit.h"
@@ -20,6 +19,7 @@
 #include "cli/process/terminal.h"
 #include "cli/start/enclosed_cloth.h"
 #include "cli/start/start_check.h"
+#include "io/text.h"
 #include "sim/description.h"
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
@@ -123,7 +123,15 @@ void print_totals(const sim::RunTotals& totals, const sim::World& world) {
   print_phases(totals);
 }
 
-sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSummary& waiting) {
+void print_waits(const sim::BodyWaits& waits, const sim::World& world) {
+  for (const sim::BodyWait& wait : waits) {
+    fmt::print("\"{}\" waited in {} steps from {:.4g} to {:.4g} s, up to {:.3g} m behind its script\n",
+               io::printable(world.colliders[static_cast<std::size_t>(wait.collider)].name()), wait.steps, wait.begin_s,
+               wait.end_s, wait.largest_lag_m);
+  }
+}
+
+sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder) {
   const std::int64_t frame_count = simulation.scene().time.frame_count;
   ProgressBar bar("simulating");
   while (simulation.clock().state().frame < frame_count) {
@@ -141,13 +149,12 @@ sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder, WaitingSum
       print_witness(simulation, step.report);
       return sim::RunEnd::kStopped;
     }
-    waiting.add(simulation, step);
     recorder.record(step);
   }
   return sim::RunEnd::kComplete;
 }
 
-/// `shortfalls` count where --strict asks for none.
+/// `has_shortfalls`: there are some, and --strict asks for none.
 ExitCode exit_code_of(sim::RunEnd end, bool has_shortfalls) {
   if (end == sim::RunEnd::kInterrupted) return ExitCode::kInterrupted;
   return end == sim::RunEnd::kStopped || has_shortfalls ? ExitCode::kViolation : ExitCode::kClean;
@@ -188,12 +195,11 @@ ExitCode simulate(const SimArguments& arguments) {
     say("note       it was simulated to frame {} already; --frames {} takes nothing away\n", there,
         scene.time.frame_count);
   }
-  WaitingSummary waiting;
   sim::RunEnd end{};
   ExitCode code{};
   try {
     recorder.begin();
-    end = run(simulation, recorder, waiting);
+    end = run(simulation, recorder);
     code = exit_code_of(end, arguments.strict && !recorder.totals().shortfalls().empty());
     recorder.finish({end, static_cast<int>(code)});
   } catch (const std::exception&) {
@@ -202,7 +208,7 @@ ExitCode simulate(const SimArguments& arguments) {
   }
   if (end == sim::RunEnd::kInterrupted) say("selvage: interrupted; go on with --resume\n");
   print_totals(recorder.totals(), simulation.world());
-  waiting.print(simulation.world());
+  print_waits(recorder.waits(), simulation.world());
   if (end == sim::RunEnd::kComplete && code == ExitCode::kViolation) {
     say("selvage: --strict: {}\n", recorder.totals().shortfalls());
   }

@@ -143,6 +143,22 @@ std::string describe(const FineFrame& fine, std::int32_t levels, bool has_others
                      f == g ? "take it out" : "move them apart", others);
 }
 
+void print_what_was_checked(const io::MeshData& mesh) {
+  const std::vector<std::uint8_t> is_body = io::body_faces(mesh.triangles.size(), mesh.groups);
+  const auto bodies = std::ranges::count(is_body, 1);
+  if (bodies == 0 && mesh.groups.size() > 1) {
+    std::string names;
+    for (const io::Group& group : mesh.groups) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", group.name);
+    fmt::print("all groups are taken for cloth: {}; --body NAME says which is none\n", io::printable(names));
+  }
+  if (bodies == std::ssize(is_body)) {
+    fmt::print("nothing was smoothed or checked: all faces belong to bodies\n");
+  } else {
+    fmt::print("every frame checked exactly, before and after: 0 intersections{}\n",
+               bodies > 0 ? "; bodies not against each other or themselves" : "");
+  }
+}
+
 ExitCode run(const SubdivideArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
@@ -202,19 +218,7 @@ ExitCode run(const SubdivideArguments& arguments) {
   output->finish();
   fmt::print("{} frames, {} faces to {}\n", end - begin, first.triangles.size(), subdivision.triangles().size());
   fmt::print("vertices stopped before a touch {}, in {} further rounds\n", counts.stopped, counts.rounds);
-  const std::vector<std::uint8_t> is_body = io::body_faces(first.triangles.size(), groups);
-  const auto bodies = std::ranges::count(is_body, 1);
-  if (bodies == 0 && groups.size() > 1) {
-    std::string names;
-    for (const io::Group& group : groups) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", group.name);
-    fmt::print("all groups are taken for cloth: {}; --body NAME says which is none\n", io::printable(names));
-  }
-  if (bodies == std::ssize(is_body)) {
-    fmt::print("nothing was smoothed or checked: all faces belong to bodies\n");
-  } else {
-    fmt::print("every frame checked exactly, before and after: 0 intersections{}\n",
-               bodies > 0 ? "; bodies not against each other or themselves" : "");
-  }
+  print_what_was_checked(first);
   return ExitCode::kClean;
 }
 

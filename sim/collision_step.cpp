@@ -116,6 +116,8 @@ class Attempt {
   [[nodiscard]] CollisionStepReport& report() { return report_; }
   [[nodiscard]] const CollisionTracker& tracker() const { return tracker_; }
   [[nodiscard]] std::vector<RepulsionContact>& met() { return met_; }
+  /// Of all runs; unsorted, with repeats.
+  [[nodiscard]] std::vector<VertexId>& without_room() { return without_room_; }
 
  private:
   void repel();
@@ -124,6 +126,8 @@ class Attempt {
   void apply_impulses();
   void move_impact_zones();
   std::optional<StepLimiter::Conflict> hold_back();
+  void add_without_room(std::span<const VertexId> vertices);
+  void add_colliding();
   [[nodiscard]] bool zone_can_help(const Collision& collision) const;
 
   Persistent& step_;
@@ -133,6 +137,7 @@ class Attempt {
   const Patience patience_;
   const std::span<const RepulsionContact> held_;
   std::vector<RepulsionContact> met_;  ///< beside held_
+  std::vector<VertexId> without_room_;
   const std::vector<std::uint8_t> surface_;
   StepMotion motion_;
   CollisionTracker tracker_;
@@ -179,7 +184,7 @@ void Attempt::repel() {
 bool Attempt::search() {
   const PhaseTimer timer(report_.phases.search);
   const std::size_t most =
-      std::max(kLeastMostMeetings, kMostMeetings * static_cast<std::size_t>(step_.mesh.vertex_count));
+      std::max(kMeetingsOfAnyMesh, kMostMeetings * static_cast<std::size_t>(step_.mesh.vertex_count));
   CollisionLimits limits{.most_collisions = most, .most_near = most};
   if (tracker_.start(motion_, limits)) return true;
   if (tracker_.starts_with_more_near(motion_, most / kMeetingsPerNearAtStart)) {
@@ -263,6 +268,10 @@ void Attempt::move_impact_zones() {
     tracker_.update(motion_);
   }
   report_.largest_zone = zones.largest();
+  for (VertexId v = 0; v < step_.mesh.vertex_count; ++v) {
+    const std::vector<VertexId>& zone = zones.members(v);  // of the vertex that it is named for
+    if (zone.size() > 1) add_without_room(zone);
+  }
 }
 
 /// The fail-safe: what still collides is held back, more of it every round.
@@ -272,11 +281,35 @@ std::optional<StepLimiter::Conflict> Attempt::hold_back() {
   while (tracker_.has_motion_collision()) {
     SELVAGE_ASSERT(report_.fail_safe_rounds <= 3 * static_cast<std::int64_t>(step_.mesh.vertex_count));
     ++report_.fail_safe_rounds;
-    if (auto conflict = limiter.restrain(tracker_, motion_)) return conflict;
+    if (auto conflict = limiter.restrain(tracker_, motion_)) {
+      add_colliding();
+      add_without_room(limiter.restrained());
+      return conflict;
+    }
     tracker_.update(motion_);
   }
-  report_.fail_safe_vertices = limiter.restrained_count();
+  const std::vector<VertexId> restrained = limiter.restrained();
+  report_.fail_safe_vertices = std::ssize(restrained);
+  add_without_room(restrained);
   return std::nullopt;
+}
+
+void Attempt::add_without_room(std::span<const VertexId> vertices) {
+  for (const VertexId v : vertices) {
+    if (!groups_.is_scripted(v)) without_room_.push_back(v);
+  }
+}
+
+/// What ends nearer than the tolerance is left as it is: nobody waits for it.
+void Attempt::add_colliding() {
+  for (const Collision& collision : tracker_.collisions()) {
+    if (collision.ccd.cause != CcdCause::kEnd) add_without_room(tracker_.vertices(collision));
+  }
+}
+
+void keep_sorted_once(std::vector<VertexId>& vertices) {
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
 /// displacement / dt, at the largest finite double where that overflows.
@@ -344,6 +377,8 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   result.met = std::move(attempt.met());
   result.report.waiting_bodies = groups.waiting_bodies();
   result.report.waiting_vertices = groups.waiting_vertices();
+  result.report.without_room = std::move(attempt.without_room());
+  keep_sorted_once(result.report.without_room);
   if (result.report.status != StepStatus::kSafe) return result;
   // What is not finite was not certified, whatever the tracker says.
   SELVAGE_ASSERT(attempt.motion().x().allFinite());

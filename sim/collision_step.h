@@ -6,13 +6,14 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernel/kernel.h"
 #include "sim/base/phase_times.h"
+#include "sim/contact/collision_bodies.h"
 #include "sim/contact/collision_options.h"
+#include "sim/contact/contact_surfaces.h"
 #include "sim/contact/repulsion_contact.h"
 
 namespace selvage::sim {
@@ -50,6 +51,9 @@ struct CollisionStepReport {
   std::int32_t impulse_rounds = 0, zone_rounds = 0, fail_safe_rounds = 0;
   std::int32_t largest_zone = 0;        ///< vertices
   std::int64_t fail_safe_vertices = 0;  ///< 0 in ordinary scenes
+  /// Sorted: vertices of cloth that had no room. Those of impact zones, those that the fail-safe held back, and those
+  /// of collisions for which bodies had to wait; of all tries where these had to.
+  std::vector<VertexId> without_room;
   /// Where the time went, of all tries where bodies had to wait; the counts are of the last. Differs from run to run.
   CollisionPhases phases;
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
@@ -110,9 +114,9 @@ class CollisionStep {
   /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left,
   /// but for those beyond what is straight (straight_surface.h). Those that rest, too: which a fall by `fall`, m, of
   /// one of the two alone would press, and of `pressed` all that are near. REQUIRES valid arguments, as above; with an
-  /// invalid one there is none. Time and memory grow with the pairs nearer than a thickness, as of a step: O(n log n)
-  /// where edges are not much shorter than that, all pairs of a mesh that is smaller than its cloth is thick. A step
-  /// from the same V_t0 need not look for near pairs again.
+  /// invalid one there is none. Time and memory grow with the pairs within reach (contact_reach.h), as of a step: O(n
+  /// log n) where edges are not much shorter than that, all pairs of a mesh that is smaller than its cloth is thick. A
+  /// step from the same V_t0 need not look for near pairs again.
   [[nodiscard]] std::vector<RepulsionContact> find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                             const CollisionBodies& bodies,
                                                             const Vec3& fall = Vec3::Zero(),

@@ -2,27 +2,38 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
+#include <optional>
 
 #include "sim/bodies/catch_up.h"
 
 namespace selvage::sim {
 
 ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world) : scene_(scene), world_(world) {
-  for (const Collider& collider : world.colliders) thickness_.push_back(thickness_with_cloth(collider));
+  std::set<std::int32_t> cloth_surfaces;
+  if (!world.contacts.properties.empty()) {
+    const auto surfaces = std::span(world.contacts.surface_of_vertex);
+    for (const std::int32_t surface : surfaces.first(static_cast<std::size_t>(world.cloth_vertex_count))) {
+      cloth_surfaces.insert(surface);
+    }
+  }
+  for (const Collider& collider : world.colliders) {
+    thickness_.push_back(thickness_with_cloth(collider, cloth_surfaces));
+  }
 }
 
-ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& collider) const {
+ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& collider,
+                                                               const std::set<std::int32_t>& cloth_surfaces) const {
   const ContactSurfaces& contacts = world_.contacts;
   Thickness result{scene_.collision.thickness_m, scene_.collision.thickness_m};
   if (contacts.properties.empty() || collider.vertices().empty()) return result;
-  const auto properties_of = [&](VertexId vertex) -> const ContactProperties& {
-    const std::int32_t surface = contacts.surface_of_vertex[static_cast<std::size_t>(vertex)];
+  const auto properties_of = [&](std::int32_t surface) {
     return contacts.properties[static_cast<std::size_t>(surface)];
   };
+  const auto first = static_cast<std::size_t>(collider.vertices().front());
+  const ContactProperties own = properties_of(contacts.surface_of_vertex[first]);
   result = {std::numeric_limits<double>::infinity(), 0};
-  for (VertexId vertex = 0; vertex < world_.cloth_vertex_count; ++vertex) {
-    const double thickness_m = combine(properties_of(vertex), properties_of(collider.vertices().front())).thickness_m;
+  for (const std::int32_t surface : cloth_surfaces) {
+    const double thickness_m = combine(properties_of(surface), own).thickness_m;
     result.least_m = std::min(result.least_m, thickness_m);
     result.most_m = std::max(result.most_m, thickness_m);
   }
@@ -31,16 +42,22 @@ ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& c
 
 void ScriptedMotion::start_step() { waits_.assign(static_cast<std::size_t>(world_.x_t0.rows()), 0); }
 
+Eigen::AlignedBox3d ScriptedMotion::box_of_cloth(const Positions& x, const Positions& v, double dt_s) const {
+  const Vec3 fall = dt_s * dt_s / 2 * scene_.gravity_m_s2;
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
+    const Vec3 at = x.row(i), way = dt_s * v.row(i);
+    box.extend(at).extend(at + way).extend(at + way + fall);
+  }
+  return box;
+}
+
 ScriptedMotion::Way ScriptedMotion::way(const Positions& x, const Positions& v, const StepClock& clock) const {
   const double t0_s = clock.time_s(), t1_s = clock.end_s();
+  std::optional<Eigen::AlignedBox3d> cloth;  // of its way, once a body asks
   const auto may_meet_cloth = [&](const Eigen::AlignedBox3d& within, double thickness_m) {
-    const Vec3 fall = clock.dt_s() * clock.dt_s() / 2 * scene_.gravity_m_s2;
-    Eigen::AlignedBox3d cloth;
-    for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
-      const Vec3 at = x.row(i), way = clock.dt_s() * v.row(i);
-      cloth.extend(at).extend(at + way).extend(at + way + fall);
-    }
-    return cloth.squaredExteriorDistance(within) <= thickness_m * thickness_m;
+    if (!cloth) cloth = box_of_cloth(x, v, clock.dt_s());
+    return cloth->squaredExteriorDistance(within) <= thickness_m * thickness_m;
   };
   Way worst = Way::kAsSeen;
   for (std::size_t i = 0; i < world_.colliders.size(); ++i) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "sim/scene/scene.h"
 #include "sim/step_clock.h"
@@ -51,7 +54,10 @@ class ScriptedMotion {
   struct Thickness {
     double least_m, most_m;
   };
-  [[nodiscard]] Thickness thickness_with_cloth(const Collider& collider) const;
+  [[nodiscard]] Thickness thickness_with_cloth(const Collider& collider,
+                                               const std::set<std::int32_t>& cloth_surfaces) const;
+  /// Of its path in a step of dt_s, with and without gravity.
+  [[nodiscard]] Eigen::AlignedBox3d box_of_cloth(const Positions& x, const Positions& v, double dt_s) const;
   void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x);
   void set_bow(const Collider& collider, const StepClock& clock);
 

@@ -1,6 +1,7 @@
 #include "sim/step.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "sim/dynamics/central_differences.h"
 #include "sim/dynamics/held_contacts.h"
 #include "sim/dynamics/implicit_dynamics.h"
+#include "sim/dynamics/lost_loads.h"
 
 namespace selvage::sim {
 namespace {
@@ -32,10 +34,11 @@ constexpr int kHoldingRounds = 3;
 // 1,005; docs/simulator-speed.md has more.
 constexpr std::int32_t kLastSweeps = 4;
 
-// Where a body had to wait, or zones or the fail-safe had to act, there was no room, and what presses without room
-// would be learnt without end: sheets that jammed after they had met at 100 m/s were thrown apart at 10^9 m/s.
-bool had_room(const CollisionStepReport& report) {
-  return report.waiting_bodies.empty() && report.zone_rounds + report.fail_safe_rounds == 0;
+/// To a list that is sorted, without repeats.
+void add_vertices(std::span<const VertexId> vertices, std::vector<VertexId>& list) {
+  list.insert(list.end(), vertices.begin(), vertices.end());
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 /// #V: 1 where the collision step has changed the motion of the vertex' part. The dynamics' own velocity holds for the
@@ -71,12 +74,14 @@ StepResult Simulation::step() {
   const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);
   script_.start_step();
+  std::vector<VertexId> without_room;  // before bodies stood still
   Try tried = try_step(result);
   while (tried.failed || !tried.safe.report.waiting_vertices.empty()) {
     if (tried.failed) {
       clock_.halve();
       ++result.halvings;
     } else {
+      std::ranges::copy(tried.safe.report.without_room, std::back_inserter(without_room));
       script_.stand_still(tried.safe.report.waiting_vertices);
       clock_.restore(start);  // who cannot move in the shortest step stands still in the one that was meant
     }
@@ -85,6 +90,7 @@ StepResult Simulation::step() {
   result.dt_s = clock_.dt_s();
   result.end_s = clock_.end_s();
   std::tie(tried.safe.report.waiting_bodies, tried.safe.report.waiting_vertices) = script_.waiting();
+  add_vertices(without_room, tried.safe.report.without_room);
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried);
@@ -136,12 +142,13 @@ Simulation::Try Simulation::try_step(StepResult& result) {
   }
 }
 
-// Those that a step would press that leads on without springs, and twice as deep as cloth falls in it. What lies on
-// other cloth falls with it there, and is not pressed: find_contacts() is told how far one alone falls. Running the
-// dynamics for that found no better ones (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s). And those that
-// pressed in the last step, in the dynamics or behind it, whatever pressed them: what springs press, such as the hem
-// of draped cloth, was pulled in by the dynamics and thrown out by the collision step, in every step or in every other
-// one, and moved for ever (docs/simulator-speed.md, *What pressed is held*).
+// The contacts that free flight, without springs, would press. Gravity moves the candidate by g dt^2, twice the fall,
+// so that pairs which hardly touch are among them. What lies on other cloth falls with it there, and is not pressed:
+// find_contacts() is told how far one alone falls. Running the dynamics for that found no better ones
+// (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s). And those that pressed in the last step, in the dynamics or
+// behind it, whatever pressed them: what springs press, such as the hem of draped cloth, was pulled in by the dynamics
+// and thrown out by the collision step, in every step or in every other one, and moved for ever
+// (docs/simulator-speed.md, *What pressed is held*).
 std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhases& phases) {
   const PhaseTimer timer(phases.collision), within(phases.within.proximity);
   const double dt_s = clock_.dt_s();
@@ -234,10 +241,11 @@ void Simulation::commit(Try& tried) {
       if (is_changed[static_cast<std::size_t>(i)] != 0) v_.row(i) = end.v.row(i);
     }
   }
-  loads_ = had_room(safe.report) ? std::move(tried.loads) : ContactLoads();
   pressed_ = std::move(tried.pressed);
   for (const RepulsionContact& contact : safe.met) add_pair(contact, pressed_);
   sort_pairs(pressed_);
+  loads_ = std::move(tried.loads);
+  forget_loads(safe.report.without_room, pressed_, world_.mesh, parts_, static_cast<VertexId>(cloth), loads_);
 }
 
 void Simulation::restore(const SimulationState& state) {

@@ -1,4 +1,6 @@
-// One time step of a scene: reads like the list in section 5 of the paper.
+// One time step of a scene, as section 5 of the paper lists it: a step size (step_clock.h), a candidate from the
+// dynamics (run_dynamics()), repulsions and collisions (resolve_collisions()), velocities (commit()); tried again with
+// half the step where that is asked (try_step()).
 #pragma once
 
 #include <memory>
@@ -7,7 +9,6 @@
 #include "kernel/candidates.h"
 #include "kernel/fp_env.h"
 #include "sim/base/phase_times.h"
-#include "sim/base/vertex_faces.h"
 #include "sim/collision_step.h"
 #include "sim/contact/repulsion_contact.h"
 #include "sim/contact/surface_parts.h"
@@ -39,8 +40,8 @@ struct StepResult {
   double dt_s = 0, end_s = 0;
   bool is_bent = false;    ///< some body did not go straight, though the step was as short as it may be
   Strained most_strained;  ///< of structural and shear springs, at the end of the step
-  /// Tries thrown away because repulsions were not enough, the equations of implicit dynamics were not solved, or
-  /// candidates were cut back.
+  /// Tries thrown away because repulsions were not enough, contact overstrained springs, the equations of implicit
+  /// dynamics were not solved, or candidates were cut back.
   std::int32_t halvings = 0;
   StepPhases phases;  ///< those tries included
 };

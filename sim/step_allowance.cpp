@@ -46,7 +46,7 @@ Patience StepAllowance::patience_before_last(std::int32_t halvings) const {
 
 std::int64_t StepAllowance::few() const { return patience_.collisions / kGoodShare; }
 
-// Without, a sheet of 16 x 16 vertices that falls on its edge has springs of a sixtieth of their length, and
+// Without this test a sheet of 16 x 16 vertices that falls on its edge has springs of a sixtieth of their length, and
 // sim/scenes/table-legs.toml at full quality springs of 86 times their length.
 bool StepAllowance::overstrains(const Positions& x_t0, const Positions& candidate, const Positions& x,
                                 std::int32_t halvings) const {

@@ -1,7 +1,7 @@
-// The adaptive collision step (paper, section 5): halved when repulsions did not prevent a collision, doubled after
-// three good steps, never across the border of a frame. Where a doubled step fails within a few steps, twice as many
-// are asked for the next doubling: cloth that hangs over an edge rests at one step and not at twice that, and was
-// kicked after every third one.
+// The adaptive collision step (paper, section 5): halved when repulsions did not prevent collisions, doubled after
+// three good steps, as StepAllowance judges both; never across the border of a frame. Where a doubled step fails within
+// a few steps, twice as many are asked for the next doubling: cloth that hangs over an edge rests at one step and not
+// at twice that, and was kicked after every third one.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ class StepClock {
   void halve();
   /// The step is halved before it is tried, which says nothing of how long steps may be later.
   void shorten();
-  /// The step is done. `good`: no collision was left after the repulsions.
+  /// The step is done. `good`: as StepAllowance judges it; in the paper, no collision was left after the repulsions.
   void advance(bool good);
 
  private:

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "kernel/mesh.h"
+#include "sim/contact/collision_bodies.h"
 #include "sim/contact/collision_options.h"
 #include "sim/contact/repulsion_contact.h"
 

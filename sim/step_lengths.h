@@ -29,8 +29,8 @@ class StepLengths {
 
  private:
   double frames_per_s_, longest_s_, dynamics_s_, shortest_s_;
-  double least_s_;            ///< for any speed
-  double mean_spring_m_ = 0;  ///< rest length
+  double least_s_;        ///< for any speed
+  double mean_spring_m_;  ///< rest length
 };
 
 }  // namespace selvage::sim

@@ -14,9 +14,9 @@ namespace selvage::sim {
 inline constexpr Eigen::Index kLanes = 8;
 
 /// Some of the lanes of a block: bit k is lane k.
-using Lanes = std::uint8_t;
-[[nodiscard]] inline bool has_lane(Lanes lanes, std::size_t lane) { return (lanes >> lane & 1U) != 0; }
-[[nodiscard]] inline Lanes only_lane(std::size_t lane) { return static_cast<Lanes>(1U << lane); }
+using LaneMask = std::uint8_t;
+[[nodiscard]] inline bool has_lane(LaneMask lanes, std::size_t lane) { return (lanes >> lane & 1U) != 0; }
+[[nodiscard]] inline LaneMask only_lane(std::size_t lane) { return static_cast<LaneMask>(1U << lane); }
 
 /// Whole blocks may be read, zero beyond the last row.
 class LaneScalars {

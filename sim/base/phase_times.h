@@ -18,7 +18,7 @@ struct PhaseTime {
 
 /// The phases of the collision step (paper, sections 6 and 7).
 struct CollisionPhases {
-  PhaseTime proximity;  ///< pairs nearer than the thickness at the start
+  PhaseTime proximity;  ///< pairs within reach (contact_reach.h) at the start
   PhaseTime repulsion;  ///< their repulsions and friction
   PhaseTime search;     ///< the first search for collisions of the whole mesh
   PhaseTime response;   ///< impulses, impact zones and fail-safe, with the searches that each round needs

@@ -1,21 +1,21 @@
-// What a collision step is asked for: its numbers, and which vertices are cloth, bodies and pins.
+// The numbers of a collision step.
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <span>
 
 #include "sim/contact/contact_properties.h"
 
 namespace selvage::sim {
 
-/// Defaults are the paper's numbers, except for `relaxation`. The first two and the friction are those of the whole
-/// mesh, unless ContactSurfaces says what its parts have.
+/// Thickness, tolerance and overlap fraction are the paper's by default. The first two and the friction are those of
+/// the whole mesh, unless ContactSurfaces says what its parts have.
 struct CollisionOptions {
-  double thickness_m = 1e-3;           ///< cloth thickness h: repulsions act below it (paper, 7.2); in [0, kMaxCoordinate]
-  double tolerance_m = 1e-6;           ///< distance kept at the end of every step (paper, section 6); likewise
-  double repulsion_stiffness_n_m = 0;  ///< spring constant k of the overlap repulsion; 0: the inelastic part alone
-  double overlap_fraction = 0.1;       ///< of the overlap removed a step at most (paper, 7.2), in [0, 1]
+  double thickness_m = 1e-3;  ///< cloth thickness h: repulsions act below it (paper, 7.2); in [0, kMaxCoordinate]
+  double tolerance_m = 1e-6;  ///< distance kept at the end of every step (paper, section 6); likewise
+  /// Spring constant k of the overlap repulsion; 0: the inelastic part alone. The paper has that of the stretch springs
+  /// (7.2), and so have scenes where they give none.
+  double repulsion_stiffness_n_m = 0;
+  double overlap_fraction = 0.1;  ///< of the overlap removed a step at most (paper, 7.2), in [0, 1]
   /// An impulse of section 7.4 gives at most this share of itself in one parallel round, in (0, 1]; never more than
   /// 1 / number of pairs at a vertex, which is what keeps energy from growing. The paper names both remedies and 0.25
   /// (7.2, 7.4); with the second the first only costs rounds.
@@ -33,25 +33,5 @@ struct CollisionOptions {
 [[nodiscard]] inline ContactProperties contact_of(const CollisionOptions& options) {
   return {options.thickness_m, options.tolerance_m, options.friction_static, options.friction_kinetic};
 }
-
-/// What to do where cloth cannot avoid scripted bodies (S4).
-enum class SqueezePolicy : std::uint8_t {
-  kStop,   ///< return kStopped with a witness; nothing is advanced
-  kYield,  ///< the bodies involved wait, or the vertices involved of those that deform: they keep their positions for
-           ///< this step
-};
-
-struct CollisionBodies {
-  /// #V: inverse masses in 1/kg; 0 for scripted vertices, which follow their candidate positions exactly.
-  std::span<const double> inverse_mass;
-  /// #V: body that a scripted vertex belongs to, -1 for cloth. A body moves, or waits, as a whole. Empty: no bodies.
-  std::span<const std::int32_t> body = {};
-  SqueezePolicy policy = SqueezePolicy::kStop;
-  /// The bodies from this one on are pins: what they hold is cloth, even a part of the mesh of which they hold all.
-  std::int32_t first_pin = std::numeric_limits<std::int32_t>::max();
-  /// By body, shorter where the others do not: 1 where its motion is no rigid one. It waits vertex by vertex, and cloth
-  /// that has to move with it moves with what it meets.
-  std::span<const std::uint8_t> deforms = {};
-};
 
 }  // namespace selvage::sim

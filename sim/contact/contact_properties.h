@@ -1,11 +1,7 @@
 // What surfaces bring to their contacts, and what two of them have together.
 #pragma once
 
-#include <cstdint>
 #include <string_view>
-#include <vector>
-
-#include "sim/contact/rest_pairs.h"
 
 namespace selvage::sim {
 
@@ -28,15 +24,5 @@ struct ContactProperties {
 /// The name of the first value that does not lie in the range stated above; empty where all do.
 [[nodiscard]] std::string_view first_bad_value(const ContactProperties& properties);
 [[nodiscard]] inline bool is_valid(const ContactProperties& properties) { return first_bad_value(properties).empty(); }
-
-/// Which surface each vertex is of. Without any, all of the mesh has the properties in its CollisionOptions. Without
-/// those and without rest pairs no pair costs a look.
-struct ContactSurfaces {
-  std::vector<ContactProperties> properties;    ///< one for each surface
-  std::vector<std::int32_t> surface_of_vertex;  ///< #V: index into `properties`; the same for all corners of a face
-  /// Those of every cloth that repel below another distance than its thickness (find_rest_pairs()). Fill them in where
-  /// a thickness is above 0.7 of an edge, or the cloth inflates.
-  std::vector<RestPair> rest_pairs{};
-};
 
 }  // namespace selvage::sim

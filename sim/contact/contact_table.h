@@ -3,6 +3,7 @@
 
 #include "kernel/mesh.h"
 #include "sim/contact/collision_options.h"
+#include "sim/contact/contact_surfaces.h"
 
 namespace selvage::sim {
 

@@ -72,8 +72,8 @@ class StraightSurfaces {
   void start(const Positions& V);
 
   /// Of the body in a pair as in PairProximity: its vertex in vf, or its edge in ee. A vertex of cloth against a face,
-  /// and two edges of cloth, have corners alone. `is_cloth` is #V. Of a vertex it is found once after start(), in O(f
-  /// log f) of its f faces, O(f^2) while they are 64 or fewer, and O(faces along a line of 32 edges); of an edge in
+  /// and two edges of cloth, have corners alone. `is_cloth` is #V. What is found of a vertex is kept until start(); in
+  /// O(f log f) of its f faces, O(f^2) while they are 64 or fewer, and O(faces along a line of 32 edges); of an edge in
   /// O(faces at one end). Any number of threads may ask.
   [[nodiscard]] StraightFeature of(PairKind kind, const std::array<VertexId, 4>& vertices,
                                    const std::vector<std::uint8_t>& is_cloth) const;

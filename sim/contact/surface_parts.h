@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/contact/collision_options.h"
+#include "kernel/mesh.h"
+#include "sim/contact/collision_bodies.h"
 
 namespace selvage::sim {
 

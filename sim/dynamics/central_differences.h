@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "sim/dynamics/dynamics.h"
 #include "sim/dynamics/half_kicks.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/base/disjoint_sets.h"
 #include "sim/base/parallel.h"
+#include "sim/contact/cloth_sets.h"
 
 namespace selvage::sim {
 namespace {
@@ -17,18 +17,11 @@ constexpr double kEnergyRounding = 0x1p-36;
 ContactGains::ContactGains(const SurfaceParts& parts, std::span<const RepulsionContact> contacts,
                            std::span<const double> inverse_mass, Eigen::Index cloth_count)
     : mass_kg_(static_cast<std::size_t>(cloth_count), 0) {
-  DisjointSets<VertexId> sets(static_cast<VertexId>(cloth_count));
-  for (const RepulsionContact& contact : contacts) {
-    VertexId one = -1;
-    for (const VertexId vertex : contact.interaction.vertices) {
-      if (vertex >= cloth_count) continue;
-      if (one >= 0) sets.join(parts.part(one), parts.part(vertex));
-      one = vertex;
-    }
-  }
+  ClothSets sets(parts, static_cast<VertexId>(cloth_count));
+  for (const RepulsionContact& contact : contacts) sets.join(contact.interaction.vertices);
   for (VertexId i = 0; i < cloth_count; ++i) {
     const double w = inverse_mass[static_cast<std::size_t>(i)];
-    set_.push_back(static_cast<std::size_t>(sets.root(parts.part(i))));
+    set_.push_back(sets.set(i));
     vertex_kg_.push_back(w > 0 ? 1 / w : 0);
     mass_kg_[set_.back()] += vertex_kg_.back();
     const bool begins_block = i % kParallelBlock == 0;

@@ -23,7 +23,7 @@ constexpr std::size_t kLeastParallel = 2 * kGroupSize;
 /// vertices, and act alone. Where layers are pressed about one waits for each (docs/simulator-speed.md).
 constexpr std::size_t kMostWaiting = 4;
 
-constexpr Lanes kAllLanes = 0xff;
+constexpr LaneMask kAllLanes = 0xff;
 static_assert(kLanes == 8);
 
 /// Packs that are looked at for a contact that may act nearly in its order. Of 13,600 contacts of edges in a heap (the
@@ -74,7 +74,8 @@ ContactGroups::ContactGroups(std::span<const Member> members, Eigen::Index verte
       members.size() < kLeastParallel ? order_as_given(members.size()) : order_by_place(members);
   std::vector<std::uint64_t> packs_of(static_cast<std::size_t>(vertex_count), 0);  // as add_group() leaves it
   // Runs of the curve are groups. A contact that shares a vertex with a group before its own waits for another round.
-  // In a group contacts keep the order in which they are given (docs/simulator-speed.md says what another order costs).
+  // In a group contacts keep the order in which they are given (docs/simulator-speed.md says what another order costs);
+  // what is left over acts run by run.
   while (left.size() >= kLeastParallel) {
     Round round{{}, std::vector<std::int32_t>(static_cast<std::size_t>(vertex_count), -1)};
     std::vector<std::vector<std::size_t>> groups;

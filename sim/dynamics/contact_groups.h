@@ -56,12 +56,12 @@ class ContactGroups {
   static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
   /// Those of a pack that act with it.
-  [[nodiscard]] Lanes together(std::size_t pack) const { return together_[pack]; }
+  [[nodiscard]] LaneMask together(std::size_t pack) const { return together_[pack]; }
 
   /// Of those asked to act, who have not.
   struct Refused {
-    Lanes out_of_reach = 0;  ///< need what is not in their reach
-    Lanes at_once = 0;       ///< share a vertex with one of their pack
+    LaneMask out_of_reach = 0;  ///< need what is not in their reach
+    LaneMask at_once = 0;       ///< share a vertex with one of their pack
   };
 
   /// Calls act(pack, lanes, reach), which says who refused, for all: rounds of groups that share no vertex, the groups
@@ -107,7 +107,7 @@ class ContactGroups {
       const std::size_t pack = backwards ? group.end - 1 - k : group.begin + k;
       if (together_[pack] == 0) continue;
       const Refused refused = act(pack, together_[pack], reach);
-      together_[pack] &= static_cast<Lanes>(~(refused.out_of_reach | refused.at_once));
+      together_[pack] &= static_cast<LaneMask>(~(refused.out_of_reach | refused.at_once));
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (has_lane(refused.out_of_reach, lane)) group.leaving.push_back(pack * kLanes + lane);
         if (has_lane(refused.at_once, lane)) group.singles.push_back(pack * kLanes + lane);
@@ -138,7 +138,7 @@ class ContactGroups {
   std::vector<Round> rounds_;
   Group alone_;
   std::vector<std::size_t> order_;
-  std::vector<Lanes> together_;  ///< by pack
+  std::vector<LaneMask> together_;  ///< by pack
 };
 
 }  // namespace selvage::sim

@@ -38,9 +38,9 @@ HWY_INLINE Value Excess(const ContactPack& pack, const PackMotion& motion, std::
   return hn::IfThenElse(hn::Or(is_far, hn::Lt(overlap, approach)), overlap, approach);
 }
 
-Lanes NewlyPressed(const ContactPack& pack, const PackMotion& motion, Lanes asked) {
+LaneMask NewlyPressed(const ContactPack& pack, const PackMotion& motion, LaneMask asked) {
   const Value zero = hn::Zero(Real());
-  Lanes result = 0;
+  LaneMask result = 0;
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const Truth acts = hn::Or(hn::Gt(Read(pack.load_m_s2, first), zero), hn::Gt(Read(pack.pressed, first), zero));
     result |= LanesOf(hn::AndNot(acts, hn::Gt(Excess(pack, motion, first), zero)), first);
@@ -83,9 +83,9 @@ void FindNearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   kind == PairKind::kVf ? FindNearestOf<PairKind::kVf>(motion, result) : FindNearestOf<PairKind::kEe>(motion, result);
 }
 
-Lanes TakeNearest(const PackNearest& nearest, Lanes asked, ContactPack& pack) {
+LaneMask TakeNearest(const PackNearest& nearest, LaneMask asked, ContactPack& pack) {
   const Value zero = hn::Zero(Real());
-  Lanes result = 0;
+  LaneMask result = 0;
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const Truth which = TruthOf(asked, first);
     const Vector direction = Read(nearest.direction, first);
@@ -115,7 +115,7 @@ HWY_INLINE Value LeverShare(const PairLanes& pair) {
 HWY_INLINE void MoveVertices(Truth which, const Vectors& changes, std::size_t first, const ContactPack& pack,
                              const ContactMotion& motion) {
   const Real d;
-  const Lanes moved = LanesOf(which, first);
+  const LaneMask moved = LanesOf(which, first);
   for (std::size_t i = 0; i < 4; ++i) {
     HWY_ALIGN double displaced[3][kLanes], quicker[3][kLanes];
     const Value* const axes[3] = {&changes[i].x, &changes[i].y, &changes[i].z};
@@ -171,7 +171,7 @@ HWY_INLINE void BeginFriction(Truth which, const SlipLanes& slip, const Vector& 
   WriteWhere(which, Where(rubs, Scaled(pressed, impulse)), first, pack.rubbed);
 }
 
-void BearLoads(const PackMotion& read, Lanes asked, ContactPack& pack, const ContactMotion& motion) {
+void BearLoads(const PackMotion& read, LaneMask asked, ContactPack& pack, const ContactMotion& motion) {
   const Value zero = hn::Zero(Real()), squared_s2 = Number(motion.h * motion.h);
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     Truth which = TruthOf(asked, first);
@@ -227,7 +227,7 @@ HWY_INLINE void Rub(Truth which, const SlipLanes& slip, Value lever_share, const
   WriteWhere(which, Where(rubs, Scaled(scale, impulse)), first, pack.rubbed);
 }
 
-void Press(const PackMotion& read, Lanes asked, double relaxation, bool is_last, ContactPack& pack,
+void Press(const PackMotion& read, LaneMask asked, double relaxation, bool is_last, ContactPack& pack,
            const ContactMotion& motion) {
   const Value zero = hn::Zero(Real());
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
@@ -309,22 +309,24 @@ void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std
   for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = friction_m_s2[k];
 }
 
-void see_anew(const PackNearest& nearest, Lanes lanes, ContactPack& pack) {
+void see_anew(const PackNearest& nearest, LaneMask lanes, ContactPack& pack) {
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane)) continue;
     for (std::size_t k = 0; k < 3; ++k) pack.normal[k][lane] = nearest.direction[k][lane];
   }
 }
 
-Lanes above_zero(const LaneColumn<double>& column) {
-  Lanes result = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= static_cast<Lanes>((column[lane] > 0 ? 1U : 0U) << lane);
+LaneMask above_zero(const LaneColumn<double>& column) {
+  LaneMask result = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    result |= static_cast<LaneMask>((column[lane] > 0 ? 1U : 0U) << lane);
   return result;
 }
 
-Lanes that_take(std::int32_t sweeps, const ContactPack& pack) {
-  Lanes result = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) result |= pack.sweeps[lane] >= sweeps ? only_lane(lane) : Lanes{0};
+LaneMask that_take(std::int32_t sweeps, const ContactPack& pack) {
+  LaneMask result = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    result |= pack.sweeps[lane] >= sweeps ? only_lane(lane) : LaneMask{0};
   return result;
 }
 
@@ -333,7 +335,7 @@ namespace {
 /// The ends of the step and the velocities, as if all vertices were of cloth; zero where one is not, or is not asked
 /// for. One by one: the rows of lanes are anywhere, and gathering eight of them at once was no faster (AMD EPYC with
 /// AVX-512, sim/scenes/curtain.toml at full quality). Whether any is not of cloth.
-bool copy_rows(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
+bool copy_rows(const ContactPack& pack, LaneMask lanes, const ContactMotion& motion, PackMotion& result) {
   constexpr std::ptrdiff_t kZeroRow = -1;  // before the first
   const auto end = axes_of(motion.x_t1), v = axes_of(motion.v);
   bool any_scripted = false;
@@ -355,7 +357,7 @@ bool copy_rows(const ContactPack& pack, Lanes lanes, const ContactMotion& motion
   return any_scripted;
 }
 
-void read_scripted(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
+void read_scripted(const ContactPack& pack, LaneMask lanes, const ContactMotion& motion, PackMotion& result) {
   const auto start = axes_of(motion.scripted_x), way = axes_of(motion.scripted_way);
   const double share = motion.share, step_share = motion.step_share;
   const bool has_bow = motion.scripted_bow != nullptr;
@@ -385,13 +387,13 @@ HWY_EXPORT(BearLoads);
 HWY_EXPORT(Press);
 HWY_EXPORT(LearnLoads);
 
-void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result) {
+void read_motion(const ContactPack& pack, LaneMask lanes, const ContactMotion& motion, PackMotion& result) {
   result.lanes = lanes;
   const bool any_scripted = copy_rows(pack, lanes, motion, result);
   HWY_DYNAMIC_DISPATCH(GoBack)(motion.h, result);
   if (any_scripted) read_scripted(pack, lanes, motion, result);
 }
-Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes) {
+LaneMask newly_pressed(const ContactPack& pack, const PackMotion& motion, LaneMask lanes) {
   return HWY_DYNAMIC_DISPATCH(NewlyPressed)(pack, motion, lanes);
 }
 void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, LaneColumn<double>& result) {
@@ -400,13 +402,13 @@ void find_work_from_outside(const ContactPack& pack, const PackMotion& motion, L
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result) {
   HWY_DYNAMIC_DISPATCH(FindNearest)(kind, motion, result);
 }
-Lanes take_nearest(const PackNearest& nearest, Lanes lanes, ContactPack& pack) {
+LaneMask take_nearest(const PackNearest& nearest, LaneMask lanes, ContactPack& pack) {
   return HWY_DYNAMIC_DISPATCH(TakeNearest)(nearest, lanes, pack);
 }
-void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion) {
+void bear_loads(const PackMotion& read, LaneMask lanes, ContactPack& pack, const ContactMotion& motion) {
   HWY_DYNAMIC_DISPATCH(BearLoads)(read, lanes, pack, motion);
 }
-void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,
+void press(const PackMotion& read, LaneMask lanes, double relaxation, bool is_last, ContactPack& pack,
            const ContactMotion& motion) {
   HWY_DYNAMIC_DISPATCH(Press)(read, lanes, relaxation, is_last, pack, motion);
 }

@@ -17,8 +17,8 @@ using LaneColumn3 = std::array<LaneColumn<double>, 3>;
   return {columns[0][lane], columns[1][lane], columns[2][lane]};
 }
 
-/// What contacts are and what they have done, in columns. A vertex of cloth is its row, any other row k of those that
-/// are not cloth is ~k. Lanes without a contact are zero.
+/// What contacts are and what they have done, in columns. An index i >= 0 is vertex i, of cloth; ~k, which is negative,
+/// is row k of the scripted vertices. Lanes without a contact are zero.
 struct alignas(64) ContactPack {
   // What newly_pressed() reads.
   std::array<LaneColumn<std::int32_t>, 4> vertices{};
@@ -33,7 +33,7 @@ struct alignas(64) ContactPack {
   LaneColumn3 friction_m_s2{};
   LaneColumn3 rubbed{};
   LaneColumn<std::int32_t> sweeps{};  ///< where not all take as many
-  Lanes ever_repelled = 0, ever_rubbed = 0;
+  LaneMask ever_repelled = 0, ever_rubbed = 0;
 };
 
 /// The cloth in a step of the dynamics of h seconds, x_t1 = x + h v, and what is not cloth: at
@@ -51,7 +51,7 @@ struct ContactMotion {
 /// The vertices of a pack, at the start of the step and how they move in it.
 struct alignas(64) PackMotion {
   std::array<LaneColumn3, 4> x, displacement;  // read_motion() sets all: zeros before that would be 1.5 kB for nothing
-  Lanes lanes = 0;                             ///< that were read; zero in the others
+  LaneMask lanes = 0;                          ///< that were read; zero in the others
 };
 
 /// Nearest points of the pairs of a pack at the start of the step, as in QuickProximity.
@@ -59,38 +59,38 @@ struct PackNearest {
   LaneColumn<double> distance;
   LaneColumn3 direction;
   std::array<LaneColumn<double>, 4> weights;
-  Lanes on_border = 0;  ///< a corner has no weight: the surface may go on beyond
+  LaneMask on_border = 0;  ///< a corner has no weight: the surface may go on beyond
 };
 
 /// What its contact begins the next step with.
 void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack);
 
 /// Those whose column is above zero; that take as many sweeps.
-[[nodiscard]] Lanes above_zero(const LaneColumn<double>& column);
-[[nodiscard]] Lanes that_take(std::int32_t sweeps, const ContactPack& pack);
+[[nodiscard]] LaneMask above_zero(const LaneColumn<double>& column);
+[[nodiscard]] LaneMask that_take(std::int32_t sweeps, const ContactPack& pack);
 
 // For all lanes, or for those given; same bits for any vector unit. What an impulse is and why is said in
 // held_contacts.h, what friction is in friction.h.
 
-void read_motion(const ContactPack& pack, Lanes lanes, const ContactMotion& motion, PackMotion& result);
+void read_motion(const ContactPack& pack, LaneMask lanes, const ContactMotion& motion, PackMotion& result);
 
 /// Those that approach too far, and neither bear a load nor have pressed in this step.
-[[nodiscard]] Lanes newly_pressed(const ContactPack& pack, const PackMotion& motion, Lanes lanes);
+[[nodiscard]] LaneMask newly_pressed(const ContactPack& pack, const PackMotion& motion, LaneMask lanes);
 
 void find_nearest(PairKind kind, const PackMotion& motion, PackNearest& result);
 
 /// The contacts at their nearest points, but for those that are nearer than the thickness on the other side, which stay
 /// as they are. Leaves out those whose points are all on vertices that cannot move.
-[[nodiscard]] Lanes take_nearest(const PackNearest& nearest, Lanes lanes, ContactPack& pack);
+[[nodiscard]] LaneMask take_nearest(const PackNearest& nearest, LaneMask lanes, ContactPack& pack);
 
 /// From where they are, whatever the side was from which they were seen.
-void see_anew(const PackNearest& nearest, Lanes lanes, ContactPack& pack);
+void see_anew(const PackNearest& nearest, LaneMask lanes, ContactPack& pack);
 
 /// Their loads with their friction.
-void bear_loads(const PackMotion& read, Lanes lanes, ContactPack& pack, const ContactMotion& motion);
+void bear_loads(const PackMotion& read, LaneMask lanes, ContactPack& pack, const ContactMotion& motion);
 
 /// One sweep; `relaxation` is the factor on what is missing. The last one rubs.
-void press(const PackMotion& read, Lanes lanes, double relaxation, bool is_last, ContactPack& pack,
+void press(const PackMotion& read, LaneMask lanes, double relaxation, bool is_last, ContactPack& pack,
            const ContactMotion& motion);
 
 /// The work that vertices which no impulse moves, of bodies and at pins, do on the others of their contact in this

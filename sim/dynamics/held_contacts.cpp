@@ -59,7 +59,6 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const Contact
       least_sweeps_(sweeps),
       most_sweeps_(sweeps),
       contacts_(std::move(contacts)),
-      gains_(surface.parts, contacts_, surface.inverse_mass, surface.cloth_count),
       place_of_(contacts_.size(), ContactGroups::kNobody) {
   if (contacts_.empty()) return;
   const Eigen::Index scripted = V_t0.rows() - surface.cloth_count;
@@ -191,8 +190,8 @@ void HeldContacts::fetch(std::size_t pack, std::size_t idle_bytes) {
   for (std::size_t k = 0; k < size; k += 64) __builtin_prefetch(bytes + k);
 }
 
-Lanes HeldContacts::pressing(std::size_t pack) const {
-  return states_[pack].has_acted ? above_zero(packs_[pack].pressed) : Lanes{0};
+LaneMask HeldContacts::pressing(std::size_t pack) const {
+  return states_[pack].has_acted ? above_zero(packs_[pack].pressed) : LaneMask{0};
 }
 
 ContactMotion HeldContacts::motion_of(const MidstepMotion& step) const {
@@ -209,17 +208,18 @@ void HeldContacts::hold(const MidstepMotion& step, const std::function<void()>& 
   const ContactMotion motion = motion_of(step);
   copy(step.v, v_free_);
   copy(step.x_t1, x_free_);
-  gains_.clear();
+  if (!gains_) gains_.emplace(surface_.parts, contacts_, surface_.inverse_mass, surface_.cloth_count);
+  gains_->clear();
   bear_all(motion);
-  gains_.add_motion(v_free_, step.v);
-  const bool may_be_too_much = gains_.exceed(borne_j_kg);
+  gains_->add_motion(v_free_, step.v);
+  const bool may_be_too_much = gains_->exceed(borne_j_kg);
   limit();
   if (may_be_too_much) v_limited_ = step.v;
   sweep(motion);
   if (may_be_too_much) {
-    gains_.add_motion(v_limited_, step.v);
+    gains_->add_motion(v_limited_, step.v);
     take_work_from_outside(motion);
-    if (gains_.exceed(borne_j_kg)) {
+    if (gains_->exceed(borne_j_kg)) {
       step.v = v_free_;
       step.x_t1 = x_free_;
       forget_impulses();
@@ -254,7 +254,7 @@ void HeldContacts::forget_impulses() {
 
 void HeldContacts::bear_all(const ContactMotion& motion) {
   for (Kind* kind : {&vf_, &ee_}) {
-    kind->groups.each(false, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
+    kind->groups.each(false, [&](std::size_t pack, LaneMask lanes, const Reach& reach) {
       return bear(kind->first_pack + pack, lanes, reach, motion);
     });
   }
@@ -263,7 +263,7 @@ void HeldContacts::bear_all(const ContactMotion& motion) {
 void HeldContacts::sweep(const ContactMotion& motion) {
   for (int left = most_sweeps_; left > 0; --left) {
     for (Kind* kind : {&vf_, &ee_}) {
-      kind->groups.each(backwards_, [&](std::size_t pack, Lanes lanes, const Reach& reach) {
+      kind->groups.each(backwards_, [&](std::size_t pack, LaneMask lanes, const Reach& reach) {
         const std::size_t id = kind->first_pack + pack;
         if (left > least_sweeps_) lanes &= that_take(left, packs_[id]);
         return lanes == 0 ? Refused{} : hold(id, lanes, reach, left, motion);
@@ -276,7 +276,7 @@ void HeldContacts::sweep(const ContactMotion& motion) {
 /// What bodies and pins do by their motion to cloth that presses on them.
 void HeldContacts::take_work_from_outside(const ContactMotion& motion) {
   for (std::size_t id = 0; id < packs_.size(); ++id) {
-    const Lanes lanes = pressing(id);
+    const LaneMask lanes = pressing(id);
     if (lanes == 0) continue;
     PackMotion read;
     read_motion(packs_[id], lanes, motion, read);
@@ -286,7 +286,7 @@ void HeldContacts::take_work_from_outside(const ContactMotion& motion) {
       if (!has_lane(lanes, lane)) continue;
       const std::size_t place = id * kLanes + lane;
       const double scale = contact_at(place).interaction.inverse_mass_scale * motion.h * motion.h;
-      gains_.take_work(cloth_of(place), work[lane] / scale);
+      gains_->take_work(cloth_of(place), work[lane] / scale);
     }
   }
 }
@@ -294,7 +294,7 @@ void HeldContacts::take_work_from_outside(const ContactMotion& motion) {
 /// Those of cloth that has gained more than is borne.
 void HeldContacts::withhold_loads(double borne_j_kg) {
   for (std::size_t place = 0; place < contact_at_.size(); ++place) {
-    if (contact_at_[place] == ContactGroups::kNobody || !gains_.exceed_at(cloth_of(place), borne_j_kg)) continue;
+    if (contact_at_[place] == ContactGroups::kNobody || !gains_->exceed_at(cloth_of(place), borne_j_kg)) continue;
     states_[place / kLanes].withheld |= only_lane(place % kLanes);
   }
 }
@@ -305,14 +305,15 @@ VertexId HeldContacts::cloth_of(std::size_t place) const {
 }
 
 /// What they bore in the last step, before anything else, where they are now.
-HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reach& reach, const ContactMotion& motion) {
+HeldContacts::Refused HeldContacts::bear(std::size_t id, LaneMask lanes, const Reach& reach,
+                                         const ContactMotion& motion) {
   PackState& state = states_[id];
   fetch(id + 1, 0);
-  lanes &= static_cast<Lanes>(state.loaded & ~state.withheld);
+  lanes &= static_cast<LaneMask>(state.loaded & ~state.withheld);
   if (lanes == 0) return {};
   PackMotion read;
   read_motion(packs_[id], lanes, motion, read);
-  Lanes acting = lanes;
+  LaneMask acting = lanes;
   const Refused refused = look_again(id, reach, motion, read, acting);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane) || has_lane(acting | refused.out_of_reach | refused.at_once, lane)) continue;
@@ -325,16 +326,16 @@ HeldContacts::Refused HeldContacts::bear(std::size_t id, Lanes lanes, const Reac
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
-HeldContacts::Refused HeldContacts::hold(std::size_t id, Lanes lanes, const Reach& reach, int left,
+HeldContacts::Refused HeldContacts::hold(std::size_t id, LaneMask lanes, const Reach& reach, int left,
                                          const ContactMotion& motion) {
   ContactPack& pack = packs_[id];
   fetch(backwards_ ? id - 1 : id + 1, offsetof(ContactPack, mobility));
   PackMotion read;
   read_motion(pack, lanes, motion, read);
-  const Lanes looked_at = lanes & (states_[id].loaded | pressing(id));
-  Lanes pressed = newly_pressed(pack, read, lanes);
+  const LaneMask looked_at = lanes & (states_[id].loaded | pressing(id));
+  LaneMask pressed = newly_pressed(pack, read, lanes);
   const Refused refused = pressed == 0 ? Refused{} : look_again(id, reach, motion, read, pressed);
-  const Lanes acting = looked_at | pressed;
+  const LaneMask acting = looked_at | pressed;
   if (acting == 0) return refused;
   const bool is_last = left == 1;
   const double relaxation = is_last || left > least_sweeps_ ? 1 : kOverRelaxation;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,30 +52,34 @@ class HeldContacts {
   HeldContacts(std::vector<RepulsionContact> contacts, const ContactLoads& loads, const HeldSurface& surface,
                const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
 
-  /// First the loads with their friction, where the contacts are now; then `limit`, the limits on strain, which else
-  /// see cloth fall that is borne, and have it pull on what bears it (docs/numerics.md); then sweeps of inelastic
-  /// impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike masses, and those beside them, take
-  /// more sweeps than others, the first ones (contact_sweeps.h). A contact alone, but for one beyond what is straight
-  /// in it, ends no nearer than its thickness, or than it was before the step, after any number of sweeps, and adds no
-  /// energy: it takes back what its load or an earlier sweep, over-relaxed, pushed too far, and the friction that it
-  /// began with. Where its lever is limited (interaction.h) it is pushed once, as far as that lets it. Of many
-  /// something is left (tests/sim/energy_test.cpp asks their energy). They keep linear momentum. Every contact that
-  /// presses is first looked at where it is now: held where they were at the start of the collision step, cloth that a
-  /// ball pulls along at 3.6 m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was
-  /// held in the air. A vertex that has left its face is held by the one on which it is now: held by the border that it
-  /// left, cloth without friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second.
-  /// In turn back and forth, but vertices before edges always: in cloth at rest on a plane they leave nothing for the
-  /// edges between them to press, while edges alone lift one end to hold the other (a corner swung by 2 micrometres for
-  /// ever). Call for the steps of a collision step in their order. O(contacts) a sweep, eight at once and in parallel
-  /// where contacts share no vertex (contact_groups.h); one that slides on to a vertex of another of its eight acts
-  /// alone from then on. Same bits for any number of threads and any vector unit.
+  /// In this order, each where the contacts are now:
+  ///   1. the loads, with their friction;
+  ///   2. `limit`, the limits on strain, which else see cloth fall that is borne, and have it pull on what bears it
+  ///      (docs/numerics.md);
+  ///   3. sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike masses, and
+  ///      those beside them, take more sweeps than others, the first ones (contact_sweeps.h). In turn back and forth,
+  ///      but vertices before edges always: in cloth at rest on a plane they leave nothing for the edges between them
+  ///      to press, while edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever);
+  ///   4. where 1 and 3 have given cloth that hangs together more energy than it falls by in 100 steps, past what
+  ///      bodies bring by their motion, all of it once more, without the loads of that cloth. `limit` may begin with
+  ///      what it found before: limits pass on what loads pushed too far, and leave it where the sweeps take that back.
+  ///      Loads grew by it, and a disc of 150 faces around one vertex, folded over a needle, flew off at 1,136 m/s
+  ///      (docs/stability.md).
   ///
-  /// Where loads and sweeps have given cloth that hangs together more energy than it falls by in 100 steps, past what
-  /// bodies bring by their motion, all contacts act once more, without the loads of that cloth, and `limit` with them,
-  /// which may begin with what it found before: limits pass on what loads pushed too far, and leave it where the sweeps
-  /// take that back.
-  /// Loads grew by it, and a disc of 150 faces around one vertex, folded over a needle, flew off at 1,136 m/s
-  /// (docs/stability.md).
+  /// A contact alone, but for one beyond what is straight in it, ends no nearer than its thickness, or than it was
+  /// before the step, after any number of sweeps, and adds no energy: it takes back what its load or an earlier sweep,
+  /// over-relaxed, pushed too far, and the friction that it began with. Where its lever is limited (interaction.h) it
+  /// is pushed once, as far as that lets it. Of many something is left (tests/sim/energy_test.cpp asks their energy).
+  /// They keep linear momentum.
+  ///
+  /// Where they are now: held where they were at the start of the collision step, cloth that a ball pulls along at 3.6
+  /// m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. A
+  /// vertex that has left its face is held by the one on which it is: held by the border that it left, cloth without
+  /// friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second.
+  ///
+  /// Call for the steps of a collision step in their order. O(contacts) a sweep, eight at once and in parallel where
+  /// contacts share no vertex (contact_groups.h); one that slides on to a vertex of another of its eight acts alone
+  /// from then on. Same bits for any number of threads and any vector unit.
   void hold(const MidstepMotion& step, const std::function<void()>& limit);
 
   /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
@@ -117,10 +122,10 @@ class HeldContacts {
 
   /// What is asked of every pack in every step of the dynamics, side by side: most packs need not be read for it.
   struct PackState {
-    Lanes loaded = 0;               ///< whose load is above zero
-    Lanes withheld = 0;             ///< of cloth to which loads have added energy in this step
-    Lanes straight = 0;             ///< on bodies that go straight on there
-    Lanes beyond = 0;               ///< of these, whose points were not over what is straight when last looked at
+    LaneMask loaded = 0;            ///< whose load is above zero
+    LaneMask withheld = 0;          ///< of cloth to which loads have added energy in this step
+    LaneMask straight = 0;          ///< on bodies that go straight on there
+    LaneMask beyond = 0;            ///< of these, whose points were not over what is straight when last looked at
     std::uint32_t straight_at = 0;  ///< of straight_
     bool has_acted = false;         ///< in this step: what pressed and rubbed may be other than zero
   };
@@ -156,23 +161,24 @@ class HeldContacts {
   [[nodiscard]] PairKind kind_of(std::size_t pack) const { return pack < ee_.first_pack ? vf_.kind : ee_.kind; }
   void fetch(std::size_t pack, std::size_t idle_bytes);
   /// Those that have pressed in this step of the dynamics.
-  [[nodiscard]] Lanes pressing(std::size_t pack) const;
+  [[nodiscard]] LaneMask pressing(std::size_t pack) const;
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] VertexId cloth_of(std::size_t place) const;
-  [[nodiscard]] Refused bear(std::size_t pack, Lanes lanes, const Reach& reach, const ContactMotion& motion);
-  [[nodiscard]] Refused hold(std::size_t pack, Lanes lanes, const Reach& reach, int left, const ContactMotion& motion);
+  [[nodiscard]] Refused bear(std::size_t pack, LaneMask lanes, const Reach& reach, const ContactMotion& motion);
+  [[nodiscard]] Refused hold(std::size_t pack, LaneMask lanes, const Reach& reach, int left,
+                             const ContactMotion& motion);
   /// Looks where the contacts are now; leaves in `lanes` those that can act.
   [[nodiscard]] Refused look_again(std::size_t pack, const Reach& reach, const ContactMotion& motion, PackMotion& read,
-                                   Lanes& lanes);
+                                   LaneMask& lanes);
   struct Slid {
     Refused refused;
-    Lanes on = 0;       ///< to other faces
-    Lanes cannot = 0;   ///< move there
-    Lanes beyond = 0;   ///< what is straight
-    Lanes through = 0;  ///< the surface: stay as they are
+    LaneMask on = 0;       ///< to other faces
+    LaneMask cannot = 0;   ///< move there
+    LaneMask beyond = 0;   ///< what is straight
+    LaneMask through = 0;  ///< the surface: stay as they are
   };
-  [[nodiscard]] Slid slide(std::size_t pack, Lanes lanes, const Reach& reach, const ContactMotion& motion);
-  [[nodiscard]] bool shares_vertex(std::size_t place, Lanes with) const;
+  [[nodiscard]] Slid slide(std::size_t pack, LaneMask lanes, const Reach& reach, const ContactMotion& motion);
+  [[nodiscard]] bool shares_vertex(std::size_t place, LaneMask with) const;
   [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
                                  const ContactMotion& motion) const;
   [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
@@ -186,8 +192,8 @@ class HeldContacts {
   std::int32_t least_sweeps_, most_sweeps_;
   LaneVectors scripted_t0_, scripted_way_, scripted_bow_;  ///< of the vertices that are not cloth
   Kind vf_{PairKind::kVf, {}, {}}, ee_{PairKind::kEe, {}, {}};
-  std::vector<RepulsionContact> contacts_;  ///< as given; weights and normals that changed since are in packs_
-  ContactGains gains_;
+  std::vector<RepulsionContact> contacts_;   ///< as given; weights and normals that changed since are in packs_
+  std::optional<ContactGains> gains_;        ///< from the first hold() on
   std::vector<ContactPack> packs_;           ///< of vf, then ee; a place is a lane of one
   std::vector<PackState> states_;            ///< of each pack
   std::vector<PackStraight> straight_;       ///< of packs with such a lane

@@ -19,31 +19,32 @@ constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf
 /// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
 /// that cannot move do not act, nor do those whose points are not over what is straight between them.
 HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reach, const ContactMotion& motion,
-                                               PackMotion& read, Lanes& lanes) {
+                                               PackMotion& read, LaneMask& lanes) {
   ContactPack& pack = packs_[id];
   const PairKind kind = kind_of(id);
   PackNearest nearest;
   find_nearest(kind, read, nearest);
   PackState& state = states_[id];
-  const Lanes were_beyond = lanes & state.beyond;
-  state.beyond &= static_cast<Lanes>(~lanes);
-  Lanes beyond = 0;
+  const LaneMask were_beyond = lanes & state.beyond;
+  state.beyond &= static_cast<LaneMask>(~lanes);
+  LaneMask beyond = 0;
   if ((lanes & state.straight) != 0) beyond = lanes & turn_across(straight_[state.straight_at], motion.share, nearest);
   see_anew(nearest, were_beyond & ~beyond, pack);
-  const Lanes on_border = lanes & nearest.on_border;
+  const LaneMask on_border = lanes & nearest.on_border;
   Slid slid;
   if (kind == PairKind::kVf && on_border != 0) slid = slide(id, on_border, reach, motion);
   if (slid.on != 0) read_motion(pack, read.lanes, motion, read);
-  const Lanes acting = slid.on | slid.through;
-  beyond = static_cast<Lanes>((beyond & ~acting) | slid.beyond);
+  const LaneMask acting = slid.on | slid.through;
+  beyond = static_cast<LaneMask>((beyond & ~acting) | slid.beyond);
   state.beyond |= beyond;
-  const Lanes left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot | beyond;
-  lanes = take_nearest(nearest, static_cast<Lanes>(lanes & ~(acting | left_out)), pack) | acting;
+  const LaneMask left_out = slid.refused.out_of_reach | slid.refused.at_once | slid.cannot | beyond;
+  lanes = take_nearest(nearest, static_cast<LaneMask>(lanes & ~(acting | left_out)), pack) | acting;
   return slid.refused;
 }
 
 /// Each of the lanes of vf on to the face on which its vertex is, seen from the side on which it is, as above.
-HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach& reach, const ContactMotion& motion) {
+HeldContacts::Slid HeldContacts::slide(std::size_t id, LaneMask lanes, const Reach& reach,
+                                       const ContactMotion& motion) {
   Slid slid;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane)) continue;
@@ -73,7 +74,7 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
     now.properties = surface_.properties.of(now.kind, now.first, now.second);
     contact_at(place) = now;
     set_lane(place);
-    const Lanes together = vf_.groups.together(id - vf_.first_pack);
+    const LaneMask together = vf_.groups.together(id - vf_.first_pack);
     const bool clashes = has_lane(together, lane) && shares_vertex(place, together);
     (clashes ? slid.refused.at_once : slid.on) |= only_lane(lane);
   }
@@ -81,7 +82,7 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, Lanes lanes, const Reach&
 }
 
 /// A vertex of cloth, with one of the others of its pack.
-bool HeldContacts::shares_vertex(std::size_t place, Lanes with) const {
+bool HeldContacts::shares_vertex(std::size_t place, LaneMask with) const {
   const ContactPack& pack = packs_[place / kLanes];
   const std::size_t own = place % kLanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {

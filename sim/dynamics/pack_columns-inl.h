@@ -17,15 +17,15 @@ HWY_BEFORE_NAMESPACE();
 namespace selvage::sim::HWY_NAMESPACE {
 
 HWY_INLINE std::size_t VectorLanes() { return hn::Lanes(Real()); }
-HWY_INLINE Truth TruthOf(Lanes which, std::size_t first) {
+HWY_INLINE Truth TruthOf(LaneMask which, std::size_t first) {
   const std::uint8_t bits[8] = {static_cast<std::uint8_t>(which >> first)};  // as many are read
   return hn::LoadMaskBits(Real(), bits);
 }
-HWY_INLINE Lanes LanesOf(Truth truth, std::size_t first) {
+HWY_INLINE LaneMask LanesOf(Truth truth, std::size_t first) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(Real(), truth, bits);
-  const auto all = static_cast<Lanes>((1U << VectorLanes()) - 1);
-  return static_cast<Lanes>((bits[0] & all) << first);
+  const auto all = static_cast<LaneMask>((1U << VectorLanes()) - 1);
+  return static_cast<LaneMask>((bits[0] & all) << first);
 }
 
 HWY_INLINE Value Read(const LaneColumn<double>& column, std::size_t first) { return hn::LoadU(Real(), &column[first]); }

@@ -25,9 +25,9 @@ HWY_INLINE Truth IsAtEnd(std::size_t end, const PackStraight& straight, const Pa
                 hn::And(TruthOf(straight.edges[1], first), is_zero(3 - end)));
 }
 
-Lanes TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
+LaneMask TurnAcross(const PackStraight& straight, double share, PackNearest& nearest) {
   const Value one = Number(1);
-  Lanes beyond = 0;
+  LaneMask beyond = 0;
   for (std::size_t first = 0; first < kLanes; first += VectorLanes()) {
     const auto direction_of = [&](const PackStraight::Part& part) {
       const Vector t0 = Read(part.direction_t0, first), t1 = Read(part.direction_t1, first);
@@ -92,7 +92,7 @@ void set_straight(PairKind kind, const StraightFeature& feature, const Positions
 }
 
 HWY_EXPORT(TurnAcross);
-Lanes turn_across(const PackStraight& straight, double share, PackNearest& nearest) {
+LaneMask turn_across(const PackStraight& straight, double share, PackNearest& nearest) {
   return HWY_DYNAMIC_DISPATCH(TurnAcross)(straight, share, nearest);
 }
 

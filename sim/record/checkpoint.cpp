@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 13\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 14\n";
 
 template <class Number>
 void put(std::string& bytes, const Number& number) {
@@ -33,6 +33,7 @@ void put_all(std::string& bytes, const std::vector<Item>& items) {
 
 static_assert(sizeof(ContactLoad) == 2 * sizeof(std::int32_t) + 4 * sizeof(double),
               "padding would be written as it is");
+static_assert(sizeof(BodyWait) == 2 * sizeof(std::int64_t) + 3 * sizeof(double), "likewise");
 
 void put(std::string& bytes, const ContactLoads& loads) {
   put_all(bytes, loads.vf);
@@ -131,6 +132,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   put(bytes, checkpoint.state.loads);
   put(bytes, checkpoint.state.pressed);
   for_each_total(checkpoint.totals, [&](const char*, const auto& field) { put(bytes, field); });
+  put_all(bytes, checkpoint.waits);
   put(bytes, fnv1a(bytes));
   io::write_atomically(file, bytes);
 }
@@ -155,6 +157,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file) {
   source.get(checkpoint.state.loads);
   source.get(checkpoint.state.pressed);
   for_each_total(checkpoint.totals, [&](const char*, auto& field) { source.get(field); });
+  source.get_all(checkpoint.waits);
   std::uint64_t checksum = 0;
   source.get(checksum);
   if (!source.empty() || checksum != fnv1a(std::string_view(bytes).substr(0, bytes.size() - sizeof checksum))) {

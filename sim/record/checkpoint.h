@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/error.h"
+#include "sim/record/body_waits.h"
 #include "sim/record/run_totals.h"
 #include "sim/record/scene_identity.h"
 #include "sim/step.h"
@@ -17,6 +18,7 @@ struct Checkpoint {
   std::int64_t recorded = 0;  ///< frames of the sequence at this time
   SimulationState state;
   RunTotals totals;
+  BodyWaits waits = {};
 };
 
 /// Replaces `file` atomically. Little-endian numbers with a checksum at the end.

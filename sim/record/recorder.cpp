@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -95,6 +96,17 @@ std::string json_text(const std::string& words) {
   return text + "\"";
 }
 
+std::string json_list(const BodyWaits& waits, const World& world) {
+  std::string text;
+  for (const BodyWait& wait : waits) {
+    const std::string name = json_text(world.colliders[static_cast<std::size_t>(wait.collider)].name());
+    text += fmt::format(
+        "{}\n    {{\"name\": {}, \"steps\": {}, \"begin_s\": {}, \"end_s\": {}, \"largest_lag_m\": {}}}",
+        text.empty() ? "" : ",", name, wait.steps, wait.begin_s, wait.end_s, json_number(wait.largest_lag_m));
+  }
+  return text.empty() ? "[]" : "[" + text + "\n  ]";
+}
+
 }  // namespace
 
 Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, std::optional<io::SequenceKind> kind,
@@ -119,6 +131,7 @@ Recorder::Recorder(std::filesystem::path folder, Simulation& simulation, std::op
   writer_.truncate(static_cast<std::size_t>(checkpoint->recorded));
   simulation_.restore(checkpoint->state);
   totals_ = checkpoint->totals;
+  waits_ = checkpoint->waits;
   resumed_ = true;
 }
 
@@ -141,6 +154,16 @@ std::optional<Checkpoint> Recorder::read_own_checkpoint() const {
                     "makes a run longer), or start again in another folder",
                     file.string(), *difference));
   }
+  std::int64_t last = -1;
+  for (const BodyWait& wait : checkpoint->waits) {
+    if (wait.collider > std::exchange(last, wait.collider) &&
+        wait.collider < std::ssize(simulation_.world().colliders)) {
+      continue;
+    }
+    throw io::Error(io::ErrorKind::kBadInput, file.string() +
+                                                  ": the checkpoint is damaged; start the run again in "
+                                                  "another folder, or remove this one first");
+  }
   return checkpoint;
 }
 
@@ -154,6 +177,7 @@ void Recorder::begin() {
 void Recorder::record(const StepResult& step) {
   const PhaseTimer timer(totals_.recording);
   totals_.add(step);
+  add_waits(simulation_, step, waits_);
   const bool at_frame = simulation_.clock().at_frame();
   if (at_frame || kind_ == io::SequenceKind::kSteps) append();
   if (at_frame) ++totals_.frames;
@@ -169,6 +193,7 @@ void Recorder::finish(const RunOutcome& outcome) {
   for_each_total(totals_, [&](const char* name, const auto& field) {
     json += fmt::format("  \"{}\": {},\n", name, json_number(field));
   });
+  json += fmt::format("  \"waits\": {},\n", json_list(waits_, simulation_.world()));
   json += fmt::format("  \"scene_fingerprint\": \"{:016x}\"\n}}\n", fingerprint_of(scene_));
   io::write_atomically(folder_ / kRunFile, json);
 }
@@ -177,7 +202,7 @@ void Recorder::append() { writer_.append(simulation_.clock().time_s(), points_of
 
 void Recorder::save_checkpoint() {
   write_checkpoint(folder_ / kCheckpointFile,
-                   {scene_, static_cast<std::int64_t>(writer_.frame_count()), simulation_.state(), totals_});
+                   {scene_, static_cast<std::int64_t>(writer_.frame_count()), simulation_.state(), totals_, waits_});
 }
 
 }  // namespace selvage::sim

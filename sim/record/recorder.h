@@ -44,6 +44,7 @@ class Recorder {
   /// the checkpoint before is the one to go on from. Writes run.json.
   void finish(const RunOutcome& outcome);
   [[nodiscard]] const RunTotals& totals() const { return totals_; }
+  [[nodiscard]] const BodyWaits& waits() const { return waits_; }
   [[nodiscard]] bool resumed() const { return resumed_; }
 
  private:
@@ -60,6 +61,7 @@ class Recorder {
   SceneIdentity scene_;
   io::SequenceWriter writer_;
   RunTotals totals_;
+  BodyWaits waits_;
   bool resumed_ = false;
 };
 

@@ -10,6 +10,8 @@ constexpr double kLeastGain = 1e-3;  // of the way: a step that gains less ends 
 
 void approach_start(UntangleState& state) {
   std::vector<double> inverse_mass(state.bodies.inverse_mass.begin(), state.bodies.inverse_mass.end());
+  CollisionBodies bodies = state.bodies;
+  bodies.inverse_mass = inverse_mass;
   for (VertexId v = 0; v < state.mesh.vertex_count; ++v) {
     if (state.x.row(v) == state.V.row(v)) inverse_mass[static_cast<std::size_t>(v)] = 0;
   }
@@ -22,7 +24,7 @@ void approach_start(UntangleState& state) {
       const Vec3 here = state.x.row(v), there = state.V.row(v);
       candidate.row(v) = here + (there - here) / 2;
     }
-    const CollisionStepResult result = step(state.x, candidate, {inverse_mass, state.bodies.body}, kRepairStep_s);
+    const CollisionStepResult result = step(state.x, candidate, bodies, kRepairStep_s);
     if (result.report.status != StepStatus::kSafe) return;
     const double now_left = (result.x - state.V).norm();
     if (!(now_left < (1 - kLeastGain) * left)) return;

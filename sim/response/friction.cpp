@@ -1,7 +1,6 @@
 #include "sim/response/friction.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
 

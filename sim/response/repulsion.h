@@ -2,7 +2,6 @@
 // pairs that are near come no nearer than the thickness.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "sim/contact/collision_options.h"

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/base/rigid_motion.h"
-#include "sim/contact/collision_options.h"
+#include "sim/contact/collision_bodies.h"
 #include "sim/response/step_motion.h"
 
 namespace selvage::sim {

@@ -1,6 +1,7 @@
 #include "sim/response/step_limit.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "kernel/assert.h"
 #include "kernel/proximities.h"
@@ -35,8 +36,12 @@ StepLimiter::StepLimiter(const Mesh& mesh, BoxHierarchy& hierarchy, const Script
       reach_(reach),
       state_(static_cast<std::size_t>(mesh.vertex_count)) {}
 
-std::int64_t StepLimiter::restrained_count() const {
-  return std::ranges::count_if(state_, [](const Restrained& r) { return r.level != Restraint::kFree; });
+std::vector<VertexId> StepLimiter::restrained() const {
+  std::vector<VertexId> result;
+  for (VertexId v = 0; v < mesh_.vertex_count; ++v) {
+    if (state_[static_cast<std::size_t>(v)].level != Restraint::kFree) result.push_back(v);
+  }
+  return result;
 }
 
 StepLimiter::Restrained StepLimiter::at_start_of_round(VertexId vertex, const std::vector<std::uint8_t>& raised) const {

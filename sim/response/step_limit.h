@@ -49,8 +49,8 @@ class StepLimiter {
 
   /// Restrains vertices of every collision that is not proved free of touch. Nothing where there was a conflict.
   [[nodiscard]] std::optional<Conflict> restrain(const CollisionTracker& tracker, StepMotion& motion);
-  /// Cloth vertices that are restrained.
-  [[nodiscard]] std::int64_t restrained_count() const;
+  /// Cloth vertices that are restrained, sorted.
+  [[nodiscard]] std::vector<VertexId> restrained() const;
 
  private:
   struct Restrained {

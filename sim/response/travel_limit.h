@@ -24,7 +24,7 @@ inline constexpr double kMaxTravel = 1024;
 inline constexpr std::size_t kMostMeetings = 64;
 /// So many are borne by the smallest mesh, too, whose whole search costs less than several that are given up: 54
 /// vertices with coordinates of all magnitudes took 3.4 s, and 11.4 where 3,456 were too many.
-inline constexpr std::size_t kLeastMostMeetings = std::size_t{1} << 14;
+inline constexpr std::size_t kMeetingsOfAnyMesh = std::size_t{1} << 14;
 /// But pairs that are near only in the end do not count where more than a 16th of so many are within the tolerance at
 /// the start: it is long beside the edges there, and cloth has about as many at the end of any step.
 inline constexpr std::size_t kMeetingsPerNearAtStart = 16;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/contact/collision_bodies.h"
 #include "sim/contact/collision_options.h"
 #include "sim/scene/garment.h"
 #include "sim/scene/rigid_path.h"
@@ -108,7 +109,7 @@ struct TimeSpec {
       dynamics_step_s;  ///< none: from the springs' stability limit, or the collision step where implicit
   std::size_t dynamics_step_line = 0;  ///< in the file; whether the step is stable shows only in the world
   std::optional<double> min_step_s;    ///< none: the dynamics' step, or an eighth of max_step_s where implicit
-  std::optional<double> max_step_s;    ///< none: one frame
+  std::optional<double> max_step_s;    ///< none: one frame, at most kLongestImplicit_s where implicit
 };
 
 struct Scene {

@@ -253,7 +253,7 @@ BodySpec read_body(TomlTable table, std::span<const std::string> earlier, std::s
   return body;
 }
 
-TimeSpec read_time(TomlTable table) {
+TimeSpec read_time(TomlTable table, Solver solver) {
   table.know_only({"frames_per_s", "frames", "duration_s", "dynamics_step_s", "max_step_s", "min_step_s"});
   TimeSpec time;
   time.frames_per_s = table.number("frames_per_s", {1e-6, 1e6}, time.frames_per_s);
@@ -277,7 +277,13 @@ TimeSpec read_time(TomlTable table) {
   time.dynamics_step_s = step("dynamics_step_s", frame_s, "a frame");
   time.dynamics_step_line = table.line("dynamics_step_s");
   time.max_step_s = step("max_step_s", frame_s, "a frame");
-  time.min_step_s = step("min_step_s", time.max_step_s.value_or(frame_s), time.max_step_s ? "max_step_s" : "a frame");
+  if (time.max_step_s) {
+    time.min_step_s = step("min_step_s", *time.max_step_s, "max_step_s");
+  } else if (solver == Solver::kImplicit && kLongestImplicit_s < frame_s) {
+    time.min_step_s = step("min_step_s", kLongestImplicit_s, "the default max_step_s of solver = \"implicit\"");
+  } else {
+    time.min_step_s = step("min_step_s", frame_s, "a frame");
+  }
   table.finish();
   return time;
 }
@@ -308,13 +314,13 @@ Scene read_root(TomlTable root) {
   Scene scene;
   std::optional<TomlTable> time = root.table("time");
   if (!time) root.fail("the table [time] is missing; add it with frames = ...");
-  scene.time = read_time(std::move(*time));
+  scene.solver = root.choice("solver", {"explicit", "implicit"}) == 0 ? Solver::kExplicit : Solver::kImplicit;
+  scene.time = read_time(std::move(*time), scene.solver);
   scene.gravity_m_s2 = root.vector("gravity_m_s2", {-1e6, 1e6}, Vec3::Zero());
   scene.drag_1_s = root.number("drag_1_s", {0, 1e6}, 0);
   scene.quadratic_drag_1_m = root.number("quadratic_drag_1_m", {0, 1e6}, 0);
   scene.strain.strain = root.number("strain_limit", {0, 0.9}, scene.strain.strain);
   scene.squeeze = root.choice("squeeze", {"stop", "yield"}) == 0 ? SqueezePolicy::kStop : SqueezePolicy::kYield;
-  scene.solver = root.choice("solver", {"explicit", "implicit"}) == 0 ? Solver::kExplicit : Solver::kImplicit;
   if (scene.solver == Solver::kExplicit) {
     scene.strain.strain_rate = root.number("strain_rate_limit", {0, 0.9}, scene.strain.strain_rate);
   } else if (root.number("strain_rate_limit", {0, 0.9}, 0) > 0) {

@@ -17,7 +17,7 @@ class LengthCheck {
   enum class Reference : std::uint8_t { kRestLength, kLengthNow };
 
   /// Sets is_outside[spring] to 1 for those whose length at x_t1 is not within 1 - share and 1 + share of the
-  /// reference, to 0 for all others; up to a trillionth of the reference. A length that is not a number is outside.
+  /// reference, to 0 for all others; to 2^-46 of the reference. A length that is not a number is outside.
   void find_outside(const LaneVectors& x_t0, const LaneVectors& x_t1, Reference reference, double share,
                     std::vector<std::uint8_t>& is_outside) const;
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
+#include "tests/squeeze_scene.h"
 
 namespace selvage {
 namespace {
@@ -56,9 +57,7 @@ Keys documented(const std::string& heading) {
 TEST(ReportKeys, OfSimAreDocumented) {
   const TemporaryFolder folder;
   const auto scene = folder.path() / "scene.toml", out = folder.path() / "out";
-  spit(scene,
-       "[time]\nframes = 1\n[[cloth]]\nsheet = {nx = 3, ny = 3, width_m = 1, height_m = 1}\n"
-       "density_kg_m2 = 0.2\nstretch_n_m = 50\n");
+  spit(scene, testing::squeeze_scene_text("yield"));  // in which a body waits
   ASSERT_EQ(run_program(folder, {"sim", scene, "-o", out}).exit_code, 0);
   Keys keys;
   collect(nlohmann::json::parse(slurp(out / "run.json")), "", keys);

@@ -40,6 +40,23 @@ TEST_F(SimCommand, ABodyThatWaitedIsNamedWithTimesAndLag) {
   EXPECT_NEAR(lag_m, 0.01, 2e-3);
 }
 
+TEST_F(SimCommand, WhoWaitedBeforeAKillIsNamedAfterIt) {
+  const std::string text = testing::squeeze_scene_text("yield", "0.03");
+  const auto last_line = [](const std::string& out) { return out.substr(out.find("\"hammer\" waited in ")); };
+  const auto whole = sim(text);
+  const auto waits = nlohmann::json::parse(slurp(path("out/run.json"))).at("waits");
+  ASSERT_EQ(waits.size(), 1U);
+  EXPECT_EQ(waits[0].at("name"), "hammer");
+  std::filesystem::remove_all(path("out"));
+  EXPECT_EQ(sim(text, {"--frames", "7"}).exit_code, 0);
+  const auto before = nlohmann::json::parse(slurp(path("out/run.json"))).at("waits");
+  ASSERT_EQ(before.size(), 1U) << "it waits on both sides";
+  EXPECT_LT(before[0].at("steps"), waits[0].at("steps"));
+  const auto resumed = sim(text, {"--resume"});
+  EXPECT_EQ(last_line(resumed.out), last_line(whole.out));
+  EXPECT_EQ(nlohmann::json::parse(slurp(path("out/run.json"))).at("waits"), waits);
+}
+
 TEST_F(SimCommand, SolvesThatDoNotConvergeAreNotedAndStrictCountsThem) {
   const auto over_a_ball = [](const std::string& velocity_m_s) {
     return "solver = \"implicit\"\n[time]\nframes_per_s = 5\nframes = 1\nmax_step_s = 0.2\nmin_step_s = 0.2\n"

@@ -159,6 +159,7 @@ TEST(CollisionStep, NodeSandwichedBetweenTwoTrianglesIsResolvedByOneParallelRoun
   EXPECT_EQ(exact_defect(scene, result), "");
   EXPECT_EQ(result.report.zone_rounds, 0);
   EXPECT_EQ(result.report.fail_safe_vertices, 0);
+  EXPECT_TRUE(result.report.without_room.empty());
   EXPECT_LT(highest(result.x, below), lowest(result.x, between));
   EXPECT_LT(highest(result.x, between), lowest(result.x, above));
 }
@@ -191,6 +192,7 @@ TEST(CollisionStep, FailSafeAloneKeepsAnyCandidateFree) {
     SCOPED_TRACE(scale);
     EXPECT_EQ(exact_defect(scene, result), "");
     EXPECT_GT(result.report.fail_safe_vertices, 0);
+    EXPECT_EQ(std::ssize(result.report.without_room), result.report.fail_safe_vertices);
     EXPECT_LE(result.report.fail_safe_rounds, 3 * 75 + 1);
   }
 }
@@ -198,7 +200,8 @@ TEST(CollisionStep, FailSafeAloneKeepsAnyCandidateFree) {
 TEST(CollisionStep, ImpactZonesAloneResolveACrumple) {
   StepScene scene;
   for (int layer = 0; layer < 4; ++layer) scene.add(sheet(6), Vec3(1e-3 * layer, 0, 2e-3 * layer));
-  for (Eigen::Index v = 0; v < scene.V_t0.rows(); ++v) scene.V_candidate(v, 2) = 4e-3 - scene.V_t0(v, 2);
+  const StepScene::Part beside = scene.add(sheet(2), Vec3(1, 0, 0));
+  for (VertexId v = 0; v < beside.begin; ++v) scene.V_candidate(v, 2) = 4e-3 - scene.V_t0(v, 2);
   scene.options.impulse_iterations = 0;
   scene.options.repulsion = false;
   const Positions v_before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
@@ -206,6 +209,10 @@ TEST(CollisionStep, ImpactZonesAloneResolveACrumple) {
   EXPECT_EQ(exact_defect(scene, result), "");
   EXPECT_GT(result.report.zone_rounds, 0);
   EXPECT_GT(result.report.largest_zone, 4);
+  const std::vector<VertexId>& without_room = result.report.without_room;
+  ASSERT_GE(std::ssize(without_room), result.report.largest_zone);
+  EXPECT_TRUE(std::ranges::is_sorted(without_room, std::ranges::less_equal())) << "and none twice";
+  EXPECT_LT(without_room.back(), beside.begin);
   EXPECT_EQ(result.report.fail_safe_vertices, 0);
   EXPECT_LE((momentum(scene, result.velocity) - momentum(scene, v_before)).norm(), 1e-12 * v_before.norm());
   EXPECT_LE(result.velocity.squaredNorm(), v_before.squaredNorm() * (1 + 1e-12));

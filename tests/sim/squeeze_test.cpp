@@ -88,6 +88,40 @@ sheet = {nx = 2, ny = 2, width_m = 20, height_m = 20}
 
 }  // namespace
 
+// Loads of all contacts were forgotten for it: six sheets that lay ten metres away sank by an eighth, and trembled.
+TEST(Squeeze, ABodyThatWaitsIsNotFeltByWhatRestsElsewhere) {
+  const std::string far = R"(
+[[cloth]]
+name = "far"
+copies = 3
+copy_offset_m = [0.01, 0.01, 0.0041]
+sheet = {nx = 5, ny = 5, width_m = 0.2, height_m = 0.2}
+position_m = [5, 0, 0.0041]
+density_kg_m2 = 0.2
+stretch_n_m = 60
+)";
+  Simulation simulation(parse_scene(kPressed + far, "pressed.toml"));
+  const VertexId first = 14 * 14, end = first + 3 * 25;
+  std::int64_t waits = 0;
+  double fastest_m_s = 0;
+  while (simulation.clock().state().frame < 40) {
+    const Positions before = simulation.x();
+    const StepResult step = simulation.step();
+    ASSERT_EQ(step.report.status, StepStatus::kSafe);
+    if (step.report.waiting_bodies.empty()) continue;
+    ++waits;
+    const Positions way = (simulation.x() - before).middleRows(first, end - first);
+    fastest_m_s = std::max(fastest_m_s, way.rowwise().norm().maxCoeff() / step.dt_s);
+    const auto is_far = [&](const ContactLoad& load) { return load.first >= first && load.first < end; };
+    ASSERT_TRUE(std::ranges::any_of(simulation.state().loads.vf, is_far));
+    ASSERT_TRUE(std::ranges::all_of(simulation.state().loads.vf, is_far)) << "what is pressed had no room";
+  }
+  EXPECT_GT(waits, 20);
+  EXPECT_GT(simulation.x().middleRows(first, end - first).col(2).minCoeff(), 0.00395);
+  EXPECT_GT(simulation.x().middleRows(end - 25, 25).col(2).minCoeff(), 0.0118);
+  EXPECT_LT(fastest_m_s, 2e-3);
+}
+
 TEST(Squeeze, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
   Simulation simulation(parse_scene(kPressed, "pressed.toml"));
   const std::int32_t cloth = simulation.world().cloth_vertex_count;

@@ -54,7 +54,7 @@ struct Numbers {
 using Order = ContactGroups::Order;
 using Refused = ContactGroups::Refused;
 
-std::vector<std::size_t> lanes_of(Lanes lanes) {
+std::vector<std::size_t> lanes_of(LaneMask lanes) {
   std::vector<std::size_t> result;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (has_lane(lanes, lane)) result.push_back(lane);
@@ -64,7 +64,7 @@ std::vector<std::size_t> lanes_of(Lanes lanes) {
 
 /// The members that are called, by place.
 template <class Visit>
-void visit(std::size_t pack, Lanes lanes, Visit visit_place) {
+void visit(std::size_t pack, LaneMask lanes, Visit visit_place) {
   for (const std::size_t lane : lanes_of(lanes)) visit_place(pack * kLanes + lane, only_lane(lane));
 }
 
@@ -86,9 +86,9 @@ TEST(ContactGroups, PropActAsOneAfterTheOtherInTheirOrder) {
     std::vector<std::uint8_t> left(order.size(), 0);
     Numbers together, apart;
     selvage::testing::with_threads(4, [&] {
-      groups.each(backwards, [&](std::size_t pack, Lanes lanes, const ContactGroups::Reach& reach) {
+      groups.each(backwards, [&](std::size_t pack, LaneMask lanes, const ContactGroups::Reach& reach) {
         Refused refused;
-        visit(pack, lanes, [&](std::size_t place, Lanes lane) {
+        visit(pack, lanes, [&](std::size_t place, LaneMask lane) {
           const ContactGroups::Member& member = heap.members[order[place]];
           const auto is_in_reach = [&](VertexId v) { return v < 0 || reach.has(v); };  // RC_ASSERT's || asks both sides
           RC_ASSERT(std::ranges::all_of(member.vertices, is_in_reach));
@@ -142,7 +142,7 @@ TEST(ContactGroups, MostOfALargeHeapActsAtTheSameTime) {
   const Heap heap(7, 6000);
   ContactGroups groups(heap.members, kVertexCount, Order::kAsGiven);
   std::atomic<int> alone = 0;
-  groups.each(false, [&](std::size_t, Lanes lanes, const ContactGroups::Reach& reach) {
+  groups.each(false, [&](std::size_t, LaneMask lanes, const ContactGroups::Reach& reach) {
     bool has_all = true;
     for (VertexId v = 0; has_all && v < kVertexCount; ++v) has_all = reach.has(v);
     alone += has_all ? std::popcount(lanes) : 0;
@@ -178,7 +178,7 @@ TEST(ContactGroups, OfOneVertexActAlone) {
   for (const Order order : {Order::kAsGiven, Order::kNearly}) {
     ContactGroups groups(fan, 10, order);
     int calls = 0;  // not atomic: they are on one thread
-    groups.each(false, [&](std::size_t, Lanes lanes, const ContactGroups::Reach& reach) {
+    groups.each(false, [&](std::size_t, LaneMask lanes, const ContactGroups::Reach& reach) {
       EXPECT_TRUE(reach.has(9));
       EXPECT_EQ(std::popcount(lanes), 1);
       ++calls;
@@ -196,10 +196,10 @@ TEST(ContactGroups, WhatNeedsMoreThanItsReachActsAfterAllOthersAndThenAlone) {
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<int> refused(groups.order().size(), 0), acted(groups.order().size(), 0);
     std::vector<std::size_t> last;
-    const auto act = [&](std::size_t pack, Lanes lanes, const ContactGroups::Reach& reach) {
+    const auto act = [&](std::size_t pack, LaneMask lanes, const ContactGroups::Reach& reach) {
       const std::scoped_lock lock(mutex);
       Refused result;
-      visit(pack, lanes, [&](std::size_t place, Lanes lane) {
+      visit(pack, lanes, [&](std::size_t place, LaneMask lane) {
         const bool has_far = reach.has((heap.members[groups.order()[place]].vertices[0] + 1500) % kVertexCount);
         if (needs_far_vertex(place) && !has_far) {
           ++refused[place];
@@ -232,10 +232,10 @@ TEST(ContactGroups, WhatCannotActAtOnceActsAfterThePacksOfItsGroupAndThenOneByOn
   const auto refuses = [&](std::size_t place) { return groups.order()[place] % 5 == 0; };
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<std::size_t> acted;
-    groups.each(pass == 1, [&](std::size_t pack, Lanes lanes, const ContactGroups::Reach&) {
+    groups.each(pass == 1, [&](std::size_t pack, LaneMask lanes, const ContactGroups::Reach&) {
       Refused result;
       const bool is_single = std::popcount(lanes) == 1;
-      visit(pack, lanes, [&](std::size_t place, Lanes lane) {
+      visit(pack, lanes, [&](std::size_t place, LaneMask lane) {
         if (refuses(place) && !is_single) {
           EXPECT_EQ(pass, 0);
           result.at_once |= lane;

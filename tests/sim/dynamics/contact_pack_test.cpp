@@ -14,7 +14,7 @@ namespace selvage::sim::testbed {
 namespace {
 
 constexpr double kPackThickness = 0.25, kPackStep = 0.125;
-constexpr Lanes kAll = 0xff;
+constexpr LaneMask kAll = 0xff;
 
 /// Eight pairs of one kind, of whose vertices some are not cloth and some lie on a line.
 struct EightPairs {
@@ -70,10 +70,10 @@ struct EightPairs {
   ContactMotion motion() { return {x_t1, v, scripted_x, scripted_way, kPackStep, 0, 1, creep_m}; }
 
   /// A step of the dynamics, of those given.
-  void step(Lanes lanes) {
+  void step(LaneMask lanes) {
     PackMotion read;
     read_motion(pack, lanes, motion(), read);
-    Lanes loaded = 0;
+    LaneMask loaded = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       if (pack.load_m_s2[lane] > 0) loaded |= only_lane(lane);
     }
@@ -81,7 +81,7 @@ struct EightPairs {
     find_nearest(kind, read, nearest);
     bear_loads(read, take_nearest(nearest, lanes & loaded, pack), pack, motion());
     read_motion(pack, lanes, motion(), read);
-    const Lanes pressed = take_nearest(nearest, newly_pressed(pack, read, lanes), pack);
+    const LaneMask pressed = take_nearest(nearest, newly_pressed(pack, read, lanes), pack);
     press(read, (lanes & loaded) | pressed, 1, true, pack, motion());
     learn_loads(kind, 0.5, kPackStep, pack);
   }

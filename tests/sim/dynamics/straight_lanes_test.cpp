@@ -55,7 +55,7 @@ TEST(StraightLanes, TurnDirectionsAsOneContactAlone) {
     const Positions V_t0 = four_points(), V_t1 = four_points();
     PackStraight pack;
     PackNearest nearest{}, expected{};
-    Lanes beyond = 0;
+    LaneMask beyond = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       StraightFeature feature{{any_surface(), any_surface(), any_surface()}, {}};
       if (kind == PairKind::kVf) feature.parts[1] = feature.parts[2] = {};

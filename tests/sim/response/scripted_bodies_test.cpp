@@ -43,7 +43,8 @@ TEST(ScriptedBodies, ClothPinchedByTwoBodiesStopsWithAWitnessOrTheBodiesWait) {
   StepScene scene;
   const auto floor = scene.add(make_box(Vec3(0.06, 0.06, 0.02), 2), Vec3(0, 0, -0.012), 0);
   const auto press = scene.add(make_box(Vec3(0.05, 0.05, 0.02), 2), Vec3(0, 0, 0.012), 1);
-  scene.add(sheet(8), Vec3::Zero());
+  const auto cloth = scene.add(sheet(8), Vec3::Zero());
+  scene.add(sheet(2), Vec3(1, 0, 0));
   scene.push(press, Vec3(0, 0, -0.01));  // 6 mm into the floor
   const CollisionStepResult stopped = scene.step();
   EXPECT_EQ(stopped.report.status, StepStatus::kStopped);
@@ -56,6 +57,9 @@ TEST(ScriptedBodies, ClothPinchedByTwoBodiesStopsWithAWitnessOrTheBodiesWait) {
   const CollisionStepResult yielded = scene.step();
   EXPECT_EQ(exact_defect(scene, yielded), "");
   EXPECT_EQ(yielded.report.waiting_bodies, (std::vector<std::int32_t>{1}));
+  ASSERT_FALSE(yielded.report.without_room.empty());
+  EXPECT_GE(yielded.report.without_room.front(), cloth.begin);
+  EXPECT_LT(yielded.report.without_room.back(), cloth.end);
   for (VertexId v = floor.begin; v < floor.end; ++v) EXPECT_EQ(yielded.x.row(v), scene.V_t0.row(v));
 }
 

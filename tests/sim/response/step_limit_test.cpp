@@ -100,7 +100,7 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
 
   StepLimiter limiter(step.mesh, step.hierarchy, step.groups, 1);
   ASSERT_FALSE(limiter.restrain(step.tracker, step.motion));
-  EXPECT_EQ(limiter.restrained_count(), std::ranges::count(collides, 1));
+  EXPECT_EQ(std::ssize(limiter.restrained()), std::ranges::count(collides, 1));
   const std::vector<double> distance = clearance(step.mesh, step.hierarchy, scene.V_t0, 1, step.all);
   for (std::size_t v = 0; v < collides.size(); ++v) {
     if (collides[v] == 0) continue;
