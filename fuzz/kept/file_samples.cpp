@@ -109,7 +109,6 @@ std::string header_text() {
 /// A report in which there is something of everything.
 std::string report_text() {
   verify::SequenceReport report;
-  report.verdict = verify::Verdict::kViolated;
   report.frames = {2, 0};
   report.motions = {1, 1};
   report.frames_expected = 2;
@@ -129,12 +128,15 @@ std::string report_text() {
   report.violations = {violation};
   report.second_opinion = verify::SecondOpinionScope::kAll;
   report.disagreements = {violation};
+  report.pairs.disagreed = 1;
+  report.max_violations = 1;
   report.gap_searched = true;
   report.gap = {0.5, 0.5, 1, verify::EventKind::kEe, {0, 1}};
   report.unchecked = {"frame 1"};
   report.exempted = {{{"a", "b"}, 3}};
   report.ignored = {{"c", 1}};
   report.welded = {1, 0};
+  report.verdict = verify::verdict_of(report);
   return verify::json_report(report, {"x", {"a.obj"}, {{0, "a"}, {1, "b"}}, {{"option", "1"}}});
 }
 

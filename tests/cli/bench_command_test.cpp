@@ -15,19 +15,19 @@ TEST(BenchCommand, FramesOfTwoMeshesAreRefusedByTheirNames) {
   const std::string first = folder.path() / "first.obj", other = folder.path() / "other.obj";
   spit(first, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
   const struct {
-    const char *mesh, *message;
-  } cases[] = {{"v 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 2 4 3\n", "their faces differ"},
-               {"v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n", "4 and 3 vertices"},
-               {"v 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1e305\nf 1 2 3\n", "exceeds kMaxCoordinate"}};
+    const char* mesh;
+    std::string message;
+  } cases[] = {
+      {"v 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 2 4 3\n", first + ", " + other + ": their faces differ"},
+      {"v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n", first + ", " + other + ": 4 and 3 vertices"},
+      {"v 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1e305\nf 1 2 3\n", other + ": vertex 3 has the coordinate 1e+305, beyond"}};
   for (const auto& c : cases) {
     spit(other, c.mesh);
     for (const char* what : {"ccd", "broad"}) {
       SCOPED_TRACE(std::string(what) + ": " + c.message);
       const auto result = run_program(folder, {"bench", what, first, other, "--repeat", "1"});
       EXPECT_EQ(result.exit_code, 3) << result.out;
-      for (const std::string& part : {first, other, std::string(c.message)}) {
-        EXPECT_NE(result.err.find(part), std::string::npos) << part << " in " << result.err;
-      }
+      EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
     }
   }
 }
