@@ -1,6 +1,7 @@
 #include "cli/bench_methods_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/hard_queries.h"
+#include "io/text.h"
 
 namespace selvage::cli {
 namespace {
@@ -47,7 +49,8 @@ ExitCode bench_methods(const MethodsArguments& arguments) {
   if (!arguments.frame_t0.empty()) {
     if (arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
     const bench::MeshMotion motion = bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1);
-    run(bench::candidate_set("public frame pair", motion, most));
+    const auto name_of = [](const std::filesystem::path& file) { return io::printable(file.filename().string()); };
+    run(bench::candidate_set(name_of(arguments.frame_t0) + " to " + name_of(arguments.frame_t1), motion, most));
   }
   if (arguments.sheet > 0) {
     const bench::MeshMotion motion = bench::crumpled_sheet(arguments.sheet);
