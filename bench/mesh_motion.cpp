@@ -2,11 +2,10 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "io/error.h"
 #include "io/mesh_reader.h"
 #include "kernel/box_hierarchy.h"
+#include "sim/base/points.h"
 
 namespace selvage::bench {
 namespace {
@@ -40,18 +39,6 @@ double smooth_noise(int i, int j, int channel) {
 constexpr int kPleat = 10;  // edges from one fold to the next
 constexpr double kFoldRoughness = 0.12, kTravel = 1.5;
 
-void require_in_domain(const io::Points& points, const std::filesystem::path& file) {
-  for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
-    for (const double x : points[vertex]) {
-      if (std::abs(x) <= kMaxCoordinate) continue;
-      throw io::Error(io::ErrorKind::kBadInput,
-                      fmt::format("{}: vertex {} has the coordinate {:g}, beyond {:g}, which is the largest that the "
-                                  "kernel takes; choose a larger unit of length",
-                                  file.string(), vertex, x, kMaxCoordinate));
-    }
-  }
-}
-
 }  // namespace
 
 MeshMotion mesh_motion(const io::MeshData& t0, const io::MeshData& t1) {
@@ -79,8 +66,8 @@ MeshMotion read_mesh_motion(const std::filesystem::path& file_t0, const std::fil
   if (t0.triangles != t1.triangles) {
     throw io::Error(io::ErrorKind::kBadInput, both + "their faces differ; name two frames of one mesh");
   }
-  require_in_domain(t0.points, file_t0);
-  require_in_domain(t1.points, file_t1);
+  sim::require_in_domain(t0.points, file_t0.string());
+  sim::require_in_domain(t1.points, file_t1.string());
   try {
     return mesh_motion(t0, t1);
   } catch (const io::Error& error) {

@@ -66,20 +66,6 @@ Intersections find_intersections(const io::Triangles& triangles, const std::vect
   }
 }
 
-/// Throws io::Error where the kernel could not answer for the frame.
-void require_in_domain(const io::Points& points, const std::string& name) {
-  for (std::size_t vertex = 0; vertex < points.size(); ++vertex) {
-    for (const double x : points[vertex]) {
-      if (std::abs(x) <= kMaxCoordinate) continue;
-      throw io::Error(
-          io::ErrorKind::kBadInput,
-          fmt::format("{}: vertex {} has the coordinate {:g}, beyond {:g}, which is the largest that can be "
-                      "subdivided; choose a larger unit of length",
-                      name, vertex, x, kMaxCoordinate));
-    }
-  }
-}
-
 /// Throws io::Error unless frame `frame` can be subdivided by the rules of the first one.
 io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, const io::MeshData& first) {
   io::MeshData mesh = input.frame(frame);
@@ -94,7 +80,7 @@ io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, cons
   }
   if (mesh.triangles != first.triangles) throw differs("its faces are not those of the first frame");
   if (mesh.groups != first.groups) throw differs("its groups are not those of the first frame");
-  require_in_domain(mesh.points, name);
+  sim::require_in_domain(mesh.points, name);
   return mesh;
 }
 

@@ -8,6 +8,7 @@
 #include "kernel/assert.h"
 #include "kernel/fp_env.h"
 #include "sim/base/parallel.h"
+#include "sim/base/sorted_once.h"
 #include "sim/contact/contact_table.h"
 #include "sim/contact/start_proximities.h"
 #include "sim/contact/straight_surface.h"
@@ -305,11 +306,6 @@ void Attempt::add_colliding() {
   for (const Collision& collision : tracker_.collisions()) {
     if (collision.ccd.cause != CcdCause::kEnd) add_without_room(tracker_.vertices(collision));
   }
-}
-
-void keep_sorted_once(std::vector<VertexId>& vertices) {
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
 /// displacement / dt, at the largest finite double where that overflows.

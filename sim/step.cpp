@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/assert.h"
+#include "sim/base/sorted_once.h"
 #include "sim/dynamics/central_differences.h"
 #include "sim/dynamics/held_contacts.h"
 #include "sim/dynamics/implicit_dynamics.h"
@@ -33,13 +34,6 @@ constexpr int kHoldingRounds = 3;
 // collisions however short the step is. A carpet of 2 kg/m^2 on three veils of 20 g/m^2, 1.5 s: 102 steps in place of
 // 1,005; docs/simulator-speed.md has more.
 constexpr std::int32_t kLastSweeps = 4;
-
-/// To a list that is sorted, without repeats.
-void add_vertices(std::span<const VertexId> vertices, std::vector<VertexId>& list) {
-  list.insert(list.end(), vertices.begin(), vertices.end());
-  std::ranges::sort(list);
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
 
 /// #V: 1 where the collision step has changed the motion of the vertex' part. The dynamics' own velocity holds for the
 /// others, whatever it did elsewhere.
@@ -90,7 +84,8 @@ StepResult Simulation::step() {
   result.dt_s = clock_.dt_s();
   result.end_s = clock_.end_s();
   std::tie(tried.safe.report.waiting_bodies, tried.safe.report.waiting_vertices) = script_.waiting();
-  add_vertices(without_room, tried.safe.report.without_room);
+  std::ranges::copy(without_room, std::back_inserter(tried.safe.report.without_room));
+  keep_sorted_once(tried.safe.report.without_room);
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried);

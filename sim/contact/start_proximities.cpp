@@ -8,6 +8,7 @@
 #include "kernel/assert.h"
 #include "sim/base/parallel.h"
 #include "sim/base/points.h"
+#include "sim/base/sorted_once.h"
 #include "sim/contact/contact_reach.h"
 #include "sim/contact/local_proximities.h"
 
@@ -39,8 +40,7 @@ void StartProximities::leave_out(std::span<const RepulsionContact> contacts) {
       if (place) known_.push_back(*place);
     }
   }
-  std::ranges::sort(known_);
-  known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
+  keep_sorted_once(known_);
 }
 
 std::vector<PairProximity> StartProximities::find(const Positions& V_t1, const Vec3& fall, const Candidates& pressed) {

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "sim/base/disjoint_sets.h"
+#include "sim/base/sorted_once.h"
 
 namespace selvage::sim {
 namespace {
@@ -122,8 +123,7 @@ void ClothUntangler::grow(Region& region) const {
     const auto& around = neighbours_[static_cast<std::size_t>(v)];
     grown.insert(grown.end(), around.begin(), around.end());
   }
-  std::ranges::sort(grown);
-  grown.erase(std::unique(grown.begin(), grown.end()), grown.end());
+  keep_sorted_once(grown);
   region = std::move(grown);
 }
 

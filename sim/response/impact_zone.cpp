@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "sim/base/sorted_once.h"
+
 namespace selvage::sim {
 namespace {
 
@@ -57,8 +59,7 @@ bool ImpactZones::merge(const std::array<VertexId, 4>& pair) {
 }
 
 void ImpactZones::move_grown(const Positions& displacement, std::span<const double> inverse_mass, StepMotion& motion) {
-  std::ranges::sort(grown_);
-  grown_.erase(std::unique(grown_.begin(), grown_.end()), grown_.end());
+  keep_sorted_once(grown_);
   for (const std::int32_t id : grown_) {
     if (members(id).empty()) continue;
     std::ranges::sort(members_[static_cast<std::size_t>(id)]);  // the order of sums

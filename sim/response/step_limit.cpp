@@ -5,6 +5,7 @@
 
 #include "kernel/assert.h"
 #include "kernel/proximities.h"
+#include "sim/base/sorted_once.h"
 
 namespace selvage::sim {
 
@@ -57,8 +58,7 @@ std::vector<GroupId> StepLimiter::moving_groups(const std::array<VertexId, 4>& p
     const GroupId group = groups_.is_scripted(v) ? groups_.group(v) : at_start_of_round(v, raised).carrier;
     if (group != ScriptedGroups::kCloth && groups_.moves(group)) result.push_back(group);
   }
-  std::ranges::sort(result);
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  keep_sorted_once(result);
   return result;
 }
 

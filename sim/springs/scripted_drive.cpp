@@ -5,6 +5,7 @@
 
 #include "sim/base/disjoint_sets.h"
 #include "sim/base/share_within.h"
+#include "sim/base/sorted_once.h"
 
 namespace selvage::sim {
 namespace {
@@ -52,8 +53,7 @@ class Sets {
       vertices.push_back(pair.a);
       vertices.push_back(pair.b);
     }
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    keep_sorted_once(vertices);
     return vertices;
   }
 

@@ -208,6 +208,32 @@ TEST_F(RecorderTest, FramesAreTheStepsThatEndAFrame) {
   for (std::size_t i = 0; i < states.size(); ++i) EXPECT_TRUE(same_bits(sequence->frame(i).points, states[i]));
 }
 
+TEST_F(RecorderTest, WaitsOfBodiesThatAreNotThereAreDamage) {
+  const auto folder = folder_.path() / "run", file = folder / "checkpoint.bin";
+  {
+    Simulation simulation(scene_);
+    Recorder recorder(folder, simulation, io::SequenceKind::kFrames, false, kProducer);
+    recorder.begin();
+    run(simulation, recorder, 1);
+  }
+  const Checkpoint whole = read_checkpoint(file).value();
+  const auto colliders = std::ssize(Simulation(scene_).world().colliders);
+  ASSERT_GE(colliders, 1);
+  const auto resume_with = [&](const BodyWaits& waits) {
+    Checkpoint checkpoint = whole;
+    checkpoint.waits = waits;
+    write_checkpoint(file, checkpoint);
+    Simulation simulation(scene_);
+    const Recorder recorder(folder, simulation, io::SequenceKind::kFrames, true, kProducer);
+    EXPECT_EQ(recorder.waits().size(), waits.size());
+  };
+  EXPECT_NO_THROW(resume_with({{colliders - 1, 1, 0, 1, 0}}));
+  for (const BodyWaits& waits :
+       {BodyWaits{{colliders, 1, 0, 1, 0}}, BodyWaits{{-1, 1, 0, 1, 0}}, BodyWaits{{0, 1, 0, 1, 0}, {0, 1, 0, 1, 0}}}) {
+    EXPECT_THROW(resume_with(waits), io::Error);
+  }
+}
+
 TEST_F(RecorderTest, AKilledRunResumesWithTheSameBits) {
   for (const io::SequenceKind kind : {io::SequenceKind::kSteps, io::SequenceKind::kFrames}) {
     const auto whole = folder_.path() / "whole", torn = folder_.path() / "torn";

@@ -63,6 +63,24 @@ TEST(ScriptedBodies, ClothPinchedByTwoBodiesStopsWithAWitnessOrTheBodiesWait) {
   for (VertexId v = floor.begin; v < floor.end; ++v) EXPECT_EQ(yielded.x.row(v), scene.V_t0.row(v));
 }
 
+TEST(ScriptedBodies, NobodyWaitsForWhatEndsTooNearElsewhere) {
+  StepScene scene;
+  scene.add(make_box(Vec3(0.06, 0.06, 0.02), 2), Vec3(0, 0, -0.012), 0);
+  const auto press = scene.add(make_box(Vec3(0.05, 0.05, 0.02), 2), Vec3(0, 0, 0.012), 1);
+  const auto cloth = scene.add(sheet(8), Vec3::Zero());
+  scene.add(sheet(2), Vec3(1, 0, 0));
+  scene.add(sheet(2), Vec3(1, 0, 1e-7));  // a tenth of the tolerance above
+  scene.push(press, Vec3(0, 0, -0.01));
+  scene.policy = SqueezePolicy::kYield;
+  scene.options.repulsion = false;
+  scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(result.report.waiting_bodies, (std::vector<std::int32_t>{1}));
+  EXPECT_FALSE(result.report.below_tolerance.empty());
+  ASSERT_FALSE(result.report.without_room.empty());
+  EXPECT_LT(result.report.without_room.back(), cloth.end);
+}
+
 TEST(ScriptedBodies, BodiesThatBothMoveBothWait) {
   StepScene scene;
   const auto below = scene.add(make_box(Vec3(0.06, 0.06, 0.02), 2), Vec3(0, 0, -0.012), 7);
