@@ -12,11 +12,11 @@
 
 namespace selvage::sim {
 
-/// Kept while the repulsions sweep; the dynamics looks for the points again (held_contacts.h).
+/// Kept while the repulsions sweep; the dynamics looks for the points again (swept_contacts.h).
 struct RepulsionContact {
   PairKind kind = PairKind::kVf;
   std::int32_t first = 0, second = 0;  ///< the pair, as in PairProximity
-  std::int32_t second_t0 = 0;          ///< that was met: a vertex slides on to other faces (held_contacts.h)
+  std::int32_t second_t0 = 0;          ///< that was met: a vertex slides on to other faces (swept_contacts.h)
   Interaction interaction;
   ContactProperties properties;
   PairVectors x_t0 = zero_vectors();

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "kernel/assert.h"
 #include "sim/base/parallel.h"
 #include "sim/dynamics/drag_steps.h"
-#include "sim/dynamics/held_contacts.h"
 #include "sim/dynamics/scripted_ends.h"
+#include "sim/dynamics/swept_contacts.h"
 #include "sim/dynamics/velocity_march.h"
 #include "sim/springs/spring_strain.h"
 
@@ -114,6 +115,8 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
   const double residual = velocity_residual();
   springs_.look(x_, force_);
   springs_.multiply(x_, v_, impulses_);
+  std::optional<SweptContacts> swept;
+  if (contacts != nullptr) swept.emplace(*contacts);
   for (int step = 0; step < count; ++step) {
     explicit_half_kick({h, options_.fields}, inverse_mass_, force_, impulses_, x_, v_, x_t1_);
     const LimitedMotion limited{x_, h, v_, x_t1_};
@@ -122,8 +125,8 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
       strain_.limit_strain(inverse_mass, limited);
       strain_.limit_strain_rate(inverse_mass, limited);
     };
-    if (contacts != nullptr) {
-      contacts->hold(held, limit);
+    if (swept) {
+      swept->hold(held, limit);
     } else {
       limit();
     }
@@ -132,6 +135,7 @@ DynamicsReport CentralDifferences::advance(Motion& motion, const PositionsRef& s
     springs_.look(x_, force_);
     implicit_half_kick(h, residual);
   }
+  if (swept) swept->finish();
   const Positions x_t0 = motion.x;
   x_.copy_to(motion.x);
   v_.copy_to(motion.v);

@@ -304,9 +304,9 @@ std::array<const double*, 3> axes_of(const LaneVectors& vectors) {
 
 }  // namespace
 
-void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack) {
+void set_load(double along_m_s2, const Vec3& friction_m_s2, std::size_t lane, ContactPack& pack) {
   pack.load_m_s2[lane] = along_m_s2;
-  for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = friction_m_s2[k];
+  for (std::size_t k = 0; k < 3; ++k) pack.friction_m_s2[k][lane] = friction_m_s2[static_cast<Eigen::Index>(k)];
 }
 
 void see_anew(const PackNearest& nearest, LaneMask lanes, ContactPack& pack) {

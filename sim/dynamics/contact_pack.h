@@ -1,4 +1,4 @@
-// Contacts in lanes: eight that share no vertex of cloth act at once (held_contacts.h).
+// Contacts in lanes: eight that share no vertex of cloth act at once (swept_contacts.h).
 #pragma once
 
 #include <array>
@@ -63,14 +63,14 @@ struct PackNearest {
 };
 
 /// What its contact begins the next step with.
-void set_load(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t lane, ContactPack& pack);
+void set_load(double along_m_s2, const Vec3& friction_m_s2, std::size_t lane, ContactPack& pack);
 
 /// Those whose column is above zero; that take as many sweeps.
 [[nodiscard]] LaneMask above_zero(const LaneColumn<double>& column);
 [[nodiscard]] LaneMask that_take(std::int32_t sweeps, const ContactPack& pack);
 
 // For all lanes, or for those given; same bits for any vector unit. What an impulse is and why is said in
-// held_contacts.h, what friction is in friction.h.
+// swept_contacts.h, what friction is in friction.h.
 
 void read_motion(const ContactPack& pack, LaneMask lanes, const ContactMotion& motion, PackMotion& result);
 

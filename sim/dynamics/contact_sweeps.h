@@ -1,4 +1,4 @@
-// How many sweeps of a step of the dynamics each of its held contacts takes (held_contacts.h).
+// How many sweeps of a step of the dynamics each of its held contacts takes (swept_contacts.h).
 #pragma once
 
 #include <cstdint>

@@ -1,33 +1,21 @@
-// Contacts held within the steps of the dynamics. A collision step holds many of these: a dynamics that does not know
-// of contact carries cloth into what it lies on and springs on with it, all of which the repulsions then take back at
-// once. What rests, rests differently for every length of the step then, and springs beside a contact are crushed.
+// Contacts that the dynamics holds within a collision step, and what they bear. A collision step holds many steps of
+// the dynamics: a dynamics that does not know of contact carries cloth into what it lies on and springs on with it, all
+// of which the repulsions then take back at once. What rests, rests differently for every length of the step then, and
+// springs beside a contact are crushed.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <optional>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "sim/base/lane_vectors.h"
 #include "sim/base/vertex_faces.h"
 #include "sim/contact/contact_table.h"
-#include "sim/contact/quick_proximity.h"
 #include "sim/contact/repulsion_contact.h"
-#include "sim/dynamics/contact_gains.h"
-#include "sim/dynamics/contact_groups.h"
+#include "sim/contact/surface_parts.h"
 #include "sim/dynamics/contact_load.h"
-#include "sim/dynamics/contact_pack.h"
-#include "sim/dynamics/straight_lanes.h"
 
 namespace selvage::sim {
-
-/// One step of the dynamics, of h seconds, that ends at `share` in (0, 1] of the collision step: x_t1 = x + h v.
-struct MidstepMotion {
-  double h, share;
-  LaneVectors& x_t1;
-  LaneVectors& v;
-};
 
 /// What the contacts are on; all must outlive them. The first `cloth_count` vertices move as the dynamics says, the
 /// others as V_t0 + s (V_t1 - V_t0) - s (1 - s) bow, s from 0 to 1 in the collision step: on straight lines without.
@@ -43,164 +31,70 @@ struct HeldSurface {
   Eigen::Index cloth_count;
   Vec3 gravity_m_s2;
   const Positions* bow_m = nullptr;  ///< of those that are not cloth, by 3; null: none
+
+  [[nodiscard]] bool is_cloth(VertexId vertex) const { return vertex < cloth_count; }
 };
 
+/// They do not act by themselves: explicit dynamics sweeps over them (swept_contacts.h), an implicit one solves for
+/// what they bear (stage_contacts.h).
 class HeldContacts {
  public:
-  /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted. `loads` are those at V_t0. The
-  /// positions must outlive it. REQUIRES contacts of kVf or kEe of which cloth can move, and sweeps >= 1.
+  /// Of a collision step of dt_s from V_t0, to V_t1 where it is scripted; `sweeps` for those that sweep. `loads` are
+  /// those at V_t0. The positions must outlive it. REQUIRES contacts of kVf or kEe of which cloth can move, and
+  /// sweeps >= 1.
   HeldContacts(std::vector<RepulsionContact> contacts, const ContactLoads& loads, const HeldSurface& surface,
-               const Positions& V_t0, const Positions& V_t1, double dt_s, int sweeps);
+               const Positions& V_t0, const Positions& V_t1, double dt_s, std::int32_t sweeps);
 
-  /// In this order, each where the contacts are now:
-  ///   1. the loads, with their friction;
-  ///   2. `limit`, the limits on strain, which else see cloth fall that is borne, and have it pull on what bears it
-  ///      (docs/numerics.md);
-  ///   3. sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike masses, and
-  ///      those beside them, take more sweeps than others, the first ones (contact_sweeps.h). In turn back and forth,
-  ///      but vertices before edges always: in cloth at rest on a plane they leave nothing for the edges between them
-  ///      to press, while edges alone lift one end to hold the other (a corner swung by 2 micrometres for ever);
-  ///   4. where 1 and 3 have given cloth that hangs together more energy than it falls by in 100 steps, past what
-  ///      bodies bring by their motion, all of it once more, without the loads of that cloth. `limit` may begin with
-  ///      what it found before: limits pass on what loads pushed too far, and leave it where the sweeps take that back.
-  ///      Loads grew by it, and a disc of 150 faces around one vertex, folded over a needle, flew off at 1,136 m/s
-  ///      (docs/stability.md).
-  ///
-  /// A contact alone, but for one beyond what is straight in it, ends no nearer than its thickness, or than it was
-  /// before the step, after any number of sweeps, and adds no energy: it takes back what its load or an earlier sweep,
-  /// over-relaxed, pushed too far, and the friction that it began with. Where its lever is limited (interaction.h) it
-  /// is pushed once, as far as that lets it. Of many something is left (tests/sim/energy_test.cpp asks their energy).
-  /// They keep linear momentum.
-  ///
-  /// Where they are now: held where they were at the start of the collision step, cloth that a ball pulls along at 3.6
-  /// m/s gained 8 % of kinetic energy in 25 ms at steps of 4 ms, and what slid off an edge was held in the air. A
-  /// vertex that has left its face is held by the one on which it is: held by the border that it left, cloth without
-  /// friction that slid at 2 m/s over a flat ground of small faces slowed to 1.5 m/s in a second.
-  ///
-  /// Call for the steps of a collision step in their order. O(contacts) a sweep, eight at once and in parallel where
-  /// contacts share no vertex (contact_groups.h); one that slides on to a vertex of another of its eight acts alone
-  /// from then on. Same bits for any number of threads and any vector unit.
-  void hold(const MidstepMotion& step, const std::function<void()>& limit);
-
-  /// For dynamics that find by themselves what contacts bear (stage_contacts.h): the contacts as they were given (until
-  /// contacts()), with the loads that they begin with; and what a contact bore in the last step, so that count(),
-  /// repelled_pairs() and loads() know it.
-  [[nodiscard]] std::size_t size() const { return place_of_.size(); }
-  [[nodiscard]] const RepulsionContact& contact(std::size_t i) const { return contacts_[i]; }
-  struct Load {
-    double along_m_s2 = 0;  ///< as in ContactLoad
-    Vec3 friction_m_s2 = Vec3::Zero();
-  };
-  [[nodiscard]] Load load(std::size_t i) const;
-  void bore(std::size_t i, const Load& load);
+  [[nodiscard]] const HeldSurface& surface() const { return surface_; }
+  [[nodiscard]] const Positions& V_t0() const { return V_t0_; }
+  [[nodiscard]] const Positions& V_t1() const { return V_t1_; }
+  [[nodiscard]] double dt_s() const { return dt_s_; }
+  [[nodiscard]] std::int32_t sweeps() const { return sweeps_; }
   /// Where a vertex that is not cloth is at `share` in [0, 1] of the collision step.
   [[nodiscard]] Vec3 scripted_at(VertexId vertex, double share) const {
     Vec3 at = V_t0_.row(vertex) + share * (V_t1_.row(vertex) - V_t0_.row(vertex));
     if (surface_.bow_m != nullptr) at -= share * (1 - share) * surface_.bow_m->row(vertex - surface_.cloth_count);
     return at;
   }
-  [[nodiscard]] bool is_cloth(VertexId vertex) const { return vertex < surface_.cloth_count; }
 
-  /// As they were last looked at, measured at V_t0, in the order in which they were given: the collision step repels
-  /// them where they are at its end.
-  [[nodiscard]] const std::vector<RepulsionContact>& contacts();
-  /// The same, and their memory, at the end.
+  [[nodiscard]] std::span<const RepulsionContact> contacts() const { return contacts_; }
+  /// For those that act: they leave where it repels in vertices, weights, normal and is_beyond.
+  [[nodiscard]] RepulsionContact& contact(std::size_t i) { return contacts_[i]; }
+
+  struct Load {
+    double along_m_s2 = 0;  ///< as in ContactLoad
+    Vec3 friction_m_s2 = Vec3::Zero();
+  };
+  /// What a contact bears: first what it begins with.
+  [[nodiscard]] const Load& load(std::size_t i) const { return borne_[i].load; }
+  /// What it bears from now on, and what it has done besides. Different contacts may be told at once.
+  void bore(std::size_t i, const Load& load, bool has_repelled, bool has_rubbed);
+  /// The order in which all of them act, where it is not that in which they were given: of those of one pair the first
+  /// one's load is kept.
+  void act_in(std::vector<std::size_t> order) { order_ = std::move(order); }
+
+  /// Measured at V_t0, in the order in which they were given: the collision step repels them where they are at its end.
   [[nodiscard]] std::vector<RepulsionContact> take_contacts() &&;
-
   /// Those that repelled, and rubbed, in any step; in one in which all acted again, in either try.
   [[nodiscard]] RepulsionCount count() const;
   /// The pairs of those that repelled.
   [[nodiscard]] Candidates repelled_pairs() const;
-
-  /// After the last step.
   [[nodiscard]] ContactLoads loads() const;
 
  private:
-  using Reach = ContactGroups::Reach;
-  using Refused = ContactGroups::Refused;
-  enum class Answer { kNo, kYes, kOutOfReach };
-
-  /// What is asked of every pack in every step of the dynamics, side by side: most packs need not be read for it.
-  struct PackState {
-    LaneMask loaded = 0;            ///< whose load is above zero
-    LaneMask withheld = 0;          ///< of cloth to which loads have added energy in this step
-    LaneMask straight = 0;          ///< on bodies that go straight on there
-    LaneMask beyond = 0;            ///< of these, whose points were not over what is straight when last looked at
-    std::uint32_t straight_at = 0;  ///< of straight_
-    bool has_acted = false;         ///< in this step: what pressed and rubbed may be other than zero
+  struct Borne {
+    Load load;
+    bool has_repelled = false, has_rubbed = false;
   };
-
-  /// The packs of one kind of pair, from `first_pack` on in packs_.
-  struct Kind {
-    PairKind kind;
-    std::vector<std::size_t> contacts;  ///< that are members of the groups
-    ContactGroups groups;
-    std::size_t first_pack = 0;
-  };
-
-  void measure();
-  void group(Kind& kind);
-  void place(const Kind& kind);
-  [[nodiscard]] RepulsionContact& contact_at(std::size_t place) { return contacts_[contact_at_[place]]; }
-  [[nodiscard]] const RepulsionContact& contact_at(std::size_t place) const { return contacts_[contact_at_[place]]; }
-  void set_lane(std::size_t place);
-  void set_straight();
-  void set_sweeps(const std::vector<std::int32_t>& sweeps);
-  void begin_with(const ContactLoads& loads);
-  void begin_with(double along_m_s2, const std::array<double, 3>& friction_m_s2, std::size_t place);
-  [[nodiscard]] std::vector<ContactLoad> loads_of(const Kind& kind) const;
-
-  void bear_all(const ContactMotion& motion);
-  void sweep(const ContactMotion& motion);
-  void take_work_from_outside(const ContactMotion& motion);
-  void withhold_loads(double borne_j_kg);
-  void learn_all(double h);
-  void forget_impulses();
-  template <class Body>
-  void each_pack(const Body& body);
-  [[nodiscard]] PairKind kind_of(std::size_t pack) const { return pack < ee_.first_pack ? vf_.kind : ee_.kind; }
-  void fetch(std::size_t pack, std::size_t idle_bytes);
-  /// Those that have pressed in this step of the dynamics.
-  [[nodiscard]] LaneMask pressing(std::size_t pack) const;
-  [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
-  [[nodiscard]] VertexId cloth_of(std::size_t place) const;
-  [[nodiscard]] Refused bear(std::size_t pack, LaneMask lanes, const Reach& reach, const ContactMotion& motion);
-  [[nodiscard]] Refused hold(std::size_t pack, LaneMask lanes, const Reach& reach, int left,
-                             const ContactMotion& motion);
-  /// Looks where the contacts are now; leaves in `lanes` those that can act.
-  [[nodiscard]] Refused look_again(std::size_t pack, const Reach& reach, const ContactMotion& motion, PackMotion& read,
-                                   LaneMask& lanes);
-  struct Slid {
-    Refused refused;
-    LaneMask on = 0;       ///< to other faces
-    LaneMask cannot = 0;   ///< move there
-    LaneMask beyond = 0;   ///< what is straight
-    LaneMask through = 0;  ///< the surface: stay as they are
-  };
-  [[nodiscard]] Slid slide(std::size_t pack, LaneMask lanes, const Reach& reach, const ContactMotion& motion);
-  [[nodiscard]] bool shares_vertex(std::size_t place, LaneMask with) const;
-  [[nodiscard]] Answer slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
-                                 const ContactMotion& motion) const;
-  [[nodiscard]] bool is_within(const Reach& reach, const std::array<VertexId, 3>& face) const;
-  /// Of the contact's vertices at the start of the step.
-  [[nodiscard]] PairVectors positions(const std::array<VertexId, 4>& vertices, const ContactMotion& motion) const;
 
   HeldSurface surface_;
   const Positions& V_t0_;
   const Positions& V_t1_;
   double dt_s_;
-  std::int32_t least_sweeps_, most_sweeps_;
-  LaneVectors scripted_t0_, scripted_way_, scripted_bow_;  ///< of the vertices that are not cloth
-  Kind vf_{PairKind::kVf, {}, {}}, ee_{PairKind::kEe, {}, {}};
-  std::vector<RepulsionContact> contacts_;   ///< as given; weights and normals that changed since are in packs_
-  std::optional<ContactGains> gains_;        ///< from the first hold() on
-  std::vector<ContactPack> packs_;           ///< of vf, then ee; a place is a lane of one
-  std::vector<PackState> states_;            ///< of each pack
-  std::vector<PackStraight> straight_;       ///< of packs with such a lane
-  std::vector<std::size_t> place_of_;        ///< of each contact
-  std::vector<std::size_t> contact_at_;      ///< of each place
-  LaneVectors v_free_, x_free_, v_limited_;  ///< before anything acted, and behind the limits
-  bool backwards_ = false;
+  std::int32_t sweeps_;
+  std::vector<RepulsionContact> contacts_;
+  std::vector<Borne> borne_;        ///< by contact
+  std::vector<std::size_t> order_;  ///< in which they act
 };
 
 }  // namespace selvage::sim

@@ -21,9 +21,9 @@ constexpr double kStiffness = 1;
 StageContacts::StageContacts(HeldContacts& held, const Positions& x, std::span<const double> inverse_mass,
                              std::span<const double> resistance_kg, const StageSpan& span)
     : held_(held), span_(span) {
-  for (std::size_t i = 0; i < held.size(); ++i) {
+  for (std::size_t i = 0; i < held.contacts().size(); ++i) {
     add_term(i, x, inverse_mass, resistance_kg);
-    held.bore(i, {});
+    held.bore(i, {}, false, false);
   }
   index_ends(x.rows());
   response_.resize(terms_.size());
@@ -32,7 +32,7 @@ StageContacts::StageContacts(HeldContacts& held, const Positions& x, std::span<c
 
 void StageContacts::add_term(std::size_t held_id, const Positions& x, std::span<const double> inverse_mass,
                              std::span<const double> resistance_kg) {
-  const RepulsionContact& contact = held_.contact(held_id);
+  const RepulsionContact& contact = held_.contacts()[held_id];
   const Interaction& interaction = contact.interaction;
   if (contact.is_beyond || lever_share(interaction) < 1) return;
   Term term;
@@ -41,7 +41,7 @@ void StageContacts::add_term(std::size_t held_id, const Positions& x, std::span<
   double yields = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const VertexId vertex = interaction.vertices[i];
-    if (held_.is_cloth(vertex)) {
+    if (held_.surface().is_cloth(vertex)) {
       term.vertices[i] = vertex;
       at_start[i] = x.row(vertex);
       const auto row = static_cast<std::size_t>(vertex);
@@ -267,7 +267,8 @@ bool StageContacts::forget() {
 void StageContacts::finish() {
   for (const Term& term : terms_) {
     const Vec3 borne_m_s2 = term.mobility_1_kg / (span_.h_s * span_.h_s) * term.borne;
-    held_.bore(term.held, {borne_m_s2[0], term.axes.bottomRows<2>().transpose() * borne_m_s2.tail<2>()});
+    const HeldContacts::Load load{borne_m_s2[0], term.axes.bottomRows<2>().transpose() * borne_m_s2.tail<2>()};
+    held_.bore(term.held, load, load.along_m_s2 > 0, !load.friction_m_s2.isZero(0));
   }
 }
 

@@ -204,7 +204,7 @@ TEST(Rest, SheetOverTheEdgeOfABoxComesToRest) {
   // Its weight and its friction hold it with room to spare: 43 % hangs, and an edge turned by 90 degrees divides the
   // pull by exp(0.6 pi / 2) = 2.6. It moved by 6 mm in the fifth second, at steps of 1/60 s or a tenth of that, when
   // contacts ended at the thickness (kContactReach). Of 12 x 12 vertices it moved by 0.3 mm where the box's vertices
-  // remembered the friction under them (HeldContacts::bear), and moves by 0.01.
+  // remembered the friction under them (SweptContacts::bear), and moves by 0.01.
   for (const int side : {8, 12}) {
     Simulation simulation(
         parse_scene("gravity_m_s2 = [0, 0, -9.81]\ndrag_1_s = 4\n[time]\nframes_per_s = 30\nduration_s = 5\n"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/sim/dynamics/held_contact_scenes.h"
+#include "tests/sim/dynamics/swept_contact_scenes.h"
 
 namespace selvage::sim::testbed {
 namespace {

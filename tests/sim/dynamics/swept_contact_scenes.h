@@ -1,9 +1,10 @@
-// Contacts held over one face or a few, for the tests of held contacts.
+// Contacts held over one face or a few.
 #pragma once
 
-#include <utility>
+#include <functional>
+#include <vector>
 
-#include "sim/dynamics/held_contacts.h"
+#include "sim/dynamics/swept_contacts.h"
 #include "tests/sim/mechanics.h"
 
 namespace selvage::sim::testbed {
@@ -34,7 +35,22 @@ struct Ground {
   }
 };
 
-inline void act(HeldContacts& held, const MidstepMotion& step) {
+/// Contacts that are swept over, and know it after every step.
+class Swept : public HeldContacts {
+ public:
+  using HeldContacts::HeldContacts;
+  void hold(const MidstepMotion& step, const std::function<void()>& limit) {
+    swept_.hold(step, limit);
+    swept_.finish();
+  }
+  /// As they are given on.
+  [[nodiscard]] std::vector<RepulsionContact> taken() const { return HeldContacts(*this).take_contacts(); }
+
+ private:
+  SweptContacts swept_{*this};
+};
+
+inline void act(Swept& held, const MidstepMotion& step) {
   held.hold(step, [] {});
 }
 
@@ -69,7 +85,7 @@ struct OneContact {
         contact.first, contact.second, load_m_s2, {friction_m_s2.x(), friction_m_s2.y(), friction_m_s2.z()}};
     ContactLoads begun;
     (contact.kind == PairKind::kVf ? begun.vf : begun.ee) = {load};
-    HeldContacts held(contacts, begun, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
+    Swept held(contacts, begun, ground.surface(cloth_count), V_t0, V_t1, kHeldStep, sweeps);
     act(held, {kHeldStep, 1, x, v});
     loads = held.loads();
     repelled = held.repelled_pairs();
@@ -99,7 +115,7 @@ struct OneContact {
 inline Vec3 friction_of(const ContactLoad& load) { return Vec3(load.friction_m_s2.data()); }
 
 /// One step of the dynamics in which the first vertex moves at v, m/s.
-inline void move_and_hold(OneContact& one, HeldContacts& held, const Eigen::RowVector3d& v, double share) {
+inline void move_and_hold(OneContact& one, Swept& held, const Eigen::RowVector3d& v, double share) {
   one.v.row(0) = v;
   one.x.row(0) += kHeldStep * v;
   act(held, {kHeldStep, share, one.x, one.v});
@@ -118,5 +134,17 @@ inline OneContact vertex_over_body(const Vec3& velocity, const Vec3& moved = Vec
   for (Eigen::Index i = 1; i < 4; ++i) one.V_t1.row(i) += moved.transpose();
   return one;
 }
+
+/// A vertex, and a flat body of two faces that meet at y = -2: the first as in vertex_over_body().
+struct TwoFaces {
+  Positions V = Positions(5, 3);
+  OneContact one = vertex_over_body(Vec3::Zero());
+  Ground ground{Faces{{1, 2, 3}, {2, 1, 4}}, {1, 0, 0, 0, 0}};
+
+  TwoFaces() {
+    V.topRows(4) = one.V_t0;
+    V.row(4) << 0, -6, 0;
+  }
+};
 
 }  // namespace selvage::sim::testbed

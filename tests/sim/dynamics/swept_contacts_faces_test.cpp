@@ -1,11 +1,11 @@
-// Where held contacts are: on which face, seen from which side, and when they end.
+// Where contacts that are swept over are: on which face, seen from which side, and when they end.
 #include <gtest/gtest.h>
 
-#include "tests/sim/dynamics/held_contact_scenes.h"
+#include "tests/sim/dynamics/swept_contact_scenes.h"
 
 namespace selvage::sim::testbed {
 
-TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
+TEST(SweptContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
   // The body's vertex has come to be over a held corner of the face; the contact was that of the middle.
   Positions V(4, 3);
   V << 0, 2, 0, -2, 0, 0, 2, 0, 0, 2, 0, kHeldThickness / 2;
@@ -23,52 +23,40 @@ TEST(HeldContacts, DoNotActWhereThePointsAreOnVerticesThatCannotMove) {
     v.set_zero();
     v.row(0) = Eigen::RowVector3d(0, 0, 1);
     x.row(0) += kHeldStep * v.row(0);
-    HeldContacts held({contact}, {{{0, 0, load_m_s2}}, {}}, ground.surface(3), V, V, kHeldStep, 1);
+    Swept held({contact}, {{{0, 0, load_m_s2}}, {}}, ground.surface(3), V, V, kHeldStep, 1);
     act(held, {kHeldStep, 1, x, v});
     EXPECT_EQ(Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(0, 0, 1));
     EXPECT_EQ(held.count().repulsions, 0);
   }
 }
 
-TEST(HeldContacts, AreGivenOnAsTheyWereLastLookedAt) {
+TEST(SweptContacts, AreGivenOnAsTheyWereLastLookedAt) {
   // It slides over the border of the face at y = -2, and is pressed there: along the line to the border.
   OneContact one = vertex_over_body({0, -2.1 / kHeldStep, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
   const Ground ground = one_face();
-  HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
-  EXPECT_EQ(held.contacts().front().normal, one.contact.normal);
+  Swept held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
+  EXPECT_EQ(held.taken().front().normal, one.contact.normal);
   one.x.row(0) += kHeldStep * one.v.row(0);
   act(held, {kHeldStep, 0.5, one.x, one.v});
   one.v.row(0) = Eigen::RowVector3d(0, 0, -1);
   one.x.row(0) += kHeldStep * one.v.row(0);
   act(held, {kHeldStep, 1, one.x, one.v});
-  const RepulsionContact now = held.contacts().front();
+  const RepulsionContact now = held.taken().front();
   EXPECT_LT((now.normal - Vec3(0, -0.1, kHeldThickness).normalized()).norm(), 1e-12);
   EXPECT_NEAR(now.distance, (Vec3(0, 0, kHeldThickness) - Vec3(0, -2, 0)).dot(now.normal), 1e-12);
   const Vec3 moved = one.x.row(0) - one.V_t0.row(0);
   EXPECT_GE(now.distance + moved.dot(now.normal), kHeldThickness - 1e-12);
 }
 
-/// A vertex, and a flat body of two faces that meet at y = -2: the first as in vertex_over_body().
-struct TwoFaces {
-  Positions V = Positions(5, 3);
-  OneContact one = vertex_over_body(Vec3::Zero());
-  Ground ground{Faces{{1, 2, 3}, {2, 1, 4}}, {1, 0, 0, 0, 0}};
-
-  TwoFaces() {
-    V.topRows(4) = one.V_t0;
-    V.row(4) << 0, -6, 0;
-  }
-};
-
-TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
+TEST(SweptContacts, GoOnToTheFaceOnWhichAVertexSlides) {
   // Over the border, then down.
   for (const double to_x : {0.0, 1.5, -2.5}) {
     SCOPED_TRACE(to_x);
     TwoFaces scene;
     OneContact& one = scene.one;
     const std::vector<RepulsionContact> contacts{one.contact};
-    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, 3 * kHeldStep, 1);
+    Swept held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, 3 * kHeldStep, 1);
     move_and_hold(one, held, {to_x / kHeldStep, -2.5 / kHeldStep, 0}, 1.0 / 3);
     for (const double share : {2.0 / 3, 1.0}) move_and_hold(one, held, {0, 0, -0.5}, share);
     if (to_x == -2.5) {  // beside both faces: 0.6 m to the border, nothing holds it
@@ -77,7 +65,7 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
     }
     EXPECT_EQ(held.count().repulsions, 1);
     EXPECT_NEAR(one.x.row(0).z(), kHeldThickness, 1e-15);
-    const RepulsionContact now = held.contacts().front();
+    const RepulsionContact now = held.taken().front();
     EXPECT_EQ(now.second, 1);
     EXPECT_EQ(now.second_t0, 0) << "the pair that was met";
     EXPECT_EQ(now.interaction.vertices, (std::array<VertexId, 4>{0, 2, 1, 4}));
@@ -90,7 +78,7 @@ TEST(HeldContacts, GoOnToTheFaceOnWhichAVertexSlides) {
 // Two faces of cloth that meet at y = 0 and rise from there sink on a vertex on a ridge along y, below the first or, as
 // they have passed over it, the second. Where the ridge does not go on to below the nearest point nothing of this pair
 // holds them.
-TEST(HeldContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
+TEST(SweptContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
   Positions V(7, 3);
   V << 0, -4, kHeldThickness + 0.4, -2, 0, kHeldThickness, 2, 0, kHeldThickness, 0, 4, kHeldThickness + 0.8,  // cloth
       0, -1, 0, 0, -10, 0, 0, 10, 0;
@@ -103,13 +91,13 @@ TEST(HeldContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
   contact.normal = -Vec3::UnitZ();
   using Case = std::pair<double, double>;
   for (const auto& [extent_m, passes_m] : {Case{9, 2}, Case{9, 0}, Case{0, 2}, Case{0, 0}}) {
-    SCOPED_TRACE(testing::Message() << extent_m << " m, passes over by " << passes_m);
+    SCOPED_TRACE(::testing::Message() << extent_m << " m, passes over by " << passes_m);
     contact.straight.parts[StraightFeature::kWithin] = {
         StraightSurface::Kind::kLine, {5, 6, 0, 0}, {extent_m, extent_m}};
     LaneVectors x, v;
     x.copy(V.topRows(4));
     v.resize(4);
-    HeldContacts held({contact}, {}, ground.surface(4), V, V, 2 * kHeldStep, 1);
+    Swept held({contact}, {}, ground.surface(4), V, V, 2 * kHeldStep, 1);
     for (const Eigen::RowVector3d& way : {Eigen::RowVector3d(0, -passes_m, 0), Eigen::RowVector3d(0, 0, -0.3)}) {
       for (Eigen::Index row = 0; row < 4; ++row) {
         v.row(row) = way / kHeldStep;
@@ -119,7 +107,7 @@ TEST(HeldContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
     }
     EXPECT_EQ(held.count().repulsions, extent_m > 0 ? 1 : 0);
     for (Eigen::Index row = 0; row < 4; ++row) EXPECT_EQ(v.row(row).y(), 0) << row;
-    const RepulsionContact now = held.contacts().front();
+    const RepulsionContact now = held.taken().front();
     EXPECT_EQ(now.is_beyond, extent_m == 0);
     if (now.is_beyond) continue;
     EXPECT_EQ(now.second, passes_m > 0 ? 1 : 0);
@@ -127,7 +115,7 @@ TEST(HeldContacts, OfAVertexOnARidgeActAcrossItAsFarAsItGoes) {
   }
 }
 
-TEST(HeldContacts, WhatWasBeyondIsSeenFromWhereItIsOnceItIsOver) {
+TEST(SweptContacts, WhatWasBeyondIsSeenFromWhereItIsOnceItIsOver) {
   // Cloth slides along a ridge and sinks on a vertex of it; as it was when the step began it would be taken for what
   // has passed through.
   Positions V(6, 3);
@@ -149,15 +137,15 @@ TEST(HeldContacts, WhatWasBeyondIsSeenFromWhereItIsOnceItIsOver) {
       v.row(row) = Eigen::RowVector3d(0, -1, -0.5);
       x.row(row) += kHeldStep * v.row(row);
     }
-    HeldContacts held({contact}, {}, ground.surface(3), V, V, kHeldStep, 1);
+    Swept held({contact}, {}, ground.surface(3), V, V, kHeldStep, 1);
     act(held, {kHeldStep, 1, x, v});
-    const RepulsionContact now = held.contacts().front();
+    const RepulsionContact now = held.taken().front();
     EXPECT_FALSE(now.is_beyond);
     EXPECT_EQ(now.normal, was_beyond ? Vec3(-Vec3::UnitZ()) : contact.normal);
   }
 }
 
-TEST(HeldContacts, WhatHasPassedThroughBesideTheBorderIsHeldAsItWas) {
+TEST(SweptContacts, WhatHasPassedThroughBesideTheBorderIsHeldAsItWas) {
   // Below the second face: nearer than the thickness to it, and nearer or farther than that to the border of the first.
   for (const double y : {-2.1, -2.35, -2.6}) {
     SCOPED_TRACE(y);
@@ -166,14 +154,14 @@ TEST(HeldContacts, WhatHasPassedThroughBesideTheBorderIsHeldAsItWas) {
     scene.V.row(0) = Eigen::RowVector3d(0, y, -0.1);
     one.x.row(0) = scene.V.row(0);
     const std::vector<RepulsionContact> contacts{one.contact};
-    HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
+    Swept held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
     move_and_hold(one, held, {0, 0, -1}, 1);
     EXPECT_EQ(one.v.row(0), Eigen::RowVector3d(0, 0, 0));
-    EXPECT_EQ(held.contacts().front().normal, Vec3::UnitZ());
+    EXPECT_EQ(held.taken().front().normal, Vec3::UnitZ());
   }
 }
 
-TEST(HeldContacts, DoNotGoOnToAFaceThatCannotMove) {
+TEST(SweptContacts, DoNotGoOnToAFaceThatCannotMove) {
   // A vertex of a body slides from the face with a free corner over one whose corners are all held, and comes through.
   Positions V(5, 3), V_t1(5, 3);
   V << 0, 1, 0, -1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 0.3, 0.2;
@@ -190,17 +178,17 @@ TEST(HeldContacts, DoNotGoOnToAFaceThatCannotMove) {
   v.resize(4);
   v.set_zero();
   constexpr int kSteps = 6;
-  HeldContacts held({contact}, {}, ground.surface(4), V, V_t1, kSteps * kHeldStep, 1);
+  Swept held({contact}, {}, ground.surface(4), V, V_t1, kSteps * kHeldStep, 1);
   for (int step = 1; step <= kSteps; ++step) {
     for (Eigen::Index i = 0; i < 4; ++i) x.row(i) += kHeldStep * v.row(i);
     act(held, {kHeldStep, double(step) / kSteps, x, v});
     for (Eigen::Index i = 1; i < 4; ++i) EXPECT_EQ(x.row(i), V.row(i)) << step;
     EXPECT_TRUE(x.row(0).allFinite()) << step;
-    EXPECT_GT(held.contacts().front().mobility, 0) << step;
+    EXPECT_GT(held.taken().front().mobility, 0) << step;
   }
 }
 
-TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
+TEST(SweptContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
   // Two vertices over a strip of three faces; the first comes to the face in the middle, which shares a corner with the
   // one below the second. Alone, the second and then the first, they do the same, bit by bit.
   Positions V(8, 3);
@@ -229,7 +217,7 @@ TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
     }
     std::int64_t repulsions = 0;
     for (const std::vector<RepulsionContact>& contacts : one_after_the_other) {
-      HeldContacts held(contacts, {}, ground.surface(8), V, V, 2 * kHeldStep, 1);
+      Swept held(contacts, {}, ground.surface(8), V, V, 2 * kHeldStep, 1);
       act(held, {kHeldStep, 1, x, v});
       repulsions += held.count().repulsions;
     }
@@ -242,7 +230,7 @@ TEST(HeldContacts, OneThatSlidesOnToAVertexOfAnotherActsAfterIt) {
   EXPECT_NE(velocities({{first}, {second}}), velocities({{second}, {first}}));
 }
 
-TEST(HeldContacts, OneThatSlidesOnLeavesThoseOfItsPackAsTheyAre) {
+TEST(SweptContacts, OneThatSlidesOnLeavesThoseOfItsPackAsTheyAre) {
   // Two vertices over a flat body of two faces: the first has come over the border and falls, the second falls more
   // than the load that it begins with bears. Beside the first it does what it does alone.
   Positions V(6, 3);
@@ -265,7 +253,7 @@ TEST(HeldContacts, OneThatSlidesOnLeavesThoseOfItsPackAsTheyAre) {
       v.row(i) = Eigen::RowVector3d(0, 0, -0.5);
       x.row(i) += kHeldStep * v.row(i);
     }
-    HeldContacts held(contacts, {{{1, 0, 1.0}}, {}}, ground.surface(2), V, V, kHeldStep, 1);
+    Swept held(contacts, {{{1, 0, 1.0}}, {}}, ground.surface(2), V, V, kHeldStep, 1);
     act(held, {kHeldStep, 1, x, v});
     EXPECT_EQ(held.count().repulsions, std::ssize(contacts));
     return std::pair{Eigen::RowVector3d(v.row(0)), Eigen::RowVector3d(v.row(1))};
@@ -275,34 +263,18 @@ TEST(HeldContacts, OneThatSlidesOnLeavesThoseOfItsPackAsTheyAre) {
   for (const Eigen::RowVector3d& v : {first, second}) EXPECT_LT(v.norm(), 1e-15);
 }
 
-TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
-  // Over the border of two faces a vertex lies on either.
-  constexpr double kLoad = 7;
-  TwoFaces scene;
-  const auto learnt = [&](const std::vector<ContactLoad>& loads) {
-    HeldContacts held({scene.one.contact}, {loads, {}}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
-    const std::vector<ContactLoad> begun = held.loads().vf;
-    return begun.empty() ? 0 : begun.front().acceleration_m_s2;
-  };
-  EXPECT_EQ(learnt({{0, 0, kLoad}}), kLoad);
-  EXPECT_EQ(learnt({{0, 1, kLoad}}), kLoad);
-  EXPECT_EQ(learnt({{0, 0, kLoad}, {0, 1, 3}}), kLoad) << "its own first";
-  EXPECT_EQ(learnt({{1, 0, kLoad}}), 0) << "another vertex";
-  EXPECT_EQ(learnt({}), 0);
-}
-
-TEST(HeldContacts, DoNotGoOnToAFaceThatHoldsTheVertex) {
+TEST(SweptContacts, DoNotGoOnToAFaceThatHoldsTheVertex) {
   // The second face's last corner is the vertex itself.
   OneContact one = vertex_over_body(Vec3::Zero());
   const Ground ground(Faces{{1, 2, 3}, {2, 1, 0}}, {1, 0, 0, 0});
   const std::vector<RepulsionContact> contacts{one.contact};
-  HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
+  Swept held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
   move_and_hold(one, held, {0, -2.1 / kHeldStep, 0}, 0.5);
   move_and_hold(one, held, {0, 0, -0.5}, 1);
-  EXPECT_EQ(held.contacts().front().second, 0);
+  EXPECT_EQ(held.taken().front().second, 0);
 }
 
-TEST(HeldContacts, TakeTheSideOnWhichFarFeaturesAre) {
+TEST(SweptContacts, TakeTheSideOnWhichFarFeaturesAre) {
   // From above, as if the vertex had come from below. Ten thicknesses away it is free to leave; as near as that it has
   // passed through, and may not go farther.
   for (const double thicknesses : {10.0, 0.5}) {
@@ -311,20 +283,20 @@ TEST(HeldContacts, TakeTheSideOnWhichFarFeaturesAre) {
     one.contact.normal = -Vec3::UnitZ();
     const std::vector<RepulsionContact> contacts{one.contact};
     const Ground ground = one_face();
-    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, kHeldStep, 1);
+    Swept held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, kHeldStep, 1);
     move_and_hold(one, held, {0, 0, 1}, 1);
     EXPECT_EQ(one.v.row(0), Eigen::RowVector3d(0, 0, thicknesses > 1 ? 1 : 0));
-    EXPECT_EQ(held.contacts().front().normal, Vec3(0, 0, thicknesses > 1 ? 1 : -1));
+    EXPECT_EQ(held.taken().front().normal, Vec3(0, 0, thicknesses > 1 ? 1 : -1));
   }
 }
 
-TEST(HeldContacts, EndWhereThePointsHaveSlidOffEachOther) {
+TEST(SweptContacts, EndWhereThePointsHaveSlidOffEachOther) {
   // Two steps: to the side, then down. The face ends at y = -2.
   for (const double to_y : {-1.9, -2.5}) {
     OneContact one = vertex_over_body(Vec3::Zero());
     const std::vector<RepulsionContact> contacts{one.contact};
     const Ground ground = one_face();
-    HeldContacts held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
+    Swept held(contacts, {}, ground.surface(1), one.V_t0, one.V_t1, 2 * kHeldStep, 1);
     move_and_hold(one, held, {0, to_y / kHeldStep, 0}, 0.5);
     move_and_hold(one, held, {0, 0, -0.5}, 1);
     EXPECT_EQ(held.count().repulsions, to_y > -2 ? 1 : 0);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/dynamics/held_contacts.h"
+#include "sim/dynamics/swept_contacts.h"
 
 namespace selvage::sim {
 namespace {
@@ -18,8 +18,8 @@ constexpr std::array<std::size_t, 3> kCorners{1, 2, 3};  // of the face, in a vf
 /// The pairs' nearest points now, seen from the side on which they are while they are farther apart than the thickness;
 /// what has passed through nearer than that is held on the side it came from. Contacts whose points are all on vertices
 /// that cannot move do not act, nor do those whose points are not over what is straight between them.
-HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reach, const ContactMotion& motion,
-                                               PackMotion& read, LaneMask& lanes) {
+SweptContacts::Refused SweptContacts::look_again(std::size_t id, const Reach& reach, const ContactMotion& motion,
+                                                 PackMotion& read, LaneMask& lanes) {
   ContactPack& pack = packs_[id];
   const PairKind kind = kind_of(id);
   PackNearest nearest;
@@ -43,8 +43,8 @@ HeldContacts::Refused HeldContacts::look_again(std::size_t id, const Reach& reac
 }
 
 /// Each of the lanes of vf on to the face on which its vertex is, seen from the side on which it is, as above.
-HeldContacts::Slid HeldContacts::slide(std::size_t id, LaneMask lanes, const Reach& reach,
-                                       const ContactMotion& motion) {
+SweptContacts::Slid SweptContacts::slide(std::size_t id, LaneMask lanes, const Reach& reach,
+                                         const ContactMotion& motion) {
   Slid slid;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     if (!has_lane(lanes, lane)) continue;
@@ -60,18 +60,19 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, LaneMask lanes, const Rea
       slid.through |= only_lane(lane);
       continue;
     }
-    now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, surface_.inverse_mass);
+    now.interaction = make_interaction(now.kind, now.interaction.vertices, {}, held_.surface().inverse_mass);
     now.interaction.weights = nearest.weights;
     const StraightSurface& straight = now.straight.parts[StraightFeature::kWithin];  // where the vertex is a body's
     const Vec3 direction =
-        ((1 - motion.share) * straight.direction(V_t0_) + motion.share * straight.direction(V_t1_)).normalized();
+        ((1 - motion.share) * straight.direction(held_.V_t0()) + motion.share * straight.direction(held_.V_t1()))
+            .normalized();
     const Across turned = across(straight, 1, direction, nearest.direction, nearest.distance);
     now.normal = turned.unit;
     if (turned.is_beyond || !(effective_mobility(now.interaction) > 0)) {
       (turned.is_beyond ? slid.beyond : slid.cannot) |= only_lane(lane);
       continue;
     }
-    now.properties = surface_.properties.of(now.kind, now.first, now.second);
+    now.properties = held_.surface().properties.of(now.kind, now.first, now.second);
     contact_at(place) = now;
     set_lane(place);
     const LaneMask together = vf_.groups.together(id - vf_.first_pack);
@@ -82,7 +83,7 @@ HeldContacts::Slid HeldContacts::slide(std::size_t id, LaneMask lanes, const Rea
 }
 
 /// A vertex of cloth, with one of the others of its pack.
-bool HeldContacts::shares_vertex(std::size_t place, LaneMask with) const {
+bool SweptContacts::shares_vertex(std::size_t place, LaneMask with) const {
   const ContactPack& pack = packs_[place / kLanes];
   const std::size_t own = place % kLanes;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -98,16 +99,16 @@ bool HeldContacts::shares_vertex(std::size_t place, LaneMask with) const {
 
 /// Where the nearest point lies on the border of the face the surface goes on beyond it: to the face there that is
 /// nearer. A walk from face to face ends, because the distance falls.
-HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
-                                             const ContactMotion& motion) const {
+SweptContacts::Answer SweptContacts::slides_on(RepulsionContact& contact, QuickProximity& nearest, const Reach& reach,
+                                               const ContactMotion& motion) const {
   if (contact.kind != PairKind::kVf) return Answer::kNo;
   const std::array<VertexId, 4> from = contact.interaction.vertices;
   const auto on_corner = [weights = nearest.weights](std::size_t k) { return weights[k] != 0; };
   const auto corner = std::ranges::find_if(kCorners, on_corner);
   if (corner == kCorners.end() || std::ranges::all_of(kCorners, on_corner)) return Answer::kNo;
   Answer slides = Answer::kNo;
-  for (const FaceId id : surface_.faces.of(from[*corner])) {
-    const std::array<VertexId, 3>& face = surface_.mesh.faces[static_cast<std::size_t>(id)];
+  for (const FaceId id : held_.surface().faces.of(from[*corner])) {
+    const std::array<VertexId, 3>& face = held_.surface().mesh.faces[static_cast<std::size_t>(id)];
     const auto holds = [&](VertexId v) { return std::ranges::find(face, v) != face.end(); };
     const auto is_beside = [&](std::size_t k) { return !on_corner(k) || holds(from[k]); };
     if (id == contact.second || holds(from[0]) || !std::ranges::all_of(kCorners, is_beside)) continue;
@@ -123,18 +124,18 @@ HeldContacts::Answer HeldContacts::slides_on(RepulsionContact& contact, QuickPro
   return slides;
 }
 
-bool HeldContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& face) const {
-  return std::ranges::all_of(face, [&](VertexId v) { return !is_cloth(v) || reach.has(v); });
+bool SweptContacts::is_within(const Reach& reach, const std::array<VertexId, 3>& face) const {
+  return std::ranges::all_of(face, [&](VertexId v) { return !held_.surface().is_cloth(v) || reach.has(v); });
 }
 
-PairVectors HeldContacts::positions(const std::array<VertexId, 4>& vertices, const ContactMotion& motion) const {
+PairVectors SweptContacts::positions(const std::array<VertexId, 4>& vertices, const ContactMotion& motion) const {
   PairVectors x;
   for (std::size_t i = 0; i < 4; ++i) {
     const VertexId vertex = vertices[i];
-    if (is_cloth(vertex)) {
+    if (held_.surface().is_cloth(vertex)) {
       x[i] = motion.x_t1.row(vertex) - motion.h * motion.v.row(vertex);
     } else {
-      x[i] = scripted_at(vertex, motion.share);
+      x[i] = held_.scripted_at(vertex, motion.share);
     }
   }
   return x;
