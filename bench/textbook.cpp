@@ -100,8 +100,8 @@ Cubic coplanarity(const Vec3& e1, const Vec3& w1, const Vec3& e2, const Vec3& w2
 /// The root in [low, high], whose values have opposite signs: Newton's method, bisecting where it leaves the bracket.
 double root_between(const Cubic& f, double low, double high, bool rising) {
   double t = low + (high - low) / 2;
-  constexpr int kMostSteps = 60;  // bisection alone reaches the spacing of doubles in [0,1] in 53
-  for (int step = 0; step < kMostSteps; ++step) {
+  constexpr int kMaxSteps = 60;  // bisection alone reaches the spacing of doubles in [0,1] in 53
+  for (int step = 0; step < kMaxSteps; ++step) {
     const double value = f.at(t);
     if (value == 0) break;
     ((value > 0) == rising ? high : low) = t;

@@ -57,11 +57,11 @@ std::string table(const bench::QueryBenchReport& report) {
 
 /// A truth that is wrong makes misses and false alarms of right answers.
 void print_contradicted(const std::vector<std::string>& places) {
-  constexpr std::size_t kMost = 10;
-  for (const std::string& place : std::span(places).first(std::min(kMost, places.size()))) {
+  constexpr std::size_t kMax = 10;
+  for (const std::string& place : std::span(places).first(std::min(kMax, places.size()))) {
     say("selvage: {}: the truth is contradicted by the exact checker; correct the seventh column\n", place);
   }
-  if (places.size() > kMost) say("selvage: ... and {} more\n", places.size() - kMost);
+  if (places.size() > kMax) say("selvage: ... and {} more\n", places.size() - kMax);
 }
 
 ExitCode bench_queries(const QueriesArguments& arguments) {

@@ -166,8 +166,8 @@ fuzz::DriverOptions driver_options(const FuzzArguments& arguments) {
       arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.folder = arguments.artifacts;
   const Shard shard = parse_shard(arguments.shard);
-  if (shard.count > fuzz::kMostShards) {
-    throw UsageError(fmt::format("--shard {}: a campaign has at most {} shards", arguments.shard, fuzz::kMostShards));
+  if (shard.count > fuzz::kMaxShards) {
+    throw UsageError(fmt::format("--shard {}: a campaign has at most {} shards", arguments.shard, fuzz::kMaxShards));
   }
   options.shard = static_cast<std::int64_t>(shard.index);
   options.shards = static_cast<std::int64_t>(shard.count);
@@ -243,7 +243,7 @@ void add_fuzz_command(CLI::App& program, Job& job) {
   fuzz.add_option("PROPERTY", arguments->properties,
                   "Which promises to attack, as --list names them; all if none is named");
   auto* cases = fuzz.add_option("--cases", arguments->cases, "Cases of each property, rounded up to whole work units")
-                    ->check(number_between(1, fuzz::kMostCases));
+                    ->check(number_between(1, fuzz::kMaxCases));
   fuzz.add_option("--time", arguments->time, "Or run this long in all, as in 60s (the default), 10m, 2h, 7d")
       ->excludes(cases);
   fuzz.add_option("--seed", arguments->seed, "Cases depend on it alone")->check(whole_number())->capture_default_str();

@@ -89,8 +89,8 @@ ExitCode run(const MergeArguments& arguments) {
     write_report(arguments.html, report_page(merged.report, merged.context, nullptr, {}));
   }
   print_notes(merged.context.notes);
-  constexpr std::size_t kMostListed = 10;  // as selvage verify does on a terminal
-  print_report(verify::text_report(merged.report, merged.context, kMostListed), merged.report.verdict,
+  constexpr std::size_t kMaxListed = 10;  // as selvage verify does on a terminal
+  print_report(verify::text_report(merged.report, merged.context, kMaxListed), merged.report.verdict,
                {arguments.output, arguments.html});
   return exit_code(merged.report);
 }

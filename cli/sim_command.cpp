@@ -224,7 +224,7 @@ void add_sim_command(CLI::App& program, Job& job) {
   command.add_option("scene", arguments->scene, "The scene file (docs/scenes.md)")->required();
   command.add_option("-o,--output", arguments->output, "The sequence folder to write")->required();
   command.add_option("--frames", arguments->frames, "Frames to simulate, instead of what the scene says")
-      ->check(CLI::Range(std::int64_t{1}, sim::kMostFrames));
+      ->check(CLI::Range(std::int64_t{1}, sim::kMaxFrames));
   add_threads(command, arguments->threads);
   add_choice(command, "--record", arguments->record,
              {{"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}},

@@ -27,8 +27,8 @@ endif()
 # selvage_room(NAME SOURCES ... [LANES ...] [HEADERS ...] PUBLIC ... PRIVATE ...)
 #   Makes the static library selvage_NAME with the alias selvage::NAME from the folder that calls it.
 #   LANES are sources that include themselves, once for each vector unit (Highway).
-#   Inside the tree headers are "NAME/x.h"; for users, installed or not, HEADERS are <selvage/NAME/x.h>. A room
-#   that is used through the program alone names none.
+#   Inside the tree headers are "NAME/x.h"; for users, installed or not, HEADERS are <selvage/NAME/x.h>: what they
+#   include, and what that includes. A room that is used through the program alone names none.
 function(selvage_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LANES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   set(target selvage_${name})

@@ -89,11 +89,11 @@ void AtomicFile::commit_new() {
 }
 
 fs::path behind_links(const fs::path& file) {
-  constexpr int kMostLinks = 40;  // as many as Linux follows
+  constexpr int kMaxLinks = 40;  // as many as Linux follows
   std::error_code status;
   fs::path target = file;
   for (int links = 0; fs::is_symlink(fs::symlink_status(target, status)); ++links) {
-    if (links == kMostLinks) file_error(file.string(), "resolve", ELOOP);
+    if (links == kMaxLinks) file_error(file.string(), "resolve", ELOOP);
     const fs::path next = fs::read_symlink(target, status);
     if (status) file_error(target.string(), "resolve", status.value());
     target = target.parent_path() / next;  // the link alone where that is absolute

@@ -59,7 +59,7 @@ NpyHeader whole_file_header(std::string_view bytes, const std::string& name) {
 }
 
 void require_rows_of_three(const NpyHeader& header, const std::string& name) {
-  if (header.shape.size() == 2 && header.shape[1] == 3 && header.shape[0] <= kMostElements) return;
+  if (header.shape.size() == 2 && header.shape[1] == 3 && header.shape[0] <= kMaxElements) return;
   bad_input(name, "the shape is " + shape_text(header) + ", not n by 3; reshape the array");
 }
 
@@ -106,7 +106,7 @@ Triangles parse_npy_triangles(std::string_view bytes, const std::string& name) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const char* item = item_at(header, data, row, corner);
       const std::int64_t index = load_integer(header, item);
-      if (index < 0 || index > static_cast<std::int64_t>(kMostElements)) {
+      if (index < 0 || index > static_cast<std::int64_t>(kMaxElements)) {
         bad_input(name, "face " + std::to_string(row) + " names vertex " + integer_text(header, item) + "; correct it");
       }
       corners[corner] = static_cast<std::int32_t>(index);

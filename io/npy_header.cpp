@@ -67,7 +67,7 @@ class DictionaryReader {
     while (!accept(')')) {
       const std::size_t length = std::min(rest_.find_first_not_of("0123456789"), rest_.size());
       const std::optional<std::int64_t> value = parse_integer(rest_.substr(0, length));
-      if (!value || values.size() == kMostDimensions) fail();
+      if (!value || values.size() == kMaxDimensions) fail();
       values.push_back(static_cast<std::uint64_t>(*value));
       rest_.remove_prefix(length);
       if (!accept(',')) {
@@ -116,7 +116,7 @@ class DictionaryReader {
     bad_input(name_, "the array's type " + in_quotes(descr) + " is not supported; save float64, float32 or int32");
   }
 
-  static constexpr std::size_t kMostDimensions = 8;
+  static constexpr std::size_t kMaxDimensions = 8;
   std::string_view rest_;
   const std::string& name_;
 };

@@ -169,7 +169,7 @@ class NpzOutput final : public SequenceOutput {
   void require_readable(const std::string& roles) const {
     std::size_t groups = 1;
     for (std::size_t face = 1; face < roles.size(); ++face) groups += roles[face] != roles[face - 1] ? 1 : 0;
-    if (groups <= kMostNpzGroups) return;
+    if (groups <= kMaxNpzGroups) return;
     bad_input(target().string(), "cloth and bodies alternate " + std::to_string(groups) +
                                      " times over the faces, which no .npz holds (4,096 at most); write a folder, or " +
                                      "sort the faces by group");

@@ -32,9 +32,9 @@ struct NumberedFile {
 };
 
 std::optional<std::int64_t> frame_number(std::string_view digits) {
-  constexpr std::size_t kMostDigits = 18;  // of every such number std::int64_t holds the double
+  constexpr std::size_t kMaxDigits = 18;  // of every such number std::int64_t holds the double
   std::int64_t number = 0;
-  if (digits.size() > kMostDigits || !is_digits(digits)) return std::nullopt;
+  if (digits.size() > kMaxDigits || !is_digits(digits)) return std::nullopt;
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return number;
 }

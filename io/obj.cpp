@@ -129,7 +129,7 @@ class ObjParser {
       lines_.fail("a vertex has " + std::to_string(count) + " numbers" + weight + "; give three");
     }
     if (has_no_end_ && ends_in_number_) lines_.fail(kMayBeCut);
-    if (mesh_.points.size() == kMostElements) lines_.fail("more than 2^31 - 1 vertices; split the mesh");
+    if (mesh_.points.size() == kMaxElements) lines_.fail("more than 2^31 - 1 vertices; split the mesh");
     mesh_.points.push_back({numbers[0], numbers[1], numbers[2]});
   }
 
@@ -165,7 +165,7 @@ class ObjParser {
     }
     const auto count = static_cast<std::int64_t>(mesh_.points.size());
     const bool backwards = *index < 0;
-    if (*index == 0 || *index < -count || *index > static_cast<std::int64_t>(kMostElements)) {
+    if (*index == 0 || *index < -count || *index > static_cast<std::int64_t>(kMaxElements)) {
       lines_.fail(out_of_range(in_quotes(token)));
     }
     if (*index > highest_corner_) {  // it may be defined further down

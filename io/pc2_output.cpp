@@ -18,9 +18,9 @@ class Pc2Output final : public SequenceOutput {
       : SequenceOutput(std::move(file), std::move(all)),
         base_(fs::path(target()).replace_extension(".obj")),
         cache_(target()) {
-    constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+    constexpr std::size_t kMax = std::numeric_limits<std::int32_t>::max();
     const auto& [sequence, vertex_count, frame_count] = header();
-    if (frame_count > kMost || vertex_count > kMost) {
+    if (frame_count > kMax || vertex_count > kMax) {
       bad_input(target().string(), "more than 2^31 - 1 frames or vertices; split the sequence");
     }
     require_absent(target());

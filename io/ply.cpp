@@ -92,10 +92,10 @@ std::size_t count_triangles(Records ahead, const PlyElement& element, const PlyL
 /// many, which the faces of a surface are not: they have at most 256 vertices between them.
 template <typename Records>
 void reserve_triangles(const Records& records, std::size_t triangle_count, std::size_t file_size, MeshData& mesh) {
-  constexpr std::size_t kMostTimes = 10, kAlways = std::size_t{1} << 17;
+  constexpr std::size_t kMaxTimes = 10, kAlways = std::size_t{1} << 17;
   const std::size_t bytes =
       mesh.points.capacity() * sizeof(Points::value_type) + triangle_count * sizeof(Triangles::value_type);
-  if (bytes > kMostTimes * file_size + kAlways) {
+  if (bytes > kMaxTimes * file_size + kAlways) {
     records.fail("the polygons become more than ten times the file; export triangles");
   }
   mesh.triangles.reserve(triangle_count);

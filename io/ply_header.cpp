@@ -31,7 +31,7 @@ constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
 }};
 
 /// Elements of a file, properties of an element: scanners write some dozens.
-constexpr std::size_t kMostInHeader = 256;
+constexpr std::size_t kMaxInHeader = 256;
 
 PlyType parse_type(const LineReader& lines, std::string_view token) {
   for (const auto& [type_name, type] : kTypeNames) {
@@ -58,7 +58,7 @@ PlyElement parse_element(const LineReader& lines, std::string_view rest) {
   if (element.name.empty() || !count || *count < 0 || !next_token(rest).empty()) {
     lines.fail("an element needs a name and a count, at most 2^31; correct the header");
   }
-  if (*count > static_cast<std::int64_t>(kMostElements)) lines.fail("more than 2^31 - 1 elements; split the mesh");
+  if (*count > static_cast<std::int64_t>(kMaxElements)) lines.fail("more than 2^31 - 1 elements; split the mesh");
   element.count = static_cast<std::uint64_t>(*count);
   return element;
 }
@@ -124,12 +124,12 @@ PlyHeader parse_ply_header(LineReader& lines) {
       header.format = parse_format(lines, *line);
       has_format = true;
     } else if (keyword == "element") {
-      if (header.elements.size() == kMostInHeader) lines.fail("too many elements; remove some");
+      if (header.elements.size() == kMaxInHeader) lines.fail("too many elements; remove some");
       header.elements.push_back(parse_element(lines, *line));
     } else if (keyword == "property" && !header.elements.empty()) {
       PlyProperty property = parse_property(lines, *line);
       PlyElement& element = header.elements.back();
-      if (element.properties.size() == kMostInHeader) lines.fail("too many properties; remove some");
+      if (element.properties.size() == kMaxInHeader) lines.fail("too many properties; remove some");
       if (element.find({property.name}))
         lines.fail("two properties are named " + in_quotes(property.name) + "; rename one");
       element.properties.push_back(std::move(property));

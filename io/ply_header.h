@@ -29,7 +29,7 @@ struct PlyProperty {
 
 struct PlyElement {
   std::string name;
-  std::uint64_t count = 0;  ///< what the header claims; at most kMostElements, and what the bytes behind it can hold
+  std::uint64_t count = 0;  ///< what the header claims; at most kMaxElements, and what the bytes behind it can hold
   std::vector<PlyProperty> properties;  ///< at least one, names unique
   std::size_t line = 0;
 

@@ -40,9 +40,9 @@ std::uint64_t read_count(const std::string& start, std::size_t offset, std::endi
 /// Before anything is allocated by the header's counts. Both are below 2^31, and a vertex has 12 bytes: so many
 /// overflow.
 void require_size(const ByteSource& source, const PointCacheHeader& header, const std::string& name) {
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  const bool is_sum = header.frame_count <= (kMost - header.data_offset) / header.frame_size();
-  const std::uint64_t announced = is_sum ? header.data_offset + header.frame_count * header.frame_size() : kMost;
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+  const bool is_sum = header.frame_count <= (kMax - header.data_offset) / header.frame_size();
+  const std::uint64_t announced = is_sum ? header.data_offset + header.frame_count * header.frame_size() : kMax;
   if (source.size() == announced) return;
   bad_input_at_byte(name, std::min(source.size(), announced),
                     std::to_string(header.frame_count) + " frames of " + std::to_string(header.vertex_count) +

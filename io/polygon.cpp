@@ -9,7 +9,7 @@ std::string append_fan(std::vector<std::int32_t>& corners, MeshData& mesh) {
   if (corners.size() < 3)
     return "a face has " + std::to_string(corners.size()) + (corners.size() == 1 ? " corner" : " corners") +
            "; give three or more";
-  if (triangles.size() + corners.size() - 2 > kMostElements) return "more than 2^31 - 1 triangles; split the mesh";
+  if (triangles.size() + corners.size() - 2 > kMaxElements) return "more than 2^31 - 1 triangles; split the mesh";
   const std::size_t before = triangles.size();
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) triangles.push_back({corners[0], corners[k], corners[k + 1]});
   std::sort(corners.begin(), corners.end());

@@ -12,10 +12,10 @@
 namespace selvage::io {
 
 /// Vertex and face numbers are int32 throughout.
-inline constexpr std::size_t kMostElements = std::numeric_limits<std::int32_t>::max();
+inline constexpr std::size_t kMaxElements = std::numeric_limits<std::int32_t>::max();
 
 /// Appends the fan (0, k, k+1) of the polygon, and counts it where it is split. Returns what is wrong with it, empty if
-/// nothing: fewer than three corners, a repeated corner, more than kMostElements triangles. O(n log n); `corners` is
+/// nothing: fewer than three corners, a repeated corner, more than kMaxElements triangles. O(n log n); `corners` is
 /// used up.
 [[nodiscard]] std::string append_fan(std::vector<std::int32_t>& corners, MeshData& mesh);
 

@@ -32,7 +32,7 @@ double parse_coordinate(const LineReader& lines, std::string_view numerator, std
   if (fault == RationalFault::kZeroDenominator) lines.fail(rational + " has the denominator zero; correct it");
   if (fault == RationalFault::kSyntax) lines.fail(rational + " is no integer over a positive integer; correct it");
   if (fault == RationalFault::kManyDigits) {
-    lines.fail(rational + " has a number of more than " + std::to_string(kMostDigits) +
+    lines.fail(rational + " has a number of more than " + std::to_string(kMaxDigits) +
                " digits; write it in lowest terms");
   }
   lines.fail(rational + " is not exactly a double; write the rational of the stored double");

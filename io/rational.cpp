@@ -103,7 +103,7 @@ RationalFault parse_rational(std::string_view numerator, std::string_view denomi
   const bool is_negative = numerator.starts_with('-');
   if (is_negative || numerator.starts_with('+')) numerator.remove_prefix(1);
   if (!are_digits(numerator) || !are_digits(denominator)) return RationalFault::kSyntax;
-  if (std::max(numerator.size(), denominator.size()) > kMostDigits) return RationalFault::kManyDigits;
+  if (std::max(numerator.size(), denominator.size()) > kMaxDigits) return RationalFault::kManyDigits;
   const Natural n(numerator), d(denominator);
   if (d.is_zero()) return RationalFault::kZeroDenominator;
   const RationalFault fault = divide(n, d, value);

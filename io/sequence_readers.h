@@ -19,7 +19,7 @@ namespace selvage::io {
 [[nodiscard]] std::vector<std::filesystem::path> folder_sequence_files(const std::filesystem::path& folder);
 /// Of an .npz, in which every change between cloth and bodies begins one. A scene has some dozens; a group for every
 /// face would take far more memory than the file.
-inline constexpr std::size_t kMostNpzGroups = 4096;
+inline constexpr std::size_t kMaxNpzGroups = 4096;
 /// An .npz with V, F and maybe group; `name` appears in errors.
 [[nodiscard]] std::unique_ptr<SequenceReader> open_npz_sequence(std::shared_ptr<const ByteSource> source,
                                                                 std::string name);

@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace selvage::detail::HWY_NAMESPACE {
 
-using Near = hn::CappedTag<float, kMostLanes>;
+using Near = hn::CappedTag<float, kMaxLanes>;
 using Place = hn::RebindToUnsigned<Near>;
 using Value = hn::Vec<Near>;
 using Choice = hn::Mask<Near>;

@@ -12,7 +12,7 @@ namespace {
 /// Nonzero coordinates from here on differ by 2^-753 or not at all, which pairs can be scaled by without a loss.
 constexpr double kLeastExact = 0x1p-700;
 /// Rows are off by 2^-1074 where scaling underflows; magnified no further than this, that is nothing to float32.
-constexpr int kMostMagnified = 1000;
+constexpr int kMaxMagnified = 1000;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ LanePairs::LanePairs(const LanePairs& all, const PairNumbers& numbers) : kind_(a
 
 void LanePairs::pad() {
   for (auto& of_pairs : vertex_) {
-    std::fill_n(of_pairs.begin() + static_cast<std::ptrdiff_t>(count_), kMostLanes,
+    std::fill_n(of_pairs.begin() + static_cast<std::ptrdiff_t>(count_), kMaxLanes,
                 count_ > 0 ? of_pairs[count_ - 1] : 0);
   }
 }
@@ -103,7 +103,7 @@ void LaneMotion::fill_near_rows() {
     middle[axis] = 0.5 * (lowest + highest);
     reach = std::max(reach, std::max(highest - middle[axis], middle[axis] - lowest));
   }
-  const int magnified = reach > 0 ? std::min(-exponent_of(reach), kMostMagnified) : 0;
+  const int magnified = reach > 0 ? std::min(-exponent_of(reach), kMaxMagnified) : 0;
   near_exponent = exponent - magnified;
   const double factor = power_of_two(magnified);
   near_rows.resize(rows.size());

@@ -13,11 +13,11 @@ namespace selvage::detail {
 /// Pairs that are looked at together: enough that the few that one look leaves fill the lanes of the next.
 inline constexpr std::size_t kPairBlock = 1024;
 /// Lanes of the widest target: of floats, and of doubles.
-inline constexpr std::size_t kMostLanes = 16, kMostWideLanes = 8;
+inline constexpr std::size_t kMaxLanes = 16, kMaxWideLanes = 8;
 
 /// Places of pairs in a block, ascending, with room for a whole vector behind them.
 struct PairNumbers {
-  std::array<std::uint32_t, kPairBlock + kMostLanes> place;
+  std::array<std::uint32_t, kPairBlock + kMaxLanes> place;
   std::size_t count = 0;
 
   PairNumbers() {}  // places are written before they are read
@@ -43,7 +43,7 @@ class LanePairs {
 
   PairKind kind_;
   std::size_t count_;
-  std::array<std::array<std::uint32_t, kPairBlock + kMostLanes>, 4> vertex_;
+  std::array<std::array<std::uint32_t, kPairBlock + kMaxLanes>, 4> vertex_;
 };
 
 class LaneMotion {

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace selvage::detail::HWY_NAMESPACE {
 
-using Wide = hn::CappedTag<double, kMostWideLanes>;
+using Wide = hn::CappedTag<double, kMaxWideLanes>;
 using Integer = hn::RebindToSigned<Wide>;
 using Word = hn::RebindToUnsigned<Wide>;
 using Value = hn::Vec<Wide>;
@@ -176,8 +176,8 @@ class ContactReader {
   }
 
  private:
-  HWY_ALIGN double tick_[kMostWideLanes], gap_[kMostWideLanes], intervals_[kMostWideLanes], factor_[kMostWideLanes],
-      weight_[4][kMostWideLanes], normal_[3][kMostWideLanes];
+  HWY_ALIGN double tick_[kMaxWideLanes], gap_[kMaxWideLanes], intervals_[kMaxWideLanes], factor_[kMaxWideLanes],
+      weight_[4][kMaxWideLanes], normal_[3][kMaxWideLanes];
 };
 
 template <PairKind kKind>

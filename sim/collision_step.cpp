@@ -185,14 +185,14 @@ void Attempt::repel() {
 bool Attempt::search() {
   const PhaseTimer timer(report_.phases.search);
   const std::size_t most =
-      std::max(kMeetingsOfAnyMesh, kMostMeetings * static_cast<std::size_t>(step_.mesh.vertex_count));
+      std::max(kMeetingsOfAnyMesh, kMaxMeetings * static_cast<std::size_t>(step_.mesh.vertex_count));
   CollisionLimits limits{.most_collisions = most, .most_near = most};
   if (tracker_.start(motion_, limits)) return true;
   if (tracker_.starts_with_more_near(motion_, most / kMeetingsPerNearAtStart)) {
     limits.most_near = CollisionLimits{}.most_near;
     if (tracker_.start(motion_, limits)) return true;
   }
-  for (int cuts = 0; cuts < kMostCuts; ++cuts) {
+  for (int cuts = 0; cuts < kMaxCuts; ++cuts) {
     report_.first_collisions = static_cast<std::int64_t>(most) + 1;
     if (patience_.collisions < report_.first_collisions) return false;
     const std::int64_t cut = halve_travel(groups_, motion_, 1 << cuts);

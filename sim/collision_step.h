@@ -103,7 +103,7 @@ class CollisionStep {
   /// straight motion V_t0 -> x is exactly free of touching; what is nearer than its tolerance is named; scripted
   /// vertices are at their (rounded) candidates, or at V_t0 where they wait; all others are within
   /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + vertices of those that deform + 2)
-  /// (impulse_iterations + zone_iterations + 3 #V + 4 + kMostCuts, travel_limit.h) searches for collisions.
+  /// (impulse_iterations + zone_iterations + 3 #V + 4 + kMaxCuts, travel_limit.h) searches for collisions.
   /// Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,

@@ -19,8 +19,8 @@ constexpr std::int64_t kGoodShare = 8;
 // Half the step bears twice as much, up to this: what an impulse or a contact moves is less by as much, and to halve
 // the step again spares little. At 3 m/s contact overstrains 121 springs in 2.1 ms, and 36 in each half of them
 // (sim/scenes/curtain.toml, 2.84 s). docs/simulator-speed.md says what it is worth.
-constexpr std::int64_t kMostBorne = 4;
-std::int64_t borne(std::int32_t halvings) { return std::min(std::int64_t{1} << halvings, kMostBorne); }
+constexpr std::int64_t kMaxBorne = 4;
+std::int64_t borne(std::int32_t halvings) { return std::min(std::int64_t{1} << halvings, kMaxBorne); }
 
 // What a collision step may put into the springs of a part of the cloth, of the energy that this has: otherwise the
 // dynamics runs once more, and holds what was met. A step that is long beside the swing of stiff springs displaces

@@ -8,8 +8,8 @@
 namespace selvage::sim {
 namespace {
 
-constexpr std::int32_t kFewestGoodSteps = 3;   // section 5: "three successful time steps in a row"
-constexpr std::int32_t kMostGoodSteps = 3072;  // 10 failures in a row: no more than a try in 3,000 steps is lost
+constexpr std::int32_t kFewestGoodSteps = 3;  // section 5: "three successful time steps in a row"
+constexpr std::int32_t kMaxGoodSteps = 3072;  // 10 failures in a row: no more than a try in 3,000 steps is lost
 constexpr std::int32_t kTrial = 4;  // steps that a doubled step must last: what kicks cloth at rest fails in one or two
 constexpr std::int32_t kLevelLimit = 20;  // 2^-20 of a frame is below a millionth
 
@@ -42,7 +42,7 @@ void StepClock::halve() {
   shorten();
   if (state_.on_trial == 0) return;
   state_.on_trial = 0;
-  state_.good_steps_asked = std::min(2 * state_.good_steps_asked, kMostGoodSteps);
+  state_.good_steps_asked = std::min(2 * state_.good_steps_asked, kMaxGoodSteps);
 }
 
 void StepClock::shorten() {

@@ -144,8 +144,8 @@ void tally_in_parallel(std::size_t count, std::size_t limit, Tally& tally, const
   if (tally.has_enough()) return;
   // Chunks are fixed by the count, so that what a chunk counts does not depend on the scheduler; and so many at most
   // that their memory is no matter.
-  constexpr std::size_t kLeast = 16, kMostChunks = 1024;
-  const std::size_t size = std::max(kLeast, (count + kMostChunks - 1) / kMostChunks);
+  constexpr std::size_t kLeast = 16, kMaxChunks = 1024;
+  const std::size_t size = std::max(kLeast, (count + kMaxChunks - 1) / kMaxChunks);
   std::vector<Tally> chunks((count + size - 1) / size, Tally::part_of(tally, limit));
   std::optional<EnoughHits> together;
   if (tally.enough_ != std::numeric_limits<std::size_t>::max()) together.emplace(tally.count_missing(), chunks.size());

@@ -11,12 +11,12 @@ namespace {
 
 std::string list_of(const std::vector<io::Group>& groups) {
   if (groups.empty()) return "the sequence has no groups";
-  constexpr std::size_t kMostNamed = 20;  // as many as a person reads through
+  constexpr std::size_t kMaxNamed = 20;  // as many as a person reads through
   std::vector<std::string> listed;
   std::string text = "the groups are";
   for (const io::Group& group : groups) {
     if (std::ranges::find(listed, group.name) != listed.end()) continue;
-    if (listed.size() == kMostNamed) return text + ", ...";
+    if (listed.size() == kMaxNamed) return text + ", ...";
     text += fmt::format("{} \"{}\"", listed.empty() ? "" : ",", group.name);
     listed.push_back(group.name);
   }

@@ -16,7 +16,7 @@ using page::text;
 
 namespace {
 
-constexpr std::int64_t kMostBars = 200;  // 4 pixels each in a window of 1,000
+constexpr std::int64_t kMaxBars = 200;  // 4 pixels each in a window of 1,000
 
 struct Bar {
   std::int64_t begin = 0, end = 0;  ///< frames
@@ -39,7 +39,7 @@ void add_words(std::string& what, const verify::SequenceReport::Violated& unit) 
 }
 
 std::vector<Bar> bars_of(const verify::SequenceReport& report) {
-  const std::int64_t count = report.end_frame - report.first_frame, bar_count = std::min(count, kMostBars);
+  const std::int64_t count = report.end_frame - report.first_frame, bar_count = std::min(count, kMaxBars);
   const std::int64_t checked_end = report.first_frame + std::ssize(report.frame_crc32);
   std::vector<Bar> bars;
   for (std::int64_t i = 0; i < bar_count; ++i) {

@@ -42,8 +42,8 @@ std::string counted(std::int64_t count, const std::string& singular) {
 }
 
 std::string source_names(const std::vector<std::string>& sources) {
-  constexpr std::size_t kMostNamed = 3;
-  if (sources.size() > kMostNamed) {
+  constexpr std::size_t kMaxNamed = 3;
+  if (sources.size() > kMaxNamed) {
     return fmt::format("{} ... {} ({} files)", sources.front(), sources.back(), sources.size());
   }
   std::string all;

@@ -17,7 +17,7 @@ constexpr int kGap = 6;                                          // pixels betwe
 constexpr std::array<std::uint8_t, 3> kPaper = {250, 250, 248};  // behind the tiles
 constexpr std::array<std::uint8_t, 3> kInk = {45, 50, 60};
 constexpr int kTextScale = 2;
-constexpr std::size_t kMostPixels = 100'000'000;  // the sheet, a tile as large, and the PNG in the making: 0.9 GB
+constexpr std::size_t kMaxPixels = 100'000'000;  // the sheet, a tile as large, and the PNG in the making: 0.9 GB
 
 void paste(const io::Picture& tile, int x, int y, io::Picture& sheet) {
   for (int row = 0; row < tile.height; ++row) {
@@ -57,7 +57,7 @@ std::optional<io::Picture> render_sheet(const io::SequenceReader& sequence, cons
   const int tile_width = (options.width - kGap * (columns + 1)) / columns, tile_height = tile_width * 3 / 4;
   io::Picture sheet{options.width, rows * (tile_height + kGap) + kGap, {}};
   const std::size_t pixels = static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height);
-  if (pixels > kMostPixels) {
+  if (pixels > kMaxPixels) {
     throw UsageError(fmt::format("a sheet of {} by {} pixels is too large; choose a smaller --width or more --columns",
                                  sheet.width, sheet.height));
   }

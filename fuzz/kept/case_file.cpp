@@ -12,7 +12,7 @@ namespace selvage::fuzz {
 namespace {
 
 /// Of a file: more would be memory that a wrong digit asks for.
-constexpr std::uint32_t kMostInBatch = 1U << 20;
+constexpr std::uint32_t kMaxInBatch = 1U << 20;
 
 std::string_view point_names(PairKind kind) {
   switch (kind) {
@@ -76,7 +76,7 @@ BatchSize parse_batch(const CaseLines& lines, std::string_view how) {
   if (!how.starts_with("batch=")) {
     lines.fail("plugin: 'alone', 'batch' or 'batch=NUMBER' is wanted, not '" + std::string(how) + "'");
   }
-  return static_cast<std::uint32_t>(lines.integer(how.substr(kBatch.size() + 1), 0, kMostInBatch, "batch"));
+  return static_cast<std::uint32_t>(lines.integer(how.substr(kBatch.size() + 1), 0, kMaxInBatch, "batch"));
 }
 
 PluginRecord parse_plugin(CaseLines& lines, PairKind kind) {

@@ -11,7 +11,7 @@ namespace selvage::fuzz {
 namespace {
 
 /// More would not fit into a file that a person opens.
-constexpr std::int64_t kMostElements = 1 << 20;
+constexpr std::int64_t kMaxElements = 1 << 20;
 
 std::string format_number(const MeshNumber& number, double x) {
   return number.is_integer ? std::to_string(std::llround(x)) : hex(x);
@@ -34,7 +34,7 @@ double parse_number(const MeshNumber& number, CaseLines& lines) {
 std::int64_t parse_count(std::string_view what, std::int64_t lowest, CaseLines& lines) {
   lines.advance();
   lines.expect_word(what);
-  const std::int64_t count = lines.integer(lines.word(), lowest, kMostElements, what);
+  const std::int64_t count = lines.integer(lines.word(), lowest, kMaxElements, what);
   lines.expect_end_of_line();
   return count;
 }

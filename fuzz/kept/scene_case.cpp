@@ -11,7 +11,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr std::int64_t kMostSteps = 1000000;
+constexpr std::int64_t kMaxSteps = 1000000;
 
 verify::Topology topology_of(const sim::World& world) {
   const std::vector<std::uint8_t> is_body = io::body_faces(world.triangles.size(), world.groups);
@@ -32,7 +32,7 @@ bool touches(const verify::Topology& topology, const Positions& x_t0, const Posi
 std::int64_t steps_of(const std::string& word) {
   std::int64_t steps = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), steps);
-  const bool is_count = error == std::errc() && end == word.data() + word.size() && steps >= 1 && steps <= kMostSteps;
+  const bool is_count = error == std::errc() && end == word.data() + word.size() && steps >= 1 && steps <= kMaxSteps;
   return is_count ? steps : 0;
 }
 

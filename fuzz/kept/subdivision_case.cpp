@@ -10,7 +10,7 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr int kMostLevels = 3;  // 64 faces for one
+constexpr int kMaxLevels = 3;  // 64 faces for one
 
 /// A surface as files have it: bodies are ranges of faces.
 struct Frame {
@@ -93,7 +93,7 @@ const MeshKind& subdivision_kind() {
                              "frames free of intersections stay free when they are subdivided (paper, section 8)",
                              {"x"},
                              0,
-                             {{"levels", 1, 1, kMostLevels, true}},
+                             {{"levels", 1, 1, kMaxLevels, true}},
                              {{"scripted", 0, 0, 1, true}},
                              retry_subdivision};
   return kind;

@@ -46,9 +46,9 @@ struct PropertyLedger {
 
 /// Of each property: campaign.json holds counts up to 2^53, which every reader of JSON takes exactly, and what is asked
 /// for is rounded up to work units.
-inline constexpr double kMostCases = 1e15;
+inline constexpr double kMaxCases = 1e15;
 /// Far more than a scheduler's array holds, and so few that the numbers of cases stay below 2^53 as well.
-inline constexpr std::size_t kMostShards = 1'000'000;
+inline constexpr std::size_t kMaxShards = 1'000'000;
 
 struct Ledger {
   std::string version;  ///< of the program: the cases behind a number may change with it

@@ -28,11 +28,11 @@ struct Place {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Where a body turns by more its ends say little of where it is between.
-constexpr double kMostTurn_deg = 90;
+constexpr double kMaxTurn_deg = 90;
 /// Such a body is looked at after so much of its turn again: at quarters of the step one that goes round four times in
 /// it stood still. Beyond 512 looks, each of which places all its vertices, it is taken to be anywhere: the step is
 /// halved, and with it what is to be looked at.
-constexpr double kSampledTurn_deg = 45, kMostSampledTurn_deg = 64 * 360;
+constexpr double kSampledTurn_deg = 45, kMaxSampledTurn_deg = 64 * 360;
 
 }  // namespace
 
@@ -112,8 +112,8 @@ Collider::Bend Collider::bend(double t0_s, double t1_s) const {
   if ((met_ ? met_->empty() : vertices_.empty()) || linkage() == nullptr) return bend;
   std::vector<double> times = times_between(t0_s, t1_s);
   const double turn_deg = linkage()->turn_deg(t0_s, t1_s);
-  const bool turns_far = turn_deg > kMostTurn_deg;
-  if (turn_deg > kMostSampledTurn_deg) return {kInfinite, 0, {Vec3::Constant(-kInfinite), Vec3::Constant(kInfinite)}};
+  const bool turns_far = turn_deg > kMaxTurn_deg;
+  if (turn_deg > kMaxSampledTurn_deg) return {kInfinite, 0, {Vec3::Constant(-kInfinite), Vec3::Constant(kInfinite)}};
   if (turns_far) add_turns(t0_s, t1_s, times);
   const Passage seen = passage(t0_s, t1_s, times, Rows::kMet);
   bend.leaves_line_by_m = turns_far ? kInfinite : seen.leaves_line_by_m();

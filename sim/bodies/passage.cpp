@@ -9,7 +9,7 @@ namespace {
 /// Of the parabola's height, as far as it may be off. A body that starts or stops anywhere in the step is off by a
 /// quarter of it or more; one that moves smoothly from rest to rest in n steps by 1 / (8 (n - 1)) in the first and the
 /// last (cubic keys), and a vertex that goes round by an angle of a radians by a / 16.
-constexpr double kMostOff = 1.0 / 8;
+constexpr double kMaxOff = 1.0 / 8;
 
 double distance_to_segment(const Vec3& x, const Vec3& from, const Vec3& way) {
   const double squared = way.squaredNorm();
@@ -44,7 +44,7 @@ void Passage::add(double share, const Positions& at) {
   box_.extend(box_of(at));
 }
 
-bool Passage::is_bow() const { return unless_rounding(bow_is_off_by_m_) <= kMostOff / 4 * longest(bow_); }
+bool Passage::is_bow() const { return unless_rounding(bow_is_off_by_m_) <= kMaxOff / 4 * longest(bow_); }
 
 Positions Passage::bow_m() const { return is_bow() ? bow_ : Positions::Zero(bow_.rows(), 3); }
 

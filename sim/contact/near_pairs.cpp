@@ -21,7 +21,7 @@ constexpr double kRounding = 1 + 1e-6;
 
 /// Of the thickness: as far as a fall counts. Cloth that rests on cloth is nearer than that. Without a limit stretches
 /// of sim/scenes/curtain.toml take up to 1.25 times the time, with it up to 1.13 (docs/simulator-speed.md).
-constexpr double kMostFallShare = 1.0 / 8;
+constexpr double kMaxFallShare = 1.0 / 8;
 
 /// Candidates of one task. The tasks are the same for any number of threads, and so is the order of what they find.
 constexpr std::size_t kTaskSize = 4 * detail::kPairBlock;
@@ -89,7 +89,7 @@ bool comes_near(const NearPair& pair, const Positions& V_t0, const Positions& V_
     const VertexId v = pair.vertices[k];
     moved += pair.weights[k] * (V_t1.row(v) - V_t0.row(v)).transpose();
   }
-  const double fallen = std::min(std::abs(fall.dot(pair.direction)), kMostFallShare * pair.thickness_m);
+  const double fallen = std::min(std::abs(fall.dot(pair.direction)), kMaxFallShare * pair.thickness_m);
   return !(pair.distance + moved.dot(pair.direction) - fallen >= pair.thickness_m);
 }
 

@@ -13,7 +13,7 @@ namespace selvage::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using detail::HWY_NAMESPACE::Value3;
 
-using Many = hn::CappedTag<double, detail::kMostWideLanes>;
+using Many = hn::CappedTag<double, detail::kMaxWideLanes>;
 using One = hn::CappedTag<double, 1>;
 
 void Write(const Nearest<Many>& nearest, std::size_t i, QuickProximities& to) {

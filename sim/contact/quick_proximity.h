@@ -20,7 +20,7 @@ struct QuickProximity {
 
 /// Those of a block of pairs, by columns.
 struct QuickProximities {
-  using Column = std::array<double, detail::kPairBlock + detail::kMostLanes>;
+  using Column = std::array<double, detail::kPairBlock + detail::kMaxLanes>;
   Column distance;
   std::array<Column, 3> direction;
   std::array<Column, 4> weights;

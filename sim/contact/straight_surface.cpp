@@ -17,15 +17,15 @@ namespace {
 
 /// Cloth that slides at 3 m/s passes 10 cm in a step of a 30th of a second: 32 edges of 3 mm, which is what it is
 /// thick.
-constexpr int kMostAhead = 32;
+constexpr int kMaxAhead = 32;
 
 /// Normals of faces around a vertex that are tried: of a cube's corner cut into any faces there are three, and a hub of
 /// hundreds of faces is asked in linear time.
-constexpr std::size_t kMostPlanes = 4;
+constexpr std::size_t kMaxPlanes = 4;
 
 /// Faces around a vertex on a line: all pairs of its neighbours are tried, which of the hub of a cone of hundreds of
 /// faces would take longer than all else of a contact, and a ridge has six or so.
-constexpr std::size_t kMostOnLine = 64;
+constexpr std::size_t kMaxOnLine = 64;
 
 Vec3 way(const Positions& V, VertexId from, VertexId to) { return (V.row(to) - V.row(from)).stableNormalized(); }
 
@@ -151,7 +151,7 @@ StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan) 
     const Vec3 normal = face.ways[0].cross(face.ways[1]).stableNormalized();
     const auto was_tried = [&](const Vec3& other) { return other.cross(normal).norm() < kStraight; };
     if (normal.isZero(0) || std::ranges::any_of(tried, was_tried)) continue;
-    if (tried.size() == kMostPlanes) break;
+    if (tried.size() == kMaxPlanes) break;
     tried.push_back(normal);
     Fan in_plane;
     std::ranges::copy_if(fan, std::back_inserter(in_plane), [&](const Sector& other) {
@@ -171,7 +171,7 @@ StraightSurface StraightSurfaces::plane_around(VertexId vertex, const Fan& fan) 
 
 /// Through two neighbours on opposite sides, if all faces go along it.
 StraightSurface StraightSurfaces::line_through(VertexId vertex, const Fan& fan) const {
-  if (fan.size() > kMostOnLine) return {};
+  if (fan.size() > kMaxOnLine) return {};
   for (std::size_t j = 0; j < 2 * fan.size(); ++j) {
     const Vec3& there = fan[j / 2].ways[j % 2];
     for (std::size_t i = 0; i < j; ++i) {
@@ -193,7 +193,7 @@ StraightSurface StraightSurfaces::line_through(VertexId vertex, const Fan& fan) 
 double StraightSurfaces::line_extent(VertexId from, VertexId to) const {
   const Vec3 ahead = way(V_, from, to);
   VertexId before = from, end = to;
-  for (int edges = 1; edges < kMostAhead; ++edges) {
+  for (int edges = 1; edges < kMaxAhead; ++edges) {
     VertexId next = before;
     for (const FaceId face : faces_.of(end)) {
       for (const VertexId corner : mesh_.faces[static_cast<std::size_t>(face)]) {

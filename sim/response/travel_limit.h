@@ -21,7 +21,7 @@ inline constexpr double kMaxTravel = 1024;
 /// A step in which more pairs than so many a vertex are not free of touch, or as many near only in the end, has no
 /// answer in impulses. The curtain finds one for ten vertices in its worst search. All pairs of a mesh at one point
 /// take 40 us each: without this limit 3 s for 128 vertices, 55 s for 512, and 3 minutes and 3 GB for 968.
-inline constexpr std::size_t kMostMeetings = 64;
+inline constexpr std::size_t kMaxMeetings = 64;
 /// So many are borne by the smallest mesh, too, whose whole search costs less than several that are given up: 54
 /// vertices with coordinates of all magnitudes took 3.4 s, and 11.4 where 3,456 were too many.
 inline constexpr std::size_t kMeetingsOfAnyMesh = std::size_t{1} << 14;
@@ -32,7 +32,7 @@ inline constexpr std::size_t kMeetingsPerNearAtStart = 16;
 /// eighth, 2^-7, 2^-15. So one that meets a little too much keeps half, and one of a million edges, in which pairs of
 /// all of the mesh meet until it is about as long as an edge, takes six searches (docs/guarantee.md). After the last,
 /// nothing is left of any motion within the domain: then all is tested, and what meets is met by bodies.
-inline constexpr int kMostCuts = 12;
+inline constexpr int kMaxCuts = 12;
 
 /// Halves the displacements of all cloth vertices so many times; how many moved.
 [[nodiscard]] std::int64_t halve_travel(const ScriptedGroups& groups, StepMotion& motion, int times);

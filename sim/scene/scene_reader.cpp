@@ -260,10 +260,10 @@ TimeSpec read_time(TomlTable table, Solver solver) {
   if (table.has("frames") && table.has("duration_s")) table.fail("give frames or duration_s, and not both");
   if (!table.has("frames") && !table.has("duration_s")) table.fail("nothing says how long; add frames or duration_s");
   if (table.has("frames")) {
-    time.frame_count = table.integer("frames", 1, kMostFrames);
+    time.frame_count = table.integer("frames", 1, kMaxFrames);
   } else {
     const double frames = std::round(table.number("duration_s", kPositive) * time.frames_per_s);
-    if (frames > kMostFrames) table.fail("duration_s", "duration_s is more than 999,999 frames; shorten it");
+    if (frames > kMaxFrames) table.fail("duration_s", "duration_s is more than 999,999 frames; shorten it");
     time.frame_count = std::max<std::int64_t>(1, static_cast<std::int64_t>(frames));
   }
   const double frame_s = 1 / time.frames_per_s;

@@ -12,7 +12,7 @@
 namespace selvage::sim {
 
 /// Of a run: the six digits of frame_000000.npy hold one more, the start.
-inline constexpr std::int64_t kMostFrames = 999'999;
+inline constexpr std::int64_t kMaxFrames = 999'999;
 
 /// Throws io::Error "FILE:LINE: what is wrong; what to do" on syntax errors, unknown keys, wrong types and bad values.
 /// Mesh files are named relative to the scene file; they are read when the world is built.

@@ -142,7 +142,7 @@ TEST_P(Memory, IsBoundedByTheFile) {
     }
   });
   RecordProperty("peak_per_byte", std::to_string(static_cast<double>(used) / static_cast<double>(file.bytes.size())));
-  EXPECT_LE(used, testing::kMostMemory * file.bytes.size() + testing::kMemoryConstant)
+  EXPECT_LE(used, testing::kMaxMemory * file.bytes.size() + testing::kMemoryConstant)
       << used / file.bytes.size() << " times the file";
 }
 

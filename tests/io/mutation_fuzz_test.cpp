@@ -160,7 +160,7 @@ TEST_P(MutationFuzz, RefusesOrAcceptsWhatIsSound) {
         failure = std::current_exception();
       }
     });
-    ASSERT_LE(used, testing::kMostMemory * bytes.size() + testing::kMemoryConstant) << "case " << i;
+    ASSERT_LE(used, testing::kMaxMemory * bytes.size() + testing::kMemoryConstant) << "case " << i;
     try {
       if (failure) std::rethrow_exception(failure);
       ++accepted;

@@ -104,8 +104,8 @@ TEST(Rational, WhatIsNoRational) {
   EXPECT_EQ(fault("1", "-1"), RationalFault::kSyntax);
   EXPECT_EQ(fault("1", "0"), RationalFault::kZeroDenominator);
   EXPECT_EQ(fault("0", "0"), RationalFault::kZeroDenominator);
-  EXPECT_EQ(rational(std::string(kMostDigits - 1, '0') + "1", "1"), 1.0);
-  const std::string long_one = std::string(kMostDigits, '0') + "1";
+  EXPECT_EQ(rational(std::string(kMaxDigits - 1, '0') + "1", "1"), 1.0);
+  const std::string long_one = std::string(kMaxDigits, '0') + "1";
   EXPECT_EQ(fault(long_one, "1"), RationalFault::kManyDigits);
   EXPECT_EQ(fault("1", long_one), RationalFault::kManyDigits);
   EXPECT_EQ(fault(long_one + "a", "1"), RationalFault::kSyntax);

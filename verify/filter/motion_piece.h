@@ -40,7 +40,7 @@ typename Piece<N>::Corners middle(const Piece<N>& piece) {
 /// (3) f: a term D_0k c_k, |c_k| <= 2 M_i M_j: 38.3 + 2 * 8.01 + 2 = 56.4 times u P, P = M_x M_y M_z. End coefficients,
 ///     sums of three terms <= 6 P: 3 * 56.4 + 10 = 180. Three times an inner coefficient, sums of three (a + 2 b):
 ///     3 * (3 * 56.4 + 6) + 30 = 556, that is 186 for the coefficient. The bound takes 256 (and 3 * 256).
-/// The slack pays for the roundings in M products here. kLeast keeps P from underflow, kMost every term from overflow.
+/// The slack pays for the roundings in M products here. kLeast keeps P from underflow, kMax every term from overflow.
 class ErrorBounds {
  public:
   template <std::size_t N>
@@ -55,14 +55,14 @@ class ErrorBounds {
     cubic = 0x1p-45 * magnitude_[0] * magnitude_[1] * magnitude_[2];
   }
   [[nodiscard]] bool hold() const {
-    return std::ranges::all_of(magnitude_, [](double m) { return m <= kMost; });
+    return std::ranges::all_of(magnitude_, [](double m) { return m <= kMax; });
   }
 
   std::array<double, 3> cross{};
   double cubic = 0;
 
  private:
-  static constexpr double kLeast = 0x1p-300, kMost = 0x1p+300;
+  static constexpr double kLeast = 0x1p-300, kMax = 0x1p+300;
   std::array<double, 3> magnitude_{};
 };
 

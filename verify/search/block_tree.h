@@ -18,7 +18,7 @@ template <std::size_t kInstants>
 class BlockTree {
  public:
   using Block = BoxBlock<kInstants>;
-  static constexpr std::size_t kWidth = Block::kWidth, kMostVisited = 32;
+  static constexpr std::size_t kWidth = Block::kWidth, kMaxVisited = 32;
 
   BlockTree() = default;
   /// Over blocks with these bounds.
@@ -27,7 +27,7 @@ class BlockTree {
   /// What holds the blocks 8 i, ..., 8 i + 7.
   [[nodiscard]] LatticeBoxes<kInstants> bounds(std::size_t i) const { return levels_.front()[i].bounds(); }
 
-  /// Calls visit(blocks) with the blocks >= first that may meet `boxes`, in ascending order, at most kMostVisited at
+  /// Calls visit(blocks) with the blocks >= first that may meet `boxes`, in ascending order, at most kMaxVisited at
   /// once. Returns how many.
   template <class Visit>
   std::int64_t visit(const LatticeBoxes<kInstants>& boxes, std::size_t first, Visit&& visit) const;
@@ -47,7 +47,7 @@ std::int64_t BlockTree<kInstants>::visit(const LatticeBoxes<kInstants>& boxes, s
   // 8^11 > 2^31 blocks: at most 11 levels, each leaves at most 7 siblings waiting.
   std::array<Node, 12 * kWidth> stack;
   std::size_t depth = 0;
-  std::array<std::uint32_t, kMostVisited> found;
+  std::array<std::uint32_t, kMaxVisited> found;
   std::size_t found_count = 0;
   std::int64_t visited = 0;
   stack[depth++] = {levels_.size() - 1, 0};
@@ -62,7 +62,7 @@ std::int64_t BlockTree<kInstants>::visit(const LatticeBoxes<kInstants>& boxes, s
         found[found_count + i] = static_cast<std::uint32_t>(kWidth * node.block + kSetBits[mask][i]);
       }
       found_count += kBitCount[mask];
-      if (found_count + kWidth > kMostVisited) {
+      if (found_count + kWidth > kMaxVisited) {
         visit(std::span(found).first(found_count));
         visited += static_cast<std::int64_t>(found_count);
         found_count = 0;

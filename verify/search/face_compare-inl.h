@@ -146,10 +146,10 @@ struct Work {
     std::uint8_t meet;
   };
 
-  std::array<Boxes, FaceMatches::kMostBlocks> boxes;
-  std::array<Comparison, FaceMatches::kMostBlocks * FaceQuery::kBlocks + kWidth> pairs;  // of blocks
+  std::array<Boxes, FaceMatches::kMaxBlocks> boxes;
+  std::array<Comparison, FaceMatches::kMaxBlocks * FaceQuery::kBlocks + kWidth> pairs;  // of blocks
   std::size_t pair_count = 0;
-  std::array<Comparison, (FaceMatches::kMostBlocks * FaceQuery::kBlocks + 1) * kWidth> left;
+  std::array<Comparison, (FaceMatches::kMaxBlocks * FaceQuery::kBlocks + 1) * kWidth> left;
   std::size_t count = 0;
 };
 

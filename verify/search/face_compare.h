@@ -35,14 +35,14 @@ struct FaceMatch {
 struct FaceMatches {
   /// Blocks that are compared in one go: the loops over them and their faces have few branches that cannot be
   /// predicted, and what they read stays in the first cache.
-  static constexpr std::size_t kMostBlocks = 32;
+  static constexpr std::size_t kMaxBlocks = 32;
 
-  std::array<FaceMatch, kMostBlocks * FaceQuery::kBlocks * FaceBlock::kWidth> matches;
+  std::array<FaceMatch, kMaxBlocks * FaceQuery::kBlocks * FaceBlock::kWidth> matches;
   std::size_t count = 0;
   std::int64_t apart_count = 0;  ///< pairs that are proved apart, those in `matches` included
 };
 
-/// Compares the faces of `query` with those of blocks[chosen[0]], ..., at most kMostBlocks of them. `first`: which of
+/// Compares the faces of `query` with those of blocks[chosen[0]], ..., at most kMaxBlocks of them. `first`: which of
 /// `blocks` is the first of the query again; then only faces behind the one of the query count, so that every pair
 /// counts once. kOtherTree: none is. Found are, by block and place, the matches with a pair that may meet and is not
 /// proved apart; if `each`, all with a pair that meets.

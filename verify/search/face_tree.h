@@ -37,7 +37,7 @@ class FaceTree {
 
  private:
   static constexpr std::size_t kWidth = FaceBlock::kWidth, kGroup = FaceQuery::kBlocks;
-  static_assert(BlockTree<1>::kMostVisited <= FaceMatches::kMostBlocks);
+  static_assert(BlockTree<1>::kMaxVisited <= FaceMatches::kMaxBlocks);
   /// `first`: the first block of the group in `other`, kOtherTree if that is another tree.
   template <class Visit>
   std::int64_t visit_pairs(std::size_t group, const FaceTree& other, std::int64_t first, bool each, Visit& visit) const;

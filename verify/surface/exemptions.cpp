@@ -59,7 +59,7 @@ ExemptionTable::ExemptionTable(std::span<const Exemption> exemptions, std::span<
 Label ExemptionTable::label_of(std::vector<std::int32_t> classes) {
   const auto [found, is_new] = labels_.try_emplace(std::move(classes), static_cast<Label>(members_.size()));
   if (is_new) {
-    if (members_.size() == kMostLabels) {
+    if (members_.size() == kMaxLabels) {
       throw std::invalid_argument("the exempted groups meet in more than 2,047 different ways; exempt fewer at a time");
     }
     members_.push_back(found->first);

@@ -39,7 +39,7 @@ class ExemptionTable {
   [[nodiscard]] bool empty() const { return rule_count_ == 0; }
   /// The label of each face.
   [[nodiscard]] const std::vector<Label>& face_labels() const { return face_labels_; }
-  /// The label of what is held by all that `x` and `y` stand for. Throws std::invalid_argument above kMostLabels.
+  /// The label of what is held by all that `x` and `y` stand for. Throws std::invalid_argument above kMaxLabels.
   [[nodiscard]] Label unite(Label x, Label y);
   /// To be called once after the last unite() and before exemption().
   void close();
@@ -52,7 +52,7 @@ class ExemptionTable {
 
   /// A label is a row of two square tables: 16 MiB of each. Groups would have to meet in thousands of ways to reach
   /// this.
-  static constexpr std::size_t kMostLabels = 2048;
+  static constexpr std::size_t kMaxLabels = 2048;
 
  private:
   Label label_of(std::vector<std::int32_t> classes);

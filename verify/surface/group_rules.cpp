@@ -31,11 +31,11 @@ std::int64_t face_count_of(const FaceSet& set) {
 
 std::string known(const Groups& groups) {
   if (groups.empty()) return "the mesh has no groups (--group NAME=BEGIN:END makes one)";
-  constexpr std::size_t kMostNamed = 20;
+  constexpr std::size_t kMaxNamed = 20;
   std::string text = "the groups are";
   std::size_t named = 0;
   for (const auto& [name, faces] : groups) {
-    if (named++ == kMostNamed) return text + " and " + std::to_string(groups.size() - kMostNamed) + " more";
+    if (named++ == kMaxNamed) return text + " and " + std::to_string(groups.size() - kMaxNamed) + " more";
     text += (named > 1 ? ", \"" : " \"") + name + "\" (" + std::to_string(face_count_of(faces)) + " faces)";
   }
   return text;

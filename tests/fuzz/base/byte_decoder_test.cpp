@@ -27,11 +27,11 @@ void for_each_class(const Visit& visit) {
 
 /// Any bytes, or one byte all the time, which is what a loop that waits for another answer would never leave.
 rc::Gen<std::vector<std::uint8_t>> any_bytes() {
-  constexpr int kMostBytes = 600;  // more than any query takes
+  constexpr int kMaxBytes = 600;  // more than any query takes
   const auto byte = rc::gen::arbitrary<std::uint8_t>();
-  const auto repeated = rc::gen::map(rc::gen::pair(byte, rc::gen::inRange<std::size_t>(0, kMostBytes)),
+  const auto repeated = rc::gen::map(rc::gen::pair(byte, rc::gen::inRange<std::size_t>(0, kMaxBytes)),
                                      [](auto drawn) { return std::vector<std::uint8_t>(drawn.second, drawn.first); });
-  return rc::gen::oneOf(rc::gen::resize(kMostBytes, rc::gen::container<std::vector<std::uint8_t>>(byte)), repeated);
+  return rc::gen::oneOf(rc::gen::resize(kMaxBytes, rc::gen::container<std::vector<std::uint8_t>>(byte)), repeated);
 }
 
 TEST(ByteDecoder, prop_any_bytes_are_a_query) {

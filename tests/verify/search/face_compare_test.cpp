@@ -71,7 +71,7 @@ TEST(FaceCompare, IsTheSameForEverySetOfInstructionsAndNumberOfBlocks) {
       EXPECT_GT(expected.size(), 200U);
       EXPECT_GT(expected_count, 200);
       for (const FaceComparer& comparer : face_comparers()) {
-        for (const std::size_t step : {std::size_t{5}, FaceMatches::kMostBlocks}) {
+        for (const std::size_t step : {std::size_t{5}, FaceMatches::kMaxBlocks}) {
           std::int64_t count = 0;
           auto found = matches(comparer, blocks, first, each, step, count);
           EXPECT_EQ(count, expected_count) << comparer.instructions;
