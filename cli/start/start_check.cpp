@@ -23,7 +23,7 @@ constexpr std::size_t kNamedPairs = 10;  // the rest is counted
 /// vertices are in another order, have many times as many: 300 sheets of 162 faces at one place take 1.6 s of the
 /// processor and 214 MiB with this; 100 were not through after 24 s where all pairs were examined, and 6,962 faces at
 /// random took more than 4.4 GB where their 5 million pairs were kept.
-constexpr std::size_t kMostPairs = 200'000;
+constexpr std::size_t kMaxPairs = 200'000;
 
 /// Exact, of one state; pairs of bodies are left out. Both end with verify::Stopped at a signal.
 class Judge {
@@ -31,15 +31,15 @@ class Judge {
   explicit Judge(const sim::World& world)
       : topology_(verify::make_topology({world.triangles, io::body_faces(world.triangles.size(), world.groups)},
                                         static_cast<std::size_t>(world.x_t0.rows()))) {
-    options_.max_violations = kMostPairs;
+    options_.max_violations = kMaxPairs;
     options_.stop = interrupted;
   }
 
-  /// All, or kMostPairs where there are more, and then it looks no further.
+  /// All, or kMaxPairs where there are more, and then it looks no further.
   [[nodiscard]] std::vector<sim::FacePair> find_most(const Positions& x) const {
-    return pairs_of(verify::first_violations(topology_, sim::points_of(x), kMostPairs, options_));
+    return pairs_of(verify::first_violations(topology_, sim::points_of(x), kMaxPairs, options_));
   }
-  /// The first kMostPairs of all.
+  /// The first kMaxPairs of all.
   [[nodiscard]] std::vector<sim::FacePair> operator()(const Positions& x) const {
     return pairs_of(verify::check_frame(topology_, sim::points_of(x), options_).violations);
   }
@@ -57,7 +57,7 @@ class Judge {
   verify::CheckOptions options_;
 };
 
-const char* at_least(const std::vector<sim::FacePair>& pairs) { return pairs.size() < kMostPairs ? "" : "at least "; }
+const char* at_least(const std::vector<sim::FacePair>& pairs) { return pairs.size() < kMaxPairs ? "" : "at least "; }
 
 void print_pairs(const sim::World& world, const std::vector<sim::FacePair>& pairs) {
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i) {
@@ -79,10 +79,11 @@ bool has_edge_without_length(const sim::World& world) {
   });
 }
 
+/// `named` are those of the pairs that the user must part.
 [[noreturn]] void refuse(const sim::Simulation& simulation, const std::vector<sim::FacePair>& pairs,
-                         const std::string& what_to_do) {
+                         const std::vector<sim::FacePair>& named, const std::string& what_to_do) {
   const sim::World& world = simulation.world();
-  print_pairs(world, pairs);
+  print_pairs(world, named);
   const auto [f, g] = pairs.front();
   const std::string first = part_of_face(world, f), second = part_of_face(world, g);
   throw io::Error(io::ErrorKind::kBadInput,
@@ -110,25 +111,25 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   if (pairs.empty()) return {};
   if (!repair) {
     const bool is_rounded = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
-    refuse(simulation, pairs,
+    refuse(simulation, pairs, pairs,
            start_remedy(simulation.world(), simulation.x(), pairs, false) +
                (is_rounded ? "; coordinates are rounded to float32, so far from the origin precision = \"float64\" may "
                              "be all it needs"
                            : ""));
   }
   const sim::World& world = simulation.world();
-  if (pairs.size() >= kMostPairs) {
-    refuse(simulation, pairs,
+  if (pairs.size() >= kMaxPairs) {
+    refuse(simulation, pairs, pairs,
            "that is more than --repair looks at; " + start_remedy(world, simulation.x(), pairs, false));
   }
-  if (has_edge_without_length(world)) refuse(simulation, pairs, start_remedy(world, simulation.x(), pairs, false));
+  if (has_edge_without_length(world)) {
+    refuse(simulation, pairs, pairs, start_remedy(world, simulation.x(), pairs, false));
+  }
   sim::RepairedStart repaired = repair_and_show(simulation, judge, pairs.size());
   if (!repaired.remaining.empty()) {
-    std::vector<sim::FacePair> since_start = repaired.remaining;  // what the repair has made says nothing of a mesh
-    std::erase_if(since_start, [&](const sim::FacePair& pair) { return !std::ranges::binary_search(pairs, pair); });
-    refuse(simulation, repaired.remaining,
-           fmt::format("--repair found no way out for them, of {} pairs before; {}", pairs.size(),
-                       start_remedy(world, simulation.x(), since_start, true)));
+    refuse(simulation, pairs, repaired.remaining,
+           fmt::format("--repair found no way out for {} of them; {}", repaired.remaining.size(),
+                       start_remedy(world, simulation.x(), repaired.remaining, true)));
   }
   const sim::StartRepair done{std::ssize(pairs), repaired.moved_vertices, repaired.largest_move_m,
                               repaired.largest_strain};
@@ -137,7 +138,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   state.x = std::move(repaired.x);
   simulation.restore(state);
   say("repair     {} intersecting pairs: {} of {} cloth vertices moved, by at most {:.3g} m, {} states judged; "
-      "{} steps drew together what was stretched, largest strain {:.2g}\n",
+      "{} steps eased what was strained, largest strain {:.2g}\n",
       pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
       repaired.relax_steps, repaired.largest_strain);
   if (!seams.empty()) say("note       {}\n", seams);

@@ -1,8 +1,11 @@
 #include "sim/repair/body_return.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -12,8 +15,8 @@ namespace {
 // A body that comes back goes at most this many gaps a step: a ball through which a cloth passed by its middle comes
 // back in 3.2 s so, and in 10.4 s with steps four times as long, which the rigid zones have to resolve (measured).
 constexpr double kStepGaps = 4;
-constexpr int kMostReturnSteps = 256;  // so that bodies much larger than the gap come back too
-constexpr double kClearGaps = 4;       // between bodies that stand aside and the cloth
+constexpr int kMaxReturnSteps = 256;  // so that bodies much larger than the gap come back too
+constexpr double kClearGaps = 4;      // between bodies that stand aside and the cloth
 
 class BodyReturn {
  public:
@@ -32,29 +35,47 @@ class BodyReturn {
 
  private:
   [[nodiscard]] bool is_free(const Positions& at) { return state_.only(state_.judge(at), true).empty(); }
-  [[nodiscard]] Positions normals() const;
+  [[nodiscard]] Positions normals(double side) const;
   [[nodiscard]] Positions moved_bodies(const Positions& displacement) const;
   /// The cloth after the bodies have come back from where they are in `away`; none where it could not give way.
   [[nodiscard]] std::optional<Positions> come_back(const Positions& away);
   bool come_out_again();
   bool come_from_aside();
   [[nodiscard]] double largest_move(const Positions& x) const { return (x - state_.V).rowwise().norm().maxCoeff(); }
+  void keep_nearer(std::optional<Positions> x, std::optional<Positions>& best) const {
+    if (x && (!best || largest_move(*x) < largest_move(*best))) best = std::move(x);
+  }
 
   UntangleState& state_;
   CollisionStep step_;
   Eigen::AlignedBox3d body_box_, cloth_box_;
 };
 
-/// #V by 3: of the bodies' vertices, outwards.
-Positions BodyReturn::normals() const {
+/// #V by 3: of the bodies' vertices, outwards, whichever way round their faces go. Of a part that is closed, as an even
+/// number of its faces hold each edge, its volume tells; of others, which have no outside, `side` of the faces is
+/// taken.
+Positions BodyReturn::normals(double side) const {
+  const Mesh& mesh = state_.mesh;
+  const auto part_of = [&](VertexId v) { return static_cast<std::size_t>(state_.parts.part(v)); };
   Positions sum = Positions::Zero(state_.x.rows(), 3);
-  for (std::size_t f = 0; f < state_.mesh.faces.size(); ++f) {
+  std::vector<double> volume(static_cast<std::size_t>(mesh.vertex_count), 0);  // by part, six times
+  std::vector<std::uint8_t> is_odd(mesh.edges.size(), 0), is_open(volume.size(), 0);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (!state_.is_body_face(static_cast<FaceId>(f))) continue;
-    const auto& v = state_.mesh.faces[f];
+    const auto& v = mesh.faces[f];
     const Vec3 a = state_.x.row(v[0]), b = state_.x.row(v[1]), c = state_.x.row(v[2]);
-    for (const VertexId corner : v) sum.row(corner) += (b - a).cross(c - a).transpose();
+    const Vec3 normal = (b - a).cross(c - a), first = state_.x.row(state_.parts.part(v[0]));
+    volume[part_of(v[0])] += normal.dot(a - first);
+    for (const VertexId corner : v) sum.row(corner) += normal.transpose();
+    for (const EdgeId e : mesh.face_edges[f]) is_odd[static_cast<std::size_t>(e)] ^= 1;
   }
-  for (Eigen::Index v = 0; v < sum.rows(); ++v) sum.row(v) = sum.row(v).stableNormalized().eval();
+  for (std::size_t e = 0; e < is_odd.size(); ++e) {
+    if (is_odd[e] != 0) is_open[part_of(mesh.edges[e][0])] = 1;
+  }
+  for (VertexId v = 0; v < mesh.vertex_count; ++v) {
+    const double sign = is_open[part_of(v)] != 0 ? side : std::copysign(1.0, volume[part_of(v)]);
+    sum.row(v) = (sign * sum.row(v).stableNormalized()).eval();
+  }
   return sum;
 }
 
@@ -69,7 +90,7 @@ Positions BodyReturn::moved_bodies(const Positions& displacement) const {
 std::optional<Positions> BodyReturn::come_back(const Positions& away) {
   Positions x = away;
   const double steps = std::ceil((away - state_.x).rowwise().norm().maxCoeff() / (kStepGaps * state_.options.gap_m));
-  const int step_count = static_cast<int>(std::clamp<double>(steps, 1, kMostReturnSteps));
+  const int step_count = static_cast<int>(std::clamp<double>(steps, 1, kMaxReturnSteps));
   for (int n = 1; n <= step_count; ++n) {
     const double left = 1 - double(n) / step_count;
     Positions candidate = x;
@@ -86,17 +107,18 @@ std::optional<Positions> BodyReturn::come_back(const Positions& away) {
 }
 
 bool BodyReturn::come_out_again() {
-  const Positions inwards = -normals();
+  const std::array<Positions, 2> outwards{normals(1), normals(-1)};
+  const std::size_t sides = outwards[0] == outwards[1] ? 1 : 2;
   const double deepest = body_box_.diagonal().stableNorm() / 2;
-  for (double depth = state_.options.gap_m; depth <= deepest && state_.may_judge(); depth *= 2) {
-    const Positions away = moved_bodies(depth * inwards);
-    if (!is_free(away)) continue;
-    if (const std::optional<Positions> x = come_back(away)) {
-      state_.x = *x;
-      return true;
+  std::optional<Positions> best;
+  for (double depth = state_.options.gap_m; !best && depth <= deepest && state_.may_judge(); depth *= 2) {
+    for (std::size_t side = 0; side < sides; ++side) {
+      const Positions away = moved_bodies(-depth * outwards[side]);
+      if (is_free(away)) keep_nearer(come_back(away), best);
     }
   }
-  return false;
+  if (best) state_.x = *best;
+  return best.has_value();
 }
 
 bool BodyReturn::come_from_aside() {
@@ -110,8 +132,7 @@ bool BodyReturn::come_from_aside() {
     displacement.col(axis).setConstant(shift);
     const Positions away = moved_bodies(displacement);
     if (!is_free(away)) continue;  // the box of the cloth was passed by less than the lattice holds apart
-    const std::optional<Positions> x = come_back(away);
-    if (x && (!best || largest_move(*x) < largest_move(*best))) best = x;
+    keep_nearer(come_back(away), best);
   }
   if (best) state_.x = *best;
   return best.has_value();

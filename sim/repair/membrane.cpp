@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
+#include "kernel/collisions.h"
 #include "sim/base/disjoint_sets.h"
 #include "sim/base/sorted_once.h"
 
@@ -14,7 +15,7 @@ namespace selvage::sim {
 namespace {
 
 constexpr int kShapeHalvings = 12;  // of the shape that is kept: 2^-12 of a hand is thinner than cloth
-constexpr int kMostGrowth = 3;      // rings by which a region may grow, where the ring around it is too near
+constexpr int kMaxGrowth = 3;       // rings by which a region may grow, where the ring around it is too near
 
 using Region = std::vector<VertexId>;  // sorted
 
@@ -36,7 +37,7 @@ class ClothUntangler {
 
   bool run() {
     pairs_ = judge(state_.x);
-    while (!pairs_.empty() && (move_a_part() || draw_one_back(regions()) || draw_one_back(crossings()))) {
+    while (!pairs_.empty() && improve()) {
     }
     return pairs_.empty();
   }
@@ -51,11 +52,22 @@ class ClothUntangler {
   void drop_what_has_no_ring(Region& region) const;
   [[nodiscard]] std::optional<Positions> membrane(const Region& region) const;
   [[nodiscard]] std::vector<Region> crossings() const;
+  bool improve() {
+    for (const bool may_pass : {false, true}) {
+      may_pass_bodies_ = may_pass;
+      has_refused_ = false;
+      if (move_a_part() || draw_one_back(regions()) || draw_one_back(crossings())) return true;
+      if (!has_refused_) return false;
+    }
+    return false;
+  }
   bool draw_back(Region region);
   bool draw_one_back(const std::vector<Region>& regions) {
     return std::ranges::any_of(regions, [this](const Region& region) { return draw_back(region); });
   }
   bool move_a_part();
+  /// Whether cloth meets a body on its straight way to x: it may end on its other side.
+  [[nodiscard]] bool passes_a_body(const Positions& x);
   /// Keeps the positions where fewer pairs intersect, and none that must end.
   bool keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end = {});
 
@@ -63,6 +75,8 @@ class ClothUntangler {
   const Mesh& mesh_;
   std::vector<std::vector<VertexId>> neighbours_;  ///< #V
   std::vector<FacePair> pairs_;                    ///< at state_.x
+  BoxHierarchy hierarchy_{mesh_};
+  bool may_pass_bodies_ = false, has_refused_ = false;
 };
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
@@ -169,13 +183,25 @@ bool ClothUntangler::keep_if_better(const Positions& x, const std::function<bool
   if (!x.allFinite() || !state_.may_judge()) return false;
   std::vector<FacePair> pairs = judge(x);
   if (pairs.size() >= pairs_.size() || (must_end && std::ranges::any_of(pairs, must_end))) return false;
+  if (!may_pass_bodies_ && passes_a_body(x)) {
+    has_refused_ = true;
+    return false;
+  }
   pairs_ = std::move(pairs);
   state_.x = x;
   return true;
 }
 
+bool ClothUntangler::passes_a_body(const Positions& x) {
+  const CollisionReport met = find_collisions(mesh_, hierarchy_, state_.x, x, {.tolerance = 0}, state_.is_cloth);
+  return std::ranges::any_of(met.collisions, [&](const Collision& collision) {
+    const auto vertices = pair_vertices(mesh_, collision.kind, collision.first, collision.second);
+    return std::ranges::any_of(vertices, [&](VertexId v) { return state_.is_body(v); });
+  });
+}
+
 bool ClothUntangler::draw_back(Region region) {
-  for (int growth = 0; growth <= kMostGrowth; ++growth, grow(region)) {
+  for (int growth = 0; growth <= kMaxGrowth; ++growth, grow(region)) {
     std::erase_if(region, [&](VertexId v) { return state_.is_scripted(v); });
     drop_what_has_no_ring(region);
     if (region.empty()) return false;

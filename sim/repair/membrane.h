@@ -13,9 +13,10 @@ namespace selvage::sim {
 ///              edges, which is in the convex hull of the ring and so on its side of a flat face. As much of the shape
 ///              is kept as can be: a half, a quarter, and so on; the region grows by a ring where that does not do;
 ///   crossings  the same with the vertices of the faces that cross, where the cuts leave no regions.
-/// The smallest come first, without scripted vertices and the largest region of each part. A change is kept only if
-/// fewer pairs of cloth intersect, so this ends after as many changes as there are pairs at most. Changes state.x;
-/// false where pairs of cloth remain.
+/// The smallest come first, without scripted vertices and the largest region of each part. A change on whose way cloth
+/// meets a body is made where nothing else helps: two sheets that crossed above the ground were parted through it, and
+/// one fell for ever. A change is kept only if fewer pairs of cloth intersect, so this ends after as many changes as
+/// there are pairs at most. Changes state.x; false where pairs of cloth remain.
 [[nodiscard]] bool draw_cloth_back(UntangleState& state);
 
 }  // namespace selvage::sim

@@ -1,6 +1,7 @@
 #include "sim/repair/relax_springs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kernel/fp_env.h"
@@ -14,15 +15,15 @@ namespace {
 // times their length (measured).
 constexpr double kStep_s = 1.0 / 120;
 // Where much is stretched, a step may meet so much that it stretches more; but after some the sum must have gone down.
-constexpr std::int32_t kMostInVain = 5;
+constexpr std::int32_t kMaxInVain = 5;
 constexpr double kLeastRelief = 1e-3;  // of the sum; less is no reason to go on
 
-/// Of structural and shear springs, the elongations beyond the limit, summed up.
+/// Of structural and shear springs, what they are longer or shorter by beyond the limit, over their lengths, summed up.
 double excess(const SpringSystem& springs, const PositionsRef& x, double strain_limit) {
   double sum = 0;
   for (const Spring& spring : springs.springs()) {
     if (spring.kind == SpringKind::kBending) continue;
-    sum += std::max(0.0, elongation(spring, x) - strain_limit);
+    sum += std::max(0.0, std::abs(elongation(spring, x)) - strain_limit);
   }
   return sum;
 }
@@ -41,7 +42,7 @@ RelaxedSprings relax_springs(const Positions& x, const SpringSystem& springs, co
   RelaxedSprings result{x};
   Positions now = x;
   double least = excess(springs, x.topRows(cloth), strain_limit);
-  for (std::int32_t n = 1; least > 0 && n <= std::min(result.steps + kMostInVain, kMostRelaxSteps); ++n) {
+  for (std::int32_t n = 1; least > 0 && n <= std::min(result.steps + kMaxInVain, kMaxRelaxSteps); ++n) {
     Motion motion{now.topRows(cloth), Positions::Zero(cloth, 3)};
     Positions candidate = now;
     (void)dynamics.advance(motion, now.topRows(cloth), bodies.inverse_mass, kStep_s);

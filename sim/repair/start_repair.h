@@ -8,12 +8,12 @@
 namespace selvage::sim {
 
 struct RepairedStart {
-  Positions x;  ///< of the simulation, where pairs remain
-  std::vector<FacePair> remaining;
+  Positions x;                      ///< of the simulation, where pairs remain
+  std::vector<FacePair> remaining;  ///< as in UntangleReport
   std::int64_t moved_vertices = 0;  ///< in the end
   double largest_move_m = 0;
   std::int32_t rounds = 0;       ///< states that were judged
-  std::int32_t relax_steps = 0;  ///< in which stretched cloth drew together
+  std::int32_t relax_steps = 0;  ///< in which strained cloth was eased
   double largest_strain = 0;     ///< after them (spring_strain.h)
 };
 

@@ -1,6 +1,7 @@
 #include "sim/repair/untangle.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "kernel/assert.h"
 #include "kernel/fp_env.h"
@@ -20,6 +21,17 @@ CollisionOptions step_options(const UntangleOptions& options) {
   return result;
 }
 
+namespace {
+
+/// Of the pairs of the start: what a repair has made instead is gone with its positions.
+std::vector<FacePair> still_there(std::vector<FacePair> at_start, const std::vector<FacePair>& left) {
+  std::vector<FacePair> both;
+  std::ranges::set_intersection(at_start, left, std::back_inserter(both));
+  return both.empty() && !left.empty() ? at_start : both;
+}
+
+}  // namespace
+
 UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                         const UntangleOptions& options, const FindIntersections& find) {
   const FpEnvGuard guard;
@@ -32,10 +44,10 @@ UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const Collision
   followed.policy = SqueezePolicy::kStop;  // a body that waits on its way back would be left there
   UntangleState state{mesh, followed, options, find, parts, parts.cloth_flags(bodies), V, V};
   UntangleReport report;
-  report.remaining = state.judge(state.x);
+  report.remaining = state.judge(V);
   if (!report.remaining.empty()) {
     if (draw_cloth_back(state) && return_bodies(state)) approach_start(state);
-    report.remaining = state.judge(state.x);
+    report.remaining = still_there(report.remaining, state.judge(state.x));
   }
   report.rounds = state.rounds;
   if (!report.remaining.empty()) state.x = V;

@@ -35,6 +35,7 @@ struct UntangleOptions {
 [[nodiscard]] CollisionOptions step_options(const UntangleOptions& options);
 
 struct UntangleReport {
+  /// Of the pairs at V those that intersected after the best try as well; all, where none of them did but others.
   std::vector<FacePair> remaining;
   std::int32_t rounds = 0;  ///< states that were judged
 };
