@@ -53,6 +53,7 @@ class FolderSequence final : public SequenceReader {
   const std::vector<Group>& groups() const override { return description_.groups; }
   std::string frame_name(std::size_t frame) const override { return (folder_ / frames_.at(frame).file).string(); }
   double time(std::size_t frame) const override { return frames_.at(frame).time_s; }
+  bool counts_frames() const override { return false; }
   bool same_faces_as_previous(std::size_t) const override { return true; }
   std::string remark() const override { return remark_; }
 

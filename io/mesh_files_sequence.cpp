@@ -28,6 +28,7 @@ class MeshFilesSequence final : public SequenceReader {
   const std::vector<Group>& groups() const override { return groups_; }
   std::string frame_name(std::size_t frame) const override { return files_.at(frame).string(); }
   double time(std::size_t frame) const override { return static_cast<double>(frame); }
+  bool counts_frames() const override { return false; }
   bool same_faces_as_previous(std::size_t frame) const override { return same_faces_.at(frame); }
   std::string remark() const override {
     const std::string last = files_.size() > 1 ? " to " + files_.back().string() : "";

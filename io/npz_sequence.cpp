@@ -24,7 +24,7 @@ std::vector<Group> groups_of(const std::vector<std::int64_t>& numbers, const std
                           "; write 0 for cloth, 1 for bodies");
     }
     if (face == 0 || numbers[face] != numbers[face - 1]) {
-      if (groups.size() == kMostNpzGroups)
+      if (groups.size() == kMaxNpzGroups)
         bad_input(name, "cloth and bodies alternate too often; sort the faces by group");
       const bool is_cloth = numbers[face] == 0;
       groups.push_back({is_cloth ? "cloth" : "body", is_cloth ? Group::Role::kCloth : Group::Role::kBody,
@@ -61,6 +61,7 @@ class NpzSequence final : public SequenceReader {
   const std::vector<Group>& groups() const override { return groups_; }
   std::string frame_name(std::size_t frame) const override { return name_ + "[" + std::to_string(frame) + "]"; }
   double time(std::size_t frame) const override { return static_cast<double>(frame); }
+  bool counts_frames() const override { return false; }
   bool same_faces_as_previous(std::size_t) const override { return true; }
 
   MeshData frame(std::size_t frame) const override {
@@ -90,7 +91,7 @@ class NpzSequence final : public SequenceReader {
       bad_input(name, "in Fortran order, where a frame is scattered over the file; save numpy.ascontiguousarray(V)");
     }
     const std::uint64_t rows = shape[shape.size() - 2];
-    if (rows == 0 || rows > kMostElements) bad_input(name, "no vertices, or more than 2^31 - 1; correct the shape");
+    if (rows == 0 || rows > kMaxElements) bad_input(name, "no vertices, or more than 2^31 - 1; correct the shape");
     vertex_count_ = rows;
     frame_count_ = is_one_frame ? 1 : shape[0];
   }

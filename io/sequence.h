@@ -31,7 +31,7 @@ class SequenceReader {
   /// Time of frame i in seconds; in frames for PC2, which counts these; i where the source has no times.
   [[nodiscard]] virtual double time(std::size_t frame) const = 0;
   /// Whether time() is never in seconds, whatever it is.
-  [[nodiscard]] virtual bool counts_frames() const { return false; }
+  [[nodiscard]] virtual bool counts_frames() const = 0;
   /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
   /// True for frame 0.
   [[nodiscard]] virtual bool same_faces_as_previous(std::size_t frame) const = 0;

@@ -19,6 +19,7 @@ class SequenceDecorator : public io::SequenceReader {
   const std::vector<io::Group>& groups() const override { return inner_->groups(); }
   std::string frame_name(std::size_t frame) const override { return inner_->frame_name(frame); }
   double time(std::size_t frame) const override { return inner_->time(frame); }
+  bool counts_frames() const override { return inner_->counts_frames(); }
   bool same_faces_as_previous(std::size_t frame) const override { return inner_->same_faces_as_previous(frame); }
   io::MeshData frame(std::size_t frame) const override { return inner_->frame(frame); }
   std::string remark() const override { return inner_->remark(); }

@@ -18,6 +18,7 @@ class Frames final : public io::SequenceReader {
   const std::vector<io::Group>& groups() const override { return groups_; }
   std::string frame_name(std::size_t frame) const override { return "memory[" + std::to_string(frame) + "]"; }
   double time(std::size_t frame) const override { return static_cast<double>(frame); }
+  bool counts_frames() const override { return false; }
   bool same_faces_as_previous(std::size_t) const override { return true; }
   io::MeshData frame(std::size_t frame) const override { return frames_.at(frame); }
 
