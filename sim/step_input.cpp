@@ -88,11 +88,14 @@ InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> hel
                       contact.interaction.vertices == pair_vertices(mesh, contact.kind, contact.first, contact.second);
     if (!fits) return InputError::kBadContact;
     const auto is_finite = [](double value) { return std::isfinite(value); };
+    const auto is_weight = [](double value) { return std::abs(value) <= 1 + kUnitRounding; };
+    const auto is_share = [](double value) { return value >= 0 && value <= 1; };
+    const auto is_place = [](const Vec3& x) { return (x.array().abs() <= kMaxCoordinate).all(); };
     const auto& [vertices, weights, vertex_count, mobility, scale] = contact.interaction;
     const bool finite = contact.normal.allFinite() && is_finite(contact.distance) && contact.mobility > 0 &&
                         is_finite(contact.mobility) && is_finite(scale) && is_valid(contact.properties) &&
-                        std::ranges::all_of(weights, is_finite) && std::ranges::all_of(mobility, is_finite) &&
-                        std::ranges::all_of(contact.x_t0, [](const Vec3& x) { return x.allFinite(); });
+                        std::ranges::all_of(weights, is_weight) && std::ranges::all_of(mobility, is_share) &&
+                        std::ranges::all_of(contact.x_t0, is_place);
     const bool is_unit = std::abs(contact.normal.norm() - 1) <= kUnitRounding;
     if (!finite || !is_unit) return InputError::kBadContact;
   }

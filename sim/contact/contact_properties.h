@@ -11,6 +11,7 @@ struct ContactProperties {
   double tolerance_m = 1e-6;    ///< distance kept at the end of every step (paper, section 6); likewise
   double friction_static = 0;   ///< Coulomb coefficient, dimensionless, >= friction_kinetic
   double friction_kinetic = 0;  ///< Coulomb coefficient, dimensionless, >= 0
+  bool is_of_rest = false;  ///< of a pair alone: a rest pair's (rest_pairs.h), whose distance at rest is thickness_m
 
   friend bool operator==(const ContactProperties&, const ContactProperties&) = default;
 };

@@ -50,6 +50,7 @@ ContactProperties ContactTable::of(PairKind kind, std::int32_t first, std::int32
   if (is_uniform()) return properties_.front();
   ContactProperties pair = of_surfaces(kind, first, second);
   const double rest_m = rest_.of(kind, first, second);
+  pair.is_of_rest = rest_m < pair.thickness_m;
   pair.thickness_m = std::min(pair.thickness_m, rest_m);
   // What is nearer than the tolerance is pushed to twice as far (impulse.h): beyond where it rests, a sheet on which
   // nothing acted had 18 J/kg after a frame.

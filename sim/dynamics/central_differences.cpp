@@ -59,12 +59,12 @@ void CentralDifferences::implicit_half_kick(double h, double residual) {
 // sheet of 16 x 16 vertices that swings for 3 s gained energy where residual times x was 0.85 (residual 0.05) and 0.5
 // (0.01), and none where it was 0.73 and 0.25.
 double CentralDifferences::velocity_residual() const {
-  constexpr double kMostError = 0.2;
+  constexpr double kMaxError = 0.2;
   double most = 0;
   for (Eigen::Index i = 0; i < x_.rows(); ++i) {
     most = std::max(most, inverse_mass_[i] * springs_.row_sum(static_cast<VertexId>(i)));
   }
-  return most > 0 ? std::min(kVelocityResidual, kMostError / most) : kVelocityResidual;
+  return most > 0 ? std::min(kVelocityResidual, kMaxError / most) : kVelocityResidual;
 }
 
 // rhs_ holds the elastic kick, which does not depend on the velocity. It acts along the march: a body that falls as

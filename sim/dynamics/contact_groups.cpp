@@ -21,7 +21,7 @@ constexpr std::size_t kLeastParallel = 2 * kGroupSize;
 
 /// A round is not made where more than this many contacts wait for one that acts in it: as in a fan most share
 /// vertices, and act alone. Where layers are pressed about one waits for each (docs/simulator-speed.md).
-constexpr std::size_t kMostWaiting = 4;
+constexpr std::size_t kMaxWaiting = 4;
 
 constexpr LaneMask kAllLanes = 0xff;
 static_assert(kLanes == 8);
@@ -99,7 +99,7 @@ ContactGroups::ContactGroups(std::span<const Member> members, Eigen::Index verte
         }
       }
     }
-    if (waiting.size() > kMostWaiting * (left.size() - waiting.size())) break;
+    if (waiting.size() > kMaxWaiting * (left.size() - waiting.size())) break;
     for (const auto& group : groups) round.groups.push_back(add_group(members, group, order, packs_of));
     rounds_.push_back(std::move(round));
     left = std::move(waiting);

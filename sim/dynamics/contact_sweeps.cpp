@@ -54,7 +54,7 @@ std::int32_t even(std::int32_t count) { return count / 2 * 2; }
 /// More than `least`.
 std::int32_t more_for(double ratio, std::int32_t least) {
   if (!(ratio > kAlike)) return 0;
-  const double wanted = std::min(std::round(kSweepsOfRoot * std::sqrt(ratio)), double(kMostUnlikeSweeps));
+  const double wanted = std::min(std::round(kSweepsOfRoot * std::sqrt(ratio)), double(kMaxUnlikeSweeps));
   return even(std::max(static_cast<std::int32_t>(wanted) - least, 0));
 }
 

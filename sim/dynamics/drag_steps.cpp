@@ -7,7 +7,7 @@ namespace selvage::sim {
 namespace {
 
 /// Bounds what a scene can ask for. A sheet of 0.05 kg/m^2 (12 1/m) that moves at 100 m/s asks for 40 in a frame.
-constexpr double kMostSteps = 64;
+constexpr double kMaxSteps = 64;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ double quadratic_drag_1_s(double quadratic_drag_1_m, const Positions& v, std::sp
 }
 
 int steps_for_drag(double rate_1_s, double dt_s) {
-  return static_cast<int>(std::ceil(std::clamp(dt_s * rate_1_s, 1.0, kMostSteps)));
+  return static_cast<int>(std::ceil(std::clamp(dt_s * rate_1_s, 1.0, kMaxSteps)));
 }
 
 }  // namespace selvage::sim

@@ -7,6 +7,7 @@
 #include "kernel/assert.h"
 #include "sim/base/keep_largest.h"
 #include "sim/base/parallel.h"
+#include "sim/contact/cloth_sets.h"
 #include "sim/dynamics/drag_steps.h"
 #include "sim/dynamics/scripted_ends.h"
 #include "sim/dynamics/stage_contacts.h"
@@ -18,7 +19,7 @@ constexpr double kStageShare = 1 - 1 / std::numbers::sqrt2;
 // Two stages turn a velocity round that drag takes away at more than this over h, 1 / (1 - 2 kStageShare). A linear
 // rate r leaves 1 / (1 + kStageShare r h) of it in the first stage, and before the second that has changed by (1 -
 // kStageShare) / kStageShare of how much the first changed it; drag that grows with speed leaves more.
-constexpr double kMostBraked = 1 + std::numbers::sqrt2;
+constexpr double kMaxBraked = 1 + std::numbers::sqrt2;
 
 // What contacts bear is found to this part of the largest of it, in each of them or in what they bear together: where
 // many share a load they may pass it on between them for ever. Or as far as so many solutions of the stage find it;
@@ -40,6 +41,37 @@ constexpr int kLastSlide = 3 * kForceRounds;
 // left wherever that points, since what it bears is remembered. To 1e-9 m the energy of a sheet at rest on a plane rose
 // by 3e-9 of that of its fall in 50 steps (Energy.NeverRisesInContactWithAPlane), for 0.95 of the iterations.
 constexpr double kFirstResidual_m = 1e-3, kShareOfChange = 0.1, kLastResidual_m = 1e-10;
+
+/// What hangs together with contacts, and what does not: it takes two stages in every step, whatever others meet. Cloth
+/// that swung beside a sheet at rest 20 m away had 0.54 of its energy left after 4 s where 0.99 is right, and a sheet
+/// that spun at 20 rad/s 0.57 of its angular momentum after 0.7 s.
+struct ClothInContact {
+  std::vector<std::uint8_t> is_in_contact = {};                              ///< #V
+  std::vector<double> inverse_mass_free = {}, inverse_mass_in_contact = {};  ///< #V: zero for the others
+  bool is_free_anywhere = false;
+};
+
+ClothInContact cloth_in_contact(const HeldContacts& contacts, std::span<const double> inverse_mass) {
+  const HeldSurface& surface = contacts.surface();
+  const auto count = static_cast<VertexId>(surface.cloth_count);
+  ClothSets sets(surface.parts, count);
+  for (const RepulsionContact& contact : contacts.contacts()) sets.join(contact.interaction.vertices);
+  std::vector<std::uint8_t> meets(static_cast<std::size_t>(count));  // by set
+  for (const RepulsionContact& contact : contacts.contacts()) {
+    for (const VertexId v : contact.interaction.vertices) {
+      if (sets.is_cloth(v)) meets[sets.set(v)] = 1;
+    }
+  }
+  ClothInContact result{meets, {inverse_mass.begin(), inverse_mass.begin() + count}, {}};
+  result.inverse_mass_in_contact = result.inverse_mass_free;
+  for (VertexId v = 0; v < count; ++v) {
+    const auto row = static_cast<std::size_t>(v);
+    result.is_in_contact[row] = meets[sets.set(v)];
+    result.is_free_anywhere = result.is_free_anywhere || (result.is_in_contact[row] == 0 && inverse_mass[row] > 0);
+    (result.is_in_contact[row] != 0 ? result.inverse_mass_free : result.inverse_mass_in_contact)[row] = 0;
+  }
+  return result;
+}
 
 void add_stage(const StageReport& stage, DynamicsReport& report) {
   ++report.solves;
@@ -63,13 +95,26 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
                steps_for_drag(quadratic_drag_1_s(stage_.fields().quadratic_drag_1_m, motion.v, inverse_mass), dt_s));
   start_scripts(motion, scripted_x_t1, inverse_mass, dt_s);
   const Positions x_t0 = motion.x;
+  const double h = dt_s / step_count;
   DynamicsReport report;
+  const ClothInContact cloth = contacts != nullptr ? cloth_in_contact(*contacts, inverse_mass) : ClothInContact{};
   for (int n = 0; n < step_count; ++n) {
-    const double h = dt_s / step_count;
-    if (contacts != nullptr) {
-      step_in_contact(motion, inverse_mass, {double(n) / step_count, double(n + 1) / step_count, h}, *contacts, report);
-    } else {
+    if (contacts == nullptr) {
       step(motion, inverse_mass, h, report);
+      continue;
+    }
+    const StageSpan span{double(n) / step_count, double(n + 1) / step_count, h};
+    if (!cloth.is_free_anywhere) {
+      step_in_contact(motion, inverse_mass, span, *contacts, report);
+      continue;
+    }
+    Motion free = motion;
+    step(free, cloth.inverse_mass_free, h, report);
+    step_in_contact(motion, cloth.inverse_mass_in_contact, span, *contacts, report);
+    for (Eigen::Index i = 0; i < motion.x.rows(); ++i) {
+      if (cloth.is_in_contact[static_cast<std::size_t>(i)] != 0) continue;
+      motion.x.row(i) = free.x.row(i);
+      motion.v.row(i) = free.v.row(i);
     }
   }
   end_scripts(motion.x, scripted_x_t1, inverse_mass);
@@ -81,7 +126,7 @@ DynamicsReport ImplicitDynamics::advance(Motion& motion, const PositionsRef& scr
 /// Whether drag stops something within the step.
 bool ImplicitDynamics::brakes(const Positions& v, std::span<const double> inverse_mass, double h) const {
   const FieldForces& fields = stage_.fields();
-  return h * (fields.drag_1_s + quadratic_drag_1_s(fields.quadratic_drag_1_m, v, inverse_mass)) > kMostBraked;
+  return h * (fields.drag_1_s + quadratic_drag_1_s(fields.quadratic_drag_1_m, v, inverse_mass)) > kMaxBraked;
 }
 
 // Held vertices have no acceleration, so both stages move them with their velocity.

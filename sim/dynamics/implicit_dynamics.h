@@ -25,12 +25,12 @@ struct ImplicitDynamicsOptions {
 /// one step to the next, so contact and changes of the step need no restart. Velocities are those of the forces found,
 /// which are equal and opposite: linear momentum is kept to rounding, angular momentum to the order of the method.
 ///
-/// A step within which drag stops something is one of backward Euler, which no drag turns round; so is one with
-/// contacts, x1 = x + h v1, v1 = v + h a(x1, v1), with the contacts in its potential (stage_contacts.h): of the two
-/// stages the second would throw back at (1 - g) / g = 2.4 times its speed what meets something in between. It is of
-/// first order. What contacts bear is found to a ten-thousandth of the largest of it, or as far as some dozen
-/// solutions find it, more where contacts begin to slide; it begins with what they bore in the last step, friction and
-/// edges as well.
+/// A step within which drag stops something is one of backward Euler, which no drag turns round; so is that of cloth
+/// that hangs together, by faces or contacts, with what is in contact, x1 = x + h v1, v1 = v + h a(x1, v1), with the
+/// contacts in its potential (stage_contacts.h): of the two stages the second would throw back at (1 - g) / g = 2.4
+/// times its speed what meets something in between. It is of first order. What contacts bear is found to a
+/// ten-thousandth of the largest of it, or as far as some dozen solutions find it, more where contacts begin to slide;
+/// it begins with what they bore in the last step, friction and edges as well.
 class ImplicitDynamics : public Dynamics {
  public:
   ImplicitDynamics(const SpringSystem& springs, const ImplicitDynamicsOptions& options);  ///< springs outlive it

@@ -277,7 +277,7 @@ StageReport ImplicitStage::solve(const StageEquations& equations, Positions& x, 
     assemble(equations, false);
     // Not the first guess: what stiff springs round away hides all that soft motions still lack.
     report.converged =
-        report.newton_rounds > 0 && report.residual_m <= std::min(rounding_m(equations, x), kMostRounding_m);
+        report.newton_rounds > 0 && report.residual_m <= std::min(rounding_m(equations, x), kMaxRounding_m);
     if (report.converged || report.newton_rounds == kMaxRounds) return report;
     if (!find_step(equations, step, report)) {
       assemble(equations, true);

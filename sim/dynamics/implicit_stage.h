@@ -47,7 +47,7 @@ class ImplicitStage {
   ImplicitStage(const SpringSystem& springs, const StabilizerSystem* stabilizers, const FieldForces& fields);
 
   /// x holds the first guess, and the given positions of vertices with inverse mass 0, which are kept. It ends where
-  /// the equations hold within enough_m, or, after a round, within what rounding leaves up to kMostRounding_m, or
+  /// the equations hold within enough_m, or, after a round, within what rounding leaves up to kMaxRounding_m, or
   /// after kMaxRounds: then it is the best that was found, and the report says so. `acceleration` becomes a(x, v),
   /// without that of the vertices held, and with that of the contacts.
   StageReport solve(const StageEquations& equations, Positions& x, Positions& acceleration,
@@ -65,7 +65,7 @@ class ImplicitStage {
   /// A thousandth of the default collision tolerance. In velocity it is an error of 1e-9 m / h.
   static constexpr double kResidual_m = 1e-9;
   /// What cloth falls in a frame of 1/30 s: where rounding leaves more than that, nothing was solved.
-  static constexpr double kMostRounding_m = 5e-3;
+  static constexpr double kMaxRounding_m = 5e-3;
 
  private:
   // A spring where it was last looked at: direction, length, pull along it, and its second derivatives times h^2.

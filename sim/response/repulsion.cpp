@@ -18,13 +18,27 @@ Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg,
   return result;
 }
 
+namespace {
+
+/// How much farther apart the points are after `motion`, along the normal. Those of a rest pair, which is at its limit
+/// wherever the cloth is as at rest, also where it turns: along where it lay before, a distance d that turns by an
+/// angle a is shorter by d (1 - cos a), and to push that apart put energy into cloth that spun.
+double moved_apart(const RepulsionContact& contact, const Vec3& motion) {
+  const double along = motion.dot(contact.normal);
+  if (!contact.properties.is_of_rest) return along;
+  const Vec3 before = relative(contact.interaction, contact.x_t0), after = before + motion;
+  return after.dot(contact.normal) > 0 ? std::max(along, after.norm() - before.norm()) : along;
+}
+
+}  // namespace
+
 RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& displacement,
                               const CollisionOptions& options, double dt_s, int sweep, FrictionLoad& load) {
   RepulsionChange result;
   const Interaction& interaction = contact.interaction;
   const PairVectors d = gather(interaction, displacement);
   const Vec3 motion = relative(interaction, d);
-  const double displacement_n = motion.dot(contact.normal);
+  const double displacement_n = moved_apart(contact, motion);
   const ContactProperties& properties = contact.properties;
   const double overlap = properties.thickness_m - contact.distance;
   const double approach = -displacement_n - room_to_approach(overlap);
@@ -39,7 +53,7 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
       load.pressed += lever_share(interaction) * push.total();
     }
   }
-  if (!((motion - displacement_n * contact.normal).norm() > settled)) return result;
+  if (!((motion - motion.dot(contact.normal) * contact.normal).norm() > settled)) return result;
   const FrictionCoefficients friction{properties.friction_static, properties.friction_kinetic};
   if (const auto rub = friction_change(interaction, contact.x_t0, d, contact.normal, friction, load)) {
     result.rubs = true;

@@ -229,7 +229,8 @@ std::vector<std::int64_t> TomlTable::integers(std::string_view key, std::int64_t
   const toml::node* node = find(key, true, "[...]");
   return value_of(key, *node, [&](const toml::node& one) {
     const toml::array* array = one.as_array();
-    if (array == nullptr || array->empty()) fail(key, fmt::format("{} must be a list of integers", key));
+    if (array == nullptr) fail(key, fmt::format("{} must be a list of integers", key));
+    if (array->empty()) fail(key, fmt::format("{} is empty; it must hold at least one integer", key));
     std::vector<std::int64_t> values;
     for (const toml::node& item : *array) {
       const std::optional<std::int64_t> value = item.is_integer() ? item.value<std::int64_t>() : std::nullopt;

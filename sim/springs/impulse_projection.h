@@ -58,6 +58,10 @@ class ImpulseProjection {
   /// Finds the impulses of the pairs in at most `iterations`: until what is left to improve is a fiftieth of what it
   /// was without any. Changes nothing where numbers are not finite.
   void solve(std::vector<BoundedPair>& pairs, Start start, std::int32_t iterations);
+  /// What was to improve before the last kGuess, of which kActing leaves a fiftieth: to be given back where other pairs
+  /// were solved for between the two.
+  [[nodiscard]] double first_m_s() const { return first_m_s_; }
+  void begin_from(double first_m_s) { first_m_s_ = first_m_s; }
 
  private:
   void set_rows(const std::vector<BoundedPair>& pairs, double fastest);

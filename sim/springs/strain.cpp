@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "sim/base/disjoint_sets.h"
 #include "sim/base/parallel.h"
 #include "sim/springs/scripted_drive.h"
 
@@ -68,7 +69,15 @@ StrainLimiter::StrainLimiter(const SpringSystem& springs, const StrainLimits& li
       check_(springs),
       is_suspect_(springs.springs().size()),
       projection_(springs.vertex_count()),
-      borne_n_s_(springs.springs().size()) {}
+      borne_n_s_(springs.springs().size()) {
+  DisjointSets<VertexId> joined(springs.vertex_count());
+  for (const Spring& spring : springs.springs()) joined.join(spring.a, spring.b);
+  for (VertexId v = 0; v < springs.vertex_count(); ++v) {  // a root is the smallest of its set
+    const VertexId root = joined.root(v);
+    set_of_.push_back(root == v ? sets_.size() : set_of_[static_cast<std::size_t>(root)]);
+    if (root == v) sets_.emplace_back();
+  }
+}
 
 void StrainLimiter::apply(const Spring& spring, const Eigen::RowVector3d& impulse, std::span<const double> inverse_mass,
                           const LimitedMotion& motion) const {
@@ -102,7 +111,7 @@ std::optional<StrainLimiter::Look> StrainLimiter::look_at(std::size_t number, st
   return Look{{spring.a, spring.b, w_a, w_b, direction, too_far / motion.dt_s, std::abs(borne)}, {number, is_long}};
 }
 
-bool StrainLimiter::find_pairs(std::span<const double> inverse_mass, const LimitedMotion& motion) {
+void StrainLimiter::find_pairs(std::span<const double> inverse_mass, const LimitedMotion& motion) {
   for (const std::size_t s : bearing_) is_suspect_[s] = 1;
   suspects_.clear();
   for (std::size_t s = next_flagged(is_suspect_, 0); s < is_suspect_.size(); s = next_flagged(is_suspect_, s + 1)) {
@@ -113,16 +122,35 @@ bool StrainLimiter::find_pairs(std::span<const double> inverse_mass, const Limit
     const auto at = static_cast<std::size_t>(i);
     looks_[at] = look_at(suspects_[at], inverse_mass, motion);
   });
-  pairs_.clear();
-  limited_.clear();
-  bool finds_others = false;
+  for (Set& set : sets_) {
+    set.pairs.clear();
+    set.limited.clear();
+    set.finds_others = false;
+  }
   for (const auto& look : looks_) {
     if (!look) continue;
-    pairs_.push_back(look->pair);
-    limited_.push_back(look->limited);
-    finds_others = finds_others || look->pair.impulse_n_s == 0;
+    Set& set = sets_[set_of_[static_cast<std::size_t>(look->pair.a)]];
+    set.pairs.push_back(look->pair);
+    set.limited.push_back(look->limited);
+    set.finds_others = set.finds_others || look->pair.impulse_n_s == 0;
   }
-  return finds_others;
+}
+
+std::int64_t StrainLimiter::limit(Set& set, ImpulseProjection::Start start, std::span<const double> inverse_mass,
+                                  const LimitedMotion& motion) {
+  projection_.begin_from(set.first_m_s);
+  projection_.solve(set.pairs, start, limits_.strain_iterations);
+  set.first_m_s = projection_.first_m_s();
+  limit_drive(motion.v, set.pairs);
+  std::int64_t impulses = 0;
+  for (std::size_t i = 0; i < set.pairs.size(); ++i) {
+    const BoundedPair& pair = set.pairs[i];
+    if (pair.change_n_s == 0) continue;
+    const Spring& spring = springs_.springs()[set.limited[i].spring];
+    apply(spring, -pair.change_n_s * pair.direction.transpose(), inverse_mass, motion);
+    ++impulses;
+  }
+  return impulses;
 }
 
 std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, const LimitedMotion& motion) {
@@ -130,22 +158,18 @@ std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, c
   std::int64_t impulses = 0;
   for (const auto start : {ImpulseProjection::Start::kGuess, ImpulseProjection::Start::kActing}) {
     check_.find_outside(motion.x_t0, motion.x_t1, LengthCheck::Reference::kRestLength, limits_.strain, is_suspect_);
-    const bool finds_others = find_pairs(inverse_mass, motion);
-    const bool is_first = start == ImpulseProjection::Start::kGuess;
-    if (pairs_.empty() || !(is_first || finds_others)) break;
-    projection_.solve(pairs_, start, limits_.strain_iterations);
-    limit_drive(motion.v, pairs_);
+    find_pairs(inverse_mass, motion);
     forget();
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const BoundedPair& pair = pairs_[i];
-      const auto [s, is_long] = limited_[i];
-      if (pair.change_n_s != 0) {
-        apply(springs_.springs()[s], -pair.change_n_s * pair.direction.transpose(), inverse_mass, motion);
-        ++impulses;
+    for (Set& set : sets_) {
+      const bool is_first = start == ImpulseProjection::Start::kGuess;
+      if (!set.pairs.empty() && (is_first || set.finds_others)) impulses += limit(set, start, inverse_mass, motion);
+      for (std::size_t i = 0; i < set.pairs.size(); ++i) {
+        const auto [spring, is_long] = set.limited[i];
+        const double impulse_n_s = set.pairs[i].impulse_n_s;
+        if (!(impulse_n_s > 0)) continue;
+        bearing_.push_back(spring);
+        borne_n_s_[spring] = is_long ? impulse_n_s : -impulse_n_s;
       }
-      if (!(pair.impulse_n_s > 0)) continue;
-      bearing_.push_back(s);
-      borne_n_s_[s] = is_long ? pair.impulse_n_s : -pair.impulse_n_s;
     }
   }
   return impulses;

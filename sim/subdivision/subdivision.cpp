@@ -108,7 +108,9 @@ Positions Subdivision::operator()(const PositionsRef& V, SubdivisionCounts& coun
       stop_before_touch(tracker, share, motion, way);
       tracker.update(motion);
     }
-    counts.stopped += std::count_if(share.begin(), share.end(), [](double s) { return s < 1; });
+    for (Eigen::Index v = 0; v < way.rows(); ++v) {
+      counts.stopped += share[static_cast<std::size_t>(v)] < 1 && !way.row(v).isZero(0) ? 1 : 0;
+    }
     x = motion.x();
   }
   return x;

@@ -265,11 +265,11 @@ density_kg_m2 = 1
 stretch_n_m = 600
 )");
   constexpr VertexId kDisc = 151;
-  constexpr double kMostGain_j = 0.05 * 1.57e-3;
+  constexpr double kMaxGain_j = 0.05 * 1.57e-3;
   const double start_j = energy_j(simulation, kDisc);
   while (simulation.clock().time_s() < 0.15) {
     simulation.step();
-    ASSERT_LE(energy_j(simulation, kDisc), start_j + kMostGain_j) << simulation.clock().time_s() << " s";
+    ASSERT_LE(energy_j(simulation, kDisc), start_j + kMaxGain_j) << simulation.clock().time_s() << " s";
   }
 }
 

@@ -180,6 +180,36 @@ TEST(Pin, IsCarriedByItsBody) {
   }
 }
 
+// The lattice there is 6e-5 m, as wide as a fiftieth of the face that it hangs on, a third of a metre away.
+TEST(Pin, FarFromTheOriginBeginsWhereItWasPut) {
+  const Simulation simulation(parse_scene(R"(
+[time]
+frames = 1
+[collision]
+thickness_m = 0.01
+precision = "float32"
+[[cloth]]
+sheet = {nx = 9, ny = 9, width_m = 1, height_m = 1}
+position_m = [1000, 1000, 0.33]
+density_kg_m2 = 0.2
+stretch_n_m = 50
+[[cloth.pin]]
+edge = "top"
+body = "ball"
+[[body]]
+name = "ball"
+position_m = [1000, 1000, 0]
+sphere = {radius_m = 0.05, subdivisions = 4}
+)",
+                                          "far.toml"));
+  const std::vector<VertexId>& pinned = simulation.world().colliders.back().vertices();
+  ASSERT_EQ(pinned.size(), 9U);
+  for (std::size_t i = 0; i < 9; ++i) {
+    const Eigen::RowVector3d put(999.5 + 0.125 * static_cast<double>(i), 1000.5, 0.33);
+    EXPECT_LT((simulation.x().row(pinned[i]) - put).norm(), 1e-6) << i;
+  }
+}
+
 TEST(Pin, OnABodyIsReleasedLikeAnyOther) {
   std::string text = kCape;
   text.insert(text.find("body = \"torso\""), "release_s = 0.2\n");

@@ -301,6 +301,7 @@ TEST(RestPairs, AreAsThickAsTheyAreFarApartAtRestAndOthersAsTheirSurfaces) {
   const auto check = [&](PairKind kind, std::int32_t first, std::int32_t second) {
     ContactProperties expected = without.of(kind, first, second);
     if (near(kind, first, second)) {
+      expected.is_of_rest = distance_m(first, second) < expected.thickness_m;
       expected.thickness_m = std::min(expected.thickness_m, distance_m(first, second));
       expected.tolerance_m = std::min(expected.tolerance_m, distance_m(first, second) / 2);
     }

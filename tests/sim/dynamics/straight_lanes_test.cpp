@@ -31,8 +31,8 @@ Positions four_points() {
 
 StraightSurface any_surface() {
   constexpr std::array<Kind, 3> kKinds{Kind::kCorner, Kind::kLine, Kind::kPlane};
-  constexpr double kMost = 4;  // twice the distance
-  const Vec3 extents = kMost * any_point().cwiseAbs();
+  constexpr double kMax = 4;  // twice the distance
+  const Vec3 extents = kMax * any_point().cwiseAbs();
   return {kKinds.at(engine()() % 3), {0, 1, 2, 3}, {extents[0], extents[1]}};
 }
 

@@ -184,6 +184,17 @@ TEST(Subdivision, StopsWhatWouldTouchAndStaysExactlyFree) {
   EXPECT_LT(counts.stopped, fine.rows() / 2) << "most vertices reach their smooth place";
 }
 
+TEST(Subdivision, CountsWhatDidNotReachItsSmoothPlace) {
+  const Shape tents = two_tents(1e-3);
+  const LoopRules rules(mesh_of(tents), {});
+  const Subdivision subdivision(tents.triangles, static_cast<std::int32_t>(tents.x.rows()), {}, 1);
+  SubdivisionCounts counts;
+  const Positions fine = subdivision(tents.x, counts), smooth = rules.smooth(tents.x);
+  std::int64_t elsewhere = 0;
+  for (Eigen::Index v = 0; v < fine.rows(); ++v) elsewhere += fine.row(v) != smooth.row(v) ? 1 : 0;
+  EXPECT_EQ(counts.stopped, elsewhere);
+}
+
 TEST(Subdivision, BodiesKeepTheirFaces) {
   const Shape tents = two_tents(0.01);
   const auto lower = static_cast<std::int32_t>(make_sheet(17, 5, 1, 1).triangles.size());
