@@ -30,7 +30,7 @@ class SequenceReader {
   [[nodiscard]] virtual std::string frame_name(std::size_t frame) const = 0;
   /// Time of frame i in seconds; in frames for PC2, which counts these; i where the source has no times.
   [[nodiscard]] virtual double time(std::size_t frame) const = 0;
-  /// Whether time() is never in seconds, whatever it is.
+  /// Whether times count frames although they need not look so, as those of PC2, which may begin anywhere.
   [[nodiscard]] virtual bool counts_frames() const = 0;
   /// Whether the faces of this frame are those of the previous one (always true where the format has one face list).
   /// True for frame 0.

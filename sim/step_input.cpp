@@ -12,6 +12,7 @@ namespace {
 
 /// Far above the rounding of any normal, far below what changes a contact.
 constexpr double kUnitRounding = 1e-6;
+constexpr double kMaxMobility = 4 + kUnitRounding;  // four weights and mobilities of 1
 
 bool is_finite_nonnegative(double value) { return value >= 0 && std::isfinite(value); }
 
@@ -92,10 +93,10 @@ InputError validate_held(const Mesh& mesh, std::span<const RepulsionContact> hel
     const auto is_share = [](double value) { return value >= 0 && value <= 1; };
     const auto is_place = [](const Vec3& x) { return (x.array().abs() <= kMaxCoordinate).all(); };
     const auto& [vertices, weights, vertex_count, mobility, scale] = contact.interaction;
-    const bool finite = contact.normal.allFinite() && is_finite(contact.distance) && contact.mobility > 0 &&
-                        is_finite(contact.mobility) && is_finite(scale) && is_valid(contact.properties) &&
-                        std::ranges::all_of(weights, is_weight) && std::ranges::all_of(mobility, is_share) &&
-                        std::ranges::all_of(contact.x_t0, is_place);
+    const bool finite = contact.normal.allFinite() && std::abs(contact.distance) <= kMaxCoordinate &&
+                        contact.mobility > 0 && contact.mobility <= kMaxMobility && is_finite(scale) &&
+                        is_valid(contact.properties) && std::ranges::all_of(weights, is_weight) &&
+                        std::ranges::all_of(mobility, is_share) && std::ranges::all_of(contact.x_t0, is_place);
     const bool is_unit = std::abs(contact.normal.norm() - 1) <= kUnitRounding;
     if (!finite || !is_unit) return InputError::kBadContact;
   }

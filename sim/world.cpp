@@ -275,7 +275,9 @@ class WorldBuilder {
     // Where the bodies will stand. How a face of 3 mm has turned is known to 1 in 50 by float32 at a kilometre, and
     // what hung 0.3 m from one that had not moved began 9 mm away from where it was put.
     const bool is_float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
-    const Positions x = is_float32 ? Positions(x_.cast<float>().cast<double>()) : x_;
+    if (!is_float32)
+      return Attachment(x_(vertices, Eigen::all), faces.subspan(static_cast<std::size_t>(group.face_begin)), x_);
+    const Positions x = x_.cast<float>().cast<double>();
     return Attachment(x(vertices, Eigen::all), faces.subspan(static_cast<std::size_t>(group.face_begin)), x);
   }
 

@@ -84,12 +84,16 @@ bool has_edge_without_length(const sim::World& world) {
                          const std::vector<sim::FacePair>& named, const std::string& what_to_do) {
   const sim::World& world = simulation.world();
   print_pairs(world, named);
-  const auto [f, g] = pairs.front();
+  const auto [f, g] = named.front();
   const std::string first = part_of_face(world, f), second = part_of_face(world, g);
   throw io::Error(io::ErrorKind::kBadInput,
                   fmt::format("{}: the start has {}{} intersecting pairs, the first of \"{}\"{}; {}",
                               simulation.scene().file.string(), at_least(pairs), pairs.size(), first,
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
+}
+
+std::string named_of(const std::vector<sim::FacePair>& some, const std::vector<sim::FacePair>& all) {
+  return some.size() < all.size() ? fmt::format("{} of them", some.size()) : "them";
 }
 
 /// `first` pairs intersect; how many of them are gone is shown.
@@ -128,7 +132,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   sim::RepairedStart repaired = repair_and_show(simulation, judge, pairs.size());
   if (!repaired.remaining.empty()) {
     refuse(simulation, pairs, repaired.remaining,
-           fmt::format("--repair found no way out for {} of them; {}", repaired.remaining.size(),
+           fmt::format("--repair found no way out for {}; {}", named_of(repaired.remaining, pairs),
                        start_remedy(world, simulation.x(), repaired.remaining, true)));
   }
   const sim::StartRepair done{std::ssize(pairs), repaired.moved_vertices, repaired.largest_move_m,

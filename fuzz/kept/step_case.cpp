@@ -7,7 +7,8 @@
 namespace selvage::fuzz {
 namespace {
 
-constexpr double kMax = 0x1p+1000;  ///< of masses and times: their products with a coordinate stay finite, or nearly
+constexpr double kMaxMagnitude =
+    0x1p+1000;  ///< of masses and times: their products with a coordinate stay finite, or nearly
 
 using Precision = sim::CollisionOptions::Precision;
 
@@ -69,18 +70,18 @@ const MeshKind& step_kind() {
       {{"thickness_m", 0, 0, kMaxCoordinate},
        {"tolerance_m", 0, 0, kMaxCoordinate},
        {"repulsion", 0, 0, 1, true},
-       {"repulsion_stiffness_n_m", 0, 0, kMax},
+       {"repulsion_stiffness_n_m", 0, 0, kMaxMagnitude},
        {"overlap_fraction", sim::CollisionOptions().overlap_fraction, 0, 1},
        {"relaxation", 1, 0x1p-20, 1},
-       {"friction_kinetic", 0, 0, kMax},
-       {"friction_static", 0, 0, kMax},
+       {"friction_kinetic", 0, 0, kMaxMagnitude},
+       {"friction_static", 0, 0, kMaxMagnitude},
        {"impulse_iterations", 0, 0, 1000, true},
        {"zone_iterations", 0, 0, 1000, true},
        {"max_intervals", static_cast<double>(sim::CollisionOptions().max_intervals), 1, 1 << 24, true},
        {"float32", 0, 0, 1, true},
        {"yield", 0, 0, 1, true},
-       {"dt_s", 1, 0x1p-1000, kMax}},
-      {{"inverse_mass", 1, 0, kMax}, {"body", -1, -1, 1 << 20, true}},
+       {"dt_s", 1, 0x1p-1000, kMaxMagnitude}},
+      {{"inverse_mass", 1, 0, kMaxMagnitude}, {"body", -1, -1, 1 << 20, true}},
       retry_ours};
   return kind;
 }

@@ -9,7 +9,8 @@ namespace selvage::sim {
 namespace {
 
 InputError validate(const Mesh& mesh, const ContactSurfaces& surfaces) {
-  if (!std::ranges::all_of(surfaces.properties, is_valid)) return InputError::kBadOption;
+  const auto is_of_surface = [](const ContactProperties& p) { return is_valid(p) && !p.is_of_rest; };
+  if (!std::ranges::all_of(surfaces.properties, is_of_surface)) return InputError::kBadOption;
   if (surfaces.surface_of_vertex.size() != static_cast<std::size_t>(mesh.vertex_count)) {
     return InputError::kBadSurfaces;
   }

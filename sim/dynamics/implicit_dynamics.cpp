@@ -42,9 +42,10 @@ constexpr int kLastSlide = 3 * kForceRounds;
 // by 3e-9 of that of its fall in 50 steps (Energy.NeverRisesInContactWithAPlane), for 0.95 of the iterations.
 constexpr double kFirstResidual_m = 1e-3, kShareOfChange = 0.1, kLastResidual_m = 1e-10;
 
-/// What hangs together with contacts, and what does not: it takes two stages in every step, whatever others meet. Cloth
-/// that swung beside a sheet at rest 20 m away had 0.54 of its energy left after 4 s where 0.99 is right, and a sheet
-/// that spun at 20 rad/s 0.57 of its angular momentum after 0.7 s.
+/// What hangs together with contacts, and what does not: it takes two stages, whatever others meet (drag that brakes
+/// any makes of all one stage, and of steps more). Cloth that swung beside a sheet at rest 20 m away had 0.54 of its
+/// energy left after 4 s where 0.99 is right, and a sheet that spun at 20 rad/s 0.57 of its angular momentum after 0.7
+/// s.
 struct ClothInContact {
   std::vector<std::uint8_t> is_in_contact = {};                              ///< #V
   std::vector<double> inverse_mass_free = {}, inverse_mass_in_contact = {};  ///< #V: zero for the others
@@ -62,7 +63,7 @@ ClothInContact cloth_in_contact(const HeldContacts& contacts, std::span<const do
       if (sets.is_cloth(v)) meets[sets.set(v)] = 1;
     }
   }
-  ClothInContact result{meets, {inverse_mass.begin(), inverse_mass.begin() + count}, {}};
+  ClothInContact result{std::vector<std::uint8_t>(meets.size()), {inverse_mass.begin(), inverse_mass.begin() + count}};
   result.inverse_mass_in_contact = result.inverse_mass_free;
   for (VertexId v = 0; v < count; ++v) {
     const auto row = static_cast<std::size_t>(v);

@@ -26,7 +26,7 @@ struct MidstepMotion {
 
 class SweptContacts {
  public:
-  /// `held`, of which there are some, must outlive it. O(contacts), in parallel.
+  /// `held`, which must outlive it, has contacts (asserted). O(contacts), in parallel.
   explicit SweptContacts(HeldContacts& held);
 
   /// In this order, each where the contacts are now:
@@ -59,8 +59,8 @@ class SweptContacts {
   /// from then on. Same bits for any number of threads and any vector unit.
   void hold(const MidstepMotion& step, const std::function<void()>& limit);
 
-  /// Tells the held contacts where they were last looked at, what they bear and what they did. O(contacts), in
-  /// parallel.
+  /// To be called after the last hold(): tells the held contacts where they were last looked at, what they bear and
+  /// what they did. O(contacts), in parallel.
   void finish();
 
  private:

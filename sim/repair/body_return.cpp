@@ -51,30 +51,37 @@ class BodyReturn {
   Eigen::AlignedBox3d body_box_, cloth_box_;
 };
 
-/// #V by 3: of the bodies' vertices, outwards, whichever way round their faces go. Of a part that is closed, as an even
-/// number of its faces hold each edge, its volume tells; of others, which have no outside, `side` of the faces is
-/// taken.
+/// #V by 3: of the bodies' vertices, to the side on which cloth belongs. Of a part that is closed, as an even number of
+/// its faces hold each edge, and whose faces enclose a volume as they are wound, that is outwards. Of others, which are
+/// open, or wound inwards by mistake or for what is within, it is `side` of all their faces.
 Positions BodyReturn::normals(double side) const {
+  constexpr double kEnclosed = 1e-6;  // over the sum of what its faces add and take away: more is no rounding
+  struct Part {
+    double volume = 0, magnitude = 0;  // six times
+    bool is_open = false;
+  };
   const Mesh& mesh = state_.mesh;
-  const auto part_of = [&](VertexId v) { return static_cast<std::size_t>(state_.parts.part(v)); };
+  std::vector<Part> parts(static_cast<std::size_t>(mesh.vertex_count));
+  const auto part_of = [&](VertexId v) -> Part& { return parts[static_cast<std::size_t>(state_.parts.part(v))]; };
   Positions sum = Positions::Zero(state_.x.rows(), 3);
-  std::vector<double> volume(static_cast<std::size_t>(mesh.vertex_count), 0);  // by part, six times
-  std::vector<std::uint8_t> is_odd(mesh.edges.size(), 0), is_open(volume.size(), 0);
+  std::vector<std::uint8_t> is_odd(mesh.edges.size(), 0);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (!state_.is_body_face(static_cast<FaceId>(f))) continue;
     const auto& v = mesh.faces[f];
     const Vec3 a = state_.x.row(v[0]), b = state_.x.row(v[1]), c = state_.x.row(v[2]);
     const Vec3 normal = (b - a).cross(c - a), first = state_.x.row(state_.parts.part(v[0]));
-    volume[part_of(v[0])] += normal.dot(a - first);
+    part_of(v[0]).volume += normal.dot(a - first);
+    part_of(v[0]).magnitude += std::abs(normal.dot(a - first));
     for (const VertexId corner : v) sum.row(corner) += normal.transpose();
     for (const EdgeId e : mesh.face_edges[f]) is_odd[static_cast<std::size_t>(e)] ^= 1;
   }
   for (std::size_t e = 0; e < is_odd.size(); ++e) {
-    if (is_odd[e] != 0) is_open[part_of(mesh.edges[e][0])] = 1;
+    if (is_odd[e] != 0) part_of(mesh.edges[e][0]).is_open = true;
   }
   for (VertexId v = 0; v < mesh.vertex_count; ++v) {
-    const double sign = is_open[part_of(v)] != 0 ? side : std::copysign(1.0, volume[part_of(v)]);
-    sum.row(v) = (sign * sum.row(v).stableNormalized()).eval();
+    const Part& part = part_of(v);
+    const bool is_outwards = !part.is_open && part.volume > kEnclosed * part.magnitude;
+    sum.row(v) = ((is_outwards ? 1 : side) * sum.row(v).stableNormalized()).eval();
   }
   return sum;
 }

@@ -17,6 +17,8 @@ namespace {
 constexpr int kShapeHalvings = 12;  // of the shape that is kept: 2^-12 of a hand is thinner than cloth
 constexpr int kMaxGrowth = 3;       // rings by which a region may grow, where the ring around it is too near
 
+constexpr std::size_t kMaxMet = 100'000;  // pairs of bodies that meet on a way: more say as much
+
 using Region = std::vector<VertexId>;  // sorted
 
 /// region.size() for a vertex that is not in it.
@@ -29,6 +31,7 @@ class ClothUntangler {
  public:
   explicit ClothUntangler(UntangleState& state)
       : state_(state), mesh_(state.mesh), neighbours_(static_cast<std::size_t>(mesh_.vertex_count)) {
+    for (VertexId v = 0; v < mesh_.vertex_count; ++v) is_of_body_.push_back(state.is_body(v) ? 1 : 0);
     for (const auto& edge : mesh_.edges) {
       neighbours_[static_cast<std::size_t>(edge[0])].push_back(edge[1]);
       neighbours_[static_cast<std::size_t>(edge[1])].push_back(edge[0]);
@@ -53,13 +56,11 @@ class ClothUntangler {
   [[nodiscard]] std::optional<Positions> membrane(const Region& region) const;
   [[nodiscard]] std::vector<Region> crossings() const;
   bool improve() {
-    for (const bool may_pass : {false, true}) {
-      may_pass_bodies_ = may_pass;
-      has_refused_ = false;
-      if (move_a_part() || draw_one_back(regions()) || draw_one_back(crossings())) return true;
-      if (!has_refused_) return false;
-    }
-    return false;
+    way_through_.reset();
+    if (move_a_part() || draw_one_back(regions()) || draw_one_back(crossings())) return true;
+    if (!way_through_) return false;
+    keep(*way_through_);
+    return true;
   }
   bool draw_back(Region region);
   bool draw_one_back(const std::vector<Region>& regions) {
@@ -68,7 +69,15 @@ class ClothUntangler {
   bool move_a_part();
   /// Whether cloth meets a body on its straight way to x: it may end on its other side.
   [[nodiscard]] bool passes_a_body(const Positions& x);
-  /// Keeps the positions where fewer pairs intersect, and none that must end.
+  struct Better {
+    Positions x;
+    std::vector<FacePair> pairs;
+  };
+  void keep(Better& better) {
+    pairs_ = std::move(better.pairs);
+    state_.x = std::move(better.x);
+  }
+  /// Keeps the positions where fewer pairs intersect, none that must end, and no body lies in the way.
   bool keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end = {});
 
   UntangleState& state_;
@@ -76,7 +85,8 @@ class ClothUntangler {
   std::vector<std::vector<VertexId>> neighbours_;  ///< #V
   std::vector<FacePair> pairs_;                    ///< at state_.x
   BoxHierarchy hierarchy_{mesh_};
-  bool may_pass_bodies_ = false, has_refused_ = false;
+  std::vector<std::uint8_t> is_of_body_;  ///< #V
+  std::optional<Better> way_through_;     ///< a body: taken where nothing else helps
 };
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
@@ -180,23 +190,25 @@ std::optional<Positions> ClothUntangler::membrane(const Region& region) const {
 }
 
 bool ClothUntangler::keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end) {
-  if (!x.allFinite() || !state_.may_judge()) return false;
+  if (!(x.array().abs() <= kMaxCoordinate).all() || !state_.may_judge()) return false;
   std::vector<FacePair> pairs = judge(x);
   if (pairs.size() >= pairs_.size() || (must_end && std::ranges::any_of(pairs, must_end))) return false;
-  if (!may_pass_bodies_ && passes_a_body(x)) {
-    has_refused_ = true;
+  Better better{x, std::move(pairs)};
+  if (passes_a_body(x)) {
+    if (!way_through_) way_through_ = std::move(better);
     return false;
   }
-  pairs_ = std::move(pairs);
-  state_.x = x;
+  keep(better);
   return true;
 }
 
 bool ClothUntangler::passes_a_body(const Positions& x) {
-  const CollisionReport met = find_collisions(mesh_, hierarchy_, state_.x, x, {.tolerance = 0}, state_.is_cloth);
-  return std::ranges::any_of(met.collisions, [&](const Collision& collision) {
+  if (std::ranges::find(is_of_body_, 1) == is_of_body_.end()) return false;
+  const CollisionLimits limits{.most_collisions = kMaxMet};
+  const CollisionReport met = find_collisions(mesh_, hierarchy_, state_.x, x, {.tolerance = 0}, is_of_body_, limits);
+  return !met.is_complete || std::ranges::any_of(met.collisions, [&](const Collision& collision) {
     const auto vertices = pair_vertices(mesh_, collision.kind, collision.first, collision.second);
-    return std::ranges::any_of(vertices, [&](VertexId v) { return state_.is_body(v); });
+    return std::ranges::any_of(vertices, [&](VertexId v) { return !state_.is_body(v); });
   });
 }
 

@@ -1,5 +1,5 @@
-// What makes a start that intersects one that does not: moved apart (untangle.h), then drawn together where that has
-// stretched it (relax_springs.h).
+// What makes a start that intersects one that does not: moved apart (untangle.h), then eased where that has strained
+// it (relax_springs.h).
 #pragma once
 
 #include "sim/repair/untangle.h"

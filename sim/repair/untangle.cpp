@@ -12,6 +12,17 @@
 #include "sim/step_input.h"
 
 namespace selvage::sim {
+namespace {
+
+/// Of the pairs of the start: what a repair has made instead is gone with its positions.
+std::vector<FacePair> still_there(std::vector<FacePair> at_start, const std::vector<FacePair>& left) {
+  std::vector<FacePair> both;
+  std::ranges::set_intersection(at_start, left, std::back_inserter(both));
+  if (both.empty() && !left.empty()) return at_start;
+  return both;
+}
+
+}  // namespace
 
 CollisionOptions step_options(const UntangleOptions& options) {
   CollisionOptions result;
@@ -20,17 +31,6 @@ CollisionOptions step_options(const UntangleOptions& options) {
   result.precision = options.precision;
   return result;
 }
-
-namespace {
-
-/// Of the pairs of the start: what a repair has made instead is gone with its positions.
-std::vector<FacePair> still_there(std::vector<FacePair> at_start, const std::vector<FacePair>& left) {
-  std::vector<FacePair> both;
-  std::ranges::set_intersection(at_start, left, std::back_inserter(both));
-  return both.empty() && !left.empty() ? at_start : both;
-}
-
-}  // namespace
 
 UntangleResult untangle(const Mesh& mesh, const PositionsRef& V, const CollisionBodies& bodies,
                         const UntangleOptions& options, const FindIntersections& find) {

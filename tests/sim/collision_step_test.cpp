@@ -409,11 +409,13 @@ TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.normal[1] = std::numeric_limits<double>::quiet_NaN(); }),
             InputError::kBadContact);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 0; }), InputError::kBadContact);
-  // Finite, but such that products leave the range of doubles.
+  // Finite, but such as no pair has.
   for (const double beyond : {-1.001, 1.001, 1e300}) {
     EXPECT_EQ(error_with([=](RepulsionContact& c) { c.interaction.weights[1] = beyond; }), InputError::kBadContact);
     EXPECT_EQ(error_with([=](RepulsionContact& c) { c.interaction.mobility[1] = beyond; }), InputError::kBadContact);
   }
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.mobility = 5; }), InputError::kBadContact);
+  EXPECT_EQ(error_with([](RepulsionContact& c) { c.distance = 2 * kMaxCoordinate; }), InputError::kBadContact);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.x_t0[2].y() = 2 * kMaxCoordinate; }), InputError::kBadContact);
 }
 

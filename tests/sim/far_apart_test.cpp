@@ -1,8 +1,9 @@
-// Cloth that meets nothing moves as if it were alone, whatever other cloth of the scene does.
+// Cloth that meets nothing moves as if it were alone, whatever other cloth of the scene meets or bears.
 #include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
@@ -72,6 +73,10 @@ position_m = [30, 0, 0]
   };
   const Positions touches = first_rows_after(scene("0.001"), 24, 25), falls = first_rows_after(scene("40"), 24, 25);
   EXPECT_LT((touches - falls).cwiseAbs().maxCoeff(), 1e-8);
+  {
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(first_rows_after(scene("0.001"), 24, 25), touches) << "on one thread";
+  }
   // 5 t - g t^2 / 2, as both stages have it.
   EXPECT_NEAR(touches.bottomRows(9).col(2).mean(), 5 * 0.8 - 9.81 * 0.8 * 0.8 / 2, 1e-9);
 }

@@ -99,6 +99,7 @@ TEST(ThickCloth, SpinsWithTheEnergyThatItHas) {
     }
     ASSERT_GT(first, 0);
     EXPECT_LT(most, 1.01 * first) << speed_rad_s;
+    EXPECT_GT(simulation.state().v.squaredNorm() / 49, 0.6 * first) << speed_rad_s << ": damping takes some";
   }
 }
 

@@ -10,7 +10,7 @@ TEST(HeldContacts, BearWhatTheVertexBoreOnAFaceBeside) {
   constexpr double kLoad = 7;
   TwoFaces scene;
   const auto learnt = [&](const std::vector<ContactLoad>& loads) {
-    Swept held({scene.one.contact}, {loads, {}}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
+    HeldContacts held({scene.one.contact}, {loads, {}}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
     const std::vector<ContactLoad> begun = held.loads().vf;
     return begun.empty() ? 0 : begun.front().acceleration_m_s2;
   };

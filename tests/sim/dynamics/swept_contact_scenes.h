@@ -39,6 +39,8 @@ struct Ground {
 class Swept : public HeldContacts {
  public:
   using HeldContacts::HeldContacts;
+  Swept(const Swept&) = delete;  // swept_ would go on with the other
+  Swept& operator=(const Swept&) = delete;
   void hold(const MidstepMotion& step, const std::function<void()>& limit) {
     swept_.hold(step, limit);
     swept_.finish();

@@ -189,6 +189,18 @@ TEST(Untangle, WhichWayRoundFacesOfBodiesGoDoesNotMatter) {
   }
 }
 
+TEST(Untangle, ClothWithinABoxWhoseFacesLookInwardsStaysThere) {
+  StepScene scene;
+  const StepScene::Part sheet =
+      scene.add(make_sheet(9, 9, 0.5, 0.5), Vec3(0.76, 0.01, 0.02));  // through a wall by 1 cm
+  scene.add(turned_inside_out(make_box(Vec3(2, 2, 2), 1)), Vec3::Zero(), 0);
+  const UntangleResult result = untangle_scene(scene, 0.01);
+  EXPECT_EQ(defect_of(scene, result), "");
+  EXPECT_TRUE(result.report.remaining.empty());
+  EXPECT_LT(result.x.topRows(sheet.end).col(0).maxCoeff(), 1);
+  EXPECT_LT((result.x - scene.V_t0).rowwise().norm().maxCoeff(), 0.05);
+}
+
 // Parted along the normals of what crosses, whichever way those point.
 TEST(Untangle, ClothIsNotPartedThroughTheGround) {
   for (const double turned_deg : {0.0, 180.0}) {
