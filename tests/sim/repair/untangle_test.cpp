@@ -221,6 +221,39 @@ TEST(Untangle, ClothIsNotPartedThroughTheGround) {
   }
 }
 
+// Two sheets in a closed box, by a judge for whom only sheets that are 0.4 m apart are free: the first shift that makes
+// them so, 0.8 m, goes through a wall, which is 0.5 m away.
+TEST(Untangle, ClothGoesThroughABodyWhereNothingElseHelps) {
+  StepScene scene;
+  scene.add(make_sheet(3, 3, 0.2, 0.2), Vec3::Zero());
+  scene.add(make_sheet(3, 3, 0.2, 0.2), Vec3(0, 0, 0.05));
+  scene.add(make_box(Vec3(1, 1, 1), 1), Vec3::Zero(), 0);
+  const auto apart_m = [](const Positions& x) { return std::abs(x(0, 2) - x(9, 2)); };
+  const FindIntersections judge = [&](const Positions& x) {
+    return apart_m(x) > 0.4 ? std::vector<FacePair>{} : std::vector<FacePair>{{0, 8}};
+  };
+  UntangleOptions options;
+  options.gap_m = 0.1;
+  const UntangleResult result = untangle(scene.mesh(), scene.V_t0, scene.bodies(), options, judge);
+  EXPECT_TRUE(result.report.remaining.empty());
+  EXPECT_GT(apart_m(result.x), 0.4);
+}
+
+TEST(Untangle, NamesWhatIsSoAtTheStartWhateverATryMadeOfIt) {
+  StepScene scene;
+  scene.add(make_sheet(3, 3, 0.2, 0.2), Vec3::Zero());
+  scene.add(make_sheet(3, 3, 0.2, 0.2), Vec3(0, 0, 0.05));
+  const std::vector<FacePair> at_start{{0, 8}, {1, 9}, {2, 10}};
+  const auto remaining = [&](const std::vector<FacePair>& after) {
+    const FindIntersections judge = [&](const Positions& x) { return x == scene.V_t0 ? at_start : after; };
+    UntangleResult result = untangle(scene.mesh(), scene.V_t0, scene.bodies(), {}, judge);
+    EXPECT_EQ(result.x, scene.V_t0);
+    return std::move(result.report.remaining);
+  };
+  EXPECT_EQ(remaining({{1, 9}, {3, 11}}), (std::vector<FacePair>{{1, 9}}));
+  EXPECT_EQ(remaining({{3, 11}}), at_start) << "none of them, but others";
+}
+
 TEST(Untangle, ASheetCrossedByItsOwnCorner) {
   StepScene scene;
   const StepScene::Part sheet = scene.add(make_sheet(17, 17, 0.4, 0.4), Vec3::Zero());

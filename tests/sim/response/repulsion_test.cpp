@@ -56,6 +56,37 @@ TEST(Repulsion, EndsTheApproachOfAnyContact) {
   selvage::testing::check_property(200, 22, prop_repulsion_ends_the_approach);
 }
 
+TEST(Repulsion, OfARestPairThatTurnsIsNone) {
+  // A vertex above the middle of a face, all of which turn about the x axis; or the vertex comes down, or through.
+  constexpr double kDistance = 0.25;
+  const PairVectors x{Vec3(0, 0, kDistance), Vec3(-2, -2, 0), Vec3(2, -2, 0), Vec3(0, 4, 0)};
+  RepulsionContact contact;
+  contact.interaction =
+      make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, std::array<double, 4>{1, 1, 1, 1});
+  contact.x_t0 = x;
+  contact.normal = Vec3::UnitZ();
+  contact.distance = kDistance;
+  contact.mobility = effective_mobility(contact.interaction);
+  contact.properties.thickness_m = kDistance;
+  const auto pushed = [&](const PairVectors& x_t1) {
+    Positions displacement(4, 3);
+    for (std::size_t i = 0; i < 4; ++i) displacement.row(static_cast<Eigen::Index>(i)) = x_t1[i] - x[i];
+    FrictionLoad load;
+    (void)repel_contact(contact, displacement, CollisionOptions{}, 1e-2, 0, load);
+    return load.pressed;
+  };
+  PairVectors turned, down = x, through = x;
+  for (std::size_t i = 0; i < 4; ++i) turned[i] = Eigen::AngleAxisd(0.3, Vec3::UnitX()) * x[i];
+  down[0].z() = 0.2;
+  through[0].z() = -0.3;
+  for (const bool is_of_rest : {false, true}) {
+    contact.properties.is_of_rest = is_of_rest;
+    EXPECT_NEAR(pushed(turned), is_of_rest ? 0 : kDistance * (1 - std::cos(0.3)), 1e-15);
+    EXPECT_NEAR(pushed(down), 0.05, 1e-15);
+    EXPECT_NEAR(pushed(through), 0.55, 1e-15);
+  }
+}
+
 TEST(Repulsion, KeepsTheLimitOfALeverInAllItsSweeps) {
   // The only free corner of a face, below which a vertex of a body rises and slides.
   constexpr double kThickness = 0.01, kRise = 4e-3, kSlide = 3e-3;
