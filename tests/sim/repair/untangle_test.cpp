@@ -221,7 +221,7 @@ TEST(Untangle, ClothIsNotPartedThroughTheGround) {
   }
 }
 
-// Two sheets in a closed box, by a judge for whom only sheets that are 0.4 m apart are free: the first shift that makes
+// Two sheets in a closed box, by a judge for whom only sheets 0.46 m apart are free: the first shift that makes
 // them so, 0.8 m, goes through a wall, which is 0.5 m away.
 TEST(Untangle, ClothGoesThroughABodyWhereNothingElseHelps) {
   StepScene scene;
@@ -230,13 +230,13 @@ TEST(Untangle, ClothGoesThroughABodyWhereNothingElseHelps) {
   scene.add(make_box(Vec3(1, 1, 1), 1), Vec3::Zero(), 0);
   const auto apart_m = [](const Positions& x) { return std::abs(x(0, 2) - x(9, 2)); };
   const FindIntersections judge = [&](const Positions& x) {
-    return apart_m(x) > 0.4 ? std::vector<FacePair>{} : std::vector<FacePair>{{0, 8}};
+    return apart_m(x) > 0.46 ? std::vector<FacePair>{} : std::vector<FacePair>{{0, 8}};
   };
   UntangleOptions options;
   options.gap_m = 0.1;
   const UntangleResult result = untangle(scene.mesh(), scene.V_t0, scene.bodies(), options, judge);
   EXPECT_TRUE(result.report.remaining.empty());
-  EXPECT_GT(apart_m(result.x), 0.4);
+  EXPECT_GT(apart_m(result.x), 0.46);
 }
 
 TEST(Untangle, NamesWhatIsSoAtTheStartWhateverATryMadeOfIt) {
