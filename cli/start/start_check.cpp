@@ -92,6 +92,7 @@ bool has_edge_without_length(const sim::World& world) {
                               first == second ? " with itself" : fmt::format(" and \"{}\"", second), what_to_do));
 }
 
+/// Where all are left, whatever a try made of them, it says no number.
 std::string named_of(const std::vector<sim::FacePair>& some, const std::vector<sim::FacePair>& all) {
   return some.size() < all.size() ? fmt::format("{} of them", some.size()) : "them";
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr int kShapeHalvings = 12;  // of the shape that is kept: 2^-12 of a hand is thinner than cloth
 constexpr int kMaxGrowth = 3;       // rings by which a region may grow, where the ring around it is too near
 
-constexpr std::size_t kMaxMet = 100'000;  // pairs of bodies that meet on a way: more say as much
+constexpr std::size_t kMaxMet = 100'000;  // pairs with bodies that meet on a way: chosen; more say no more
 
 using Region = std::vector<VertexId>;  // sorted
 

@@ -125,14 +125,12 @@ void StrainLimiter::find_pairs(std::span<const double> inverse_mass, const Limit
   for (Set& set : sets_) {
     set.pairs.clear();
     set.limited.clear();
-    set.finds_others = false;
   }
   for (const auto& look : looks_) {
     if (!look) continue;
     Set& set = sets_[set_of_[static_cast<std::size_t>(look->pair.a)]];
     set.pairs.push_back(look->pair);
     set.limited.push_back(look->limited);
-    set.finds_others = set.finds_others || look->pair.impulse_n_s == 0;
   }
 }
 
@@ -158,11 +156,13 @@ std::int64_t StrainLimiter::limit_strain(std::span<const double> inverse_mass, c
   std::int64_t impulses = 0;
   for (const auto start : {ImpulseProjection::Start::kGuess, ImpulseProjection::Start::kActing}) {
     check_.find_outside(motion.x_t0, motion.x_t1, LengthCheck::Reference::kRestLength, limits_.strain, is_suspect_);
+    const bool is_first = start == ImpulseProjection::Start::kGuess;
+    const auto bears_nothing = [](const BoundedPair& pair) { return pair.impulse_n_s == 0; };
     find_pairs(inverse_mass, motion);
     forget();
     for (Set& set : sets_) {
-      const bool is_first = start == ImpulseProjection::Start::kGuess;
-      if (!set.pairs.empty() && (is_first || set.finds_others)) impulses += limit(set, start, inverse_mass, motion);
+      const bool finds_others = std::ranges::any_of(set.pairs, bears_nothing);
+      if (!set.pairs.empty() && (is_first || finds_others)) impulses += limit(set, start, inverse_mass, motion);
       for (std::size_t i = 0; i < set.pairs.size(); ++i) {
         const auto [spring, is_long] = set.limited[i];
         const double impulse_n_s = set.pairs[i].impulse_n_s;

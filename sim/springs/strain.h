@@ -71,7 +71,6 @@ class StrainLimiter {
   struct Set {
     std::vector<BoundedPair> pairs = {};
     std::vector<Limited> limited = {};  ///< by pair
-    bool finds_others = false;          ///< some bear nothing yet
     double first_m_s = 0;               ///< as in ImpulseProjection
   };
   /// Springs to limit, by what they bear and `is_suspect_`.

@@ -50,6 +50,7 @@ TEST(HeldContacts, AreGivenOnAsMeasuredAtTheStart) {
   HeldContacts held({scene.one.contact}, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
   held.contact(0).interaction.weights = {1, -1, 0, 0};  // over the first corner, which is 2 m away in x and y
   held.contact(0).normal = Vec3(0.6, 0, 0.8);
+  held.contact(0).mobility = 7;  // of where it was
   const RepulsionContact now = std::move(held).take_contacts().front();
   EXPECT_NEAR(now.distance, 2 * 0.6 + kHeldThickness * 0.8, 1e-15);
   EXPECT_NEAR(now.mobility, 1, 1e-15);
