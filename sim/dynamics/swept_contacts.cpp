@@ -68,7 +68,7 @@ SweptContacts::SweptContacts(HeldContacts& held)
   place(vf_);
   place(ee_);
   const auto is_empty = [](std::size_t contact) { return contact == ContactGroups::kNobody; };
-  SELVAGE_ASSERT(contact_at_.size() - std::ranges::count_if(contact_at_, is_empty) == held.contacts().size());
+  SELVAGE_ASSERT(std::ranges::count_if(contact_at_, is_empty) + std::ssize(held.contacts()) == std::ssize(contact_at_));
   set_straight();
   set_sweeps();
   begin_with_loads();
