@@ -7,6 +7,7 @@
 
 #include "kernel/assert.h"
 #include "sim/base/sorted_once.h"
+#include "sim/contact_energy.h"
 #include "sim/dynamics/central_differences.h"
 #include "sim/dynamics/held_contacts.h"
 #include "sim/dynamics/implicit_dynamics.h"
@@ -111,8 +112,7 @@ bool Simulation::shorten_for_scripts() {
 }
 
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are
-// borne, or strains springs, or, the first time, puts energy into them, the dynamics runs again and holds what it met
-// as well.
+// borne, or strains springs, or puts energy into them, the dynamics runs again and holds what it met as well.
 Simulation::Try Simulation::try_step(StepResult& result) {
   Try tried;
   tried.candidate = script_.follow(x_, clock_);
@@ -130,7 +130,10 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     if (tried.failed) return tried;
     tried.failed = tried.safe.report.status == StepStatus::kAbandoned || (can_halve() && overstrains(tried));
     const bool is_all_held = tried.safe.met.empty();  // another round would do the same
-    const bool runs_again = tried.failed || (round == 0 && !is_all_held && energizes(tried));
+    const bool is_new = round == 0 && !is_all_held;   // the first time that more was met than was held
+    const bool gains = !tried.failed && (is_new || can_halve()) && energizes(held_to_the_end, is_new, tried);
+    tried.failed = tried.failed || (gains && !is_new);
+    const bool runs_again = tried.failed || gains;
     if (is_last || !runs_again) return tried;
     if (is_all_held) round = kHoldingRounds - 1;
     held.insert(held.end(), tried.safe.met.begin(), tried.safe.met.end());
@@ -216,9 +219,18 @@ bool Simulation::overstrains(const Try& tried) const {
          allowance_.overstrains(x_, tried.candidate, tried.safe.x, clock_.halvings());
 }
 
-bool Simulation::energizes(const Try& tried) const {
-  return tried.safe.report.status == StepStatus::kSafe &&
-         allowance_.energizes(tried.end, tried.safe.x, script_.inverse_mass(), clock_.dt_s());
+bool Simulation::energizes(const std::vector<RepulsionContact>& held, bool is_new, const Try& tried) const {
+  const CollisionStepReport& report = tried.safe.report;
+  if (report.status != StepStatus::kSafe || !report.touched()) return false;
+  // Rounded as the collision step rounds: where coordinates are large that puts energy into stiff springs by itself.
+  const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
+  const Positions x = float32 ? Positions(tried.candidate.cast<float>().cast<double>()) : tried.candidate;
+  Positions v = (tried.candidate - x_) / clock_.dt_s();
+  for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
+    if (!script_.is_scripted(static_cast<VertexId>(i))) v.row(i) = tried.end.v.row(i);
+  }
+  const ResolvedStep step{x, tried.safe.x, v, held, tried.safe.met};
+  return allowance_.energizes(step, script_.inverse_mass(), clock_.dt_s(), is_new);
 }
 
 void Simulation::commit(Try& tried) {

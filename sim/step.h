@@ -40,8 +40,8 @@ struct StepResult {
   double dt_s = 0, end_s = 0;
   bool is_bent = false;    ///< some body did not go straight, though the step was as short as it may be
   Strained most_strained;  ///< of structural and shear springs, at the end of the step
-  /// Tries thrown away because repulsions were not enough, contact overstrained springs, the equations of implicit
-  /// dynamics were not solved, or candidates were cut back.
+  /// Tries thrown away because repulsions were not enough, contact overstrained springs or put too much energy into
+  /// them, the equations of implicit dynamics were not solved, or candidates were cut back.
   std::int32_t halvings = 0;
   StepPhases phases;  ///< those tries included
 };
@@ -95,7 +95,7 @@ class Simulation {
   /// Whether contact presses more springs than are borne.
   [[nodiscard]] bool overstrains(const Try& tried) const;
   /// Whether the collision step put more energy into the springs of a part than is borne.
-  [[nodiscard]] bool energizes(const Try& tried) const;
+  [[nodiscard]] bool energizes(const std::vector<RepulsionContact>& held, bool is_new, const Try& tried) const;
   void commit(Try& tried);
 
   Scene scene_;

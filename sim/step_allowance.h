@@ -12,6 +12,8 @@
 
 namespace selvage::sim {
 
+struct ResolvedStep;
+
 class StepAllowance {
  public:
   /// All must outlive this; `parts` of the world's mesh.
@@ -26,10 +28,11 @@ class StepAllowance {
   /// Whether contact presses more springs than are borne, in a step from `x_t0` by way of the candidate to `x`.
   [[nodiscard]] bool overstrains(const Positions& x_t0, const Positions& candidate, const Positions& x,
                                  std::int32_t halvings) const;
-  /// Whether the collision step, to `x`, put more energy than is borne into the springs of a part of the cloth that the
-  /// dynamics left at `end`.
-  [[nodiscard]] bool energizes(const Motion& end, const Positions& x, std::span<const double> inverse_mass,
-                               double dt_s) const;
+  /// Whether a collision step put more energy than is borne into the springs of a part of the cloth. Under the explicit
+  /// solver far less is borne the first time that more was met than was held (`is_new`), as another run then holds it,
+  /// than where the step would have to be halved.
+  [[nodiscard]] bool energizes(const ResolvedStep& step, std::span<const double> inverse_mass, double dt_s,
+                               bool is_new) const;
 
  private:
   /// Collisions that the longest step bears in any try.
