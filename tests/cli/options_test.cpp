@@ -127,7 +127,8 @@ TEST(Options, HelpIsPlainText) {
        {"bench", "convert", "doctor", "fuzz", "merge", "render", "replay", "sim", "subdivide", "verify", "view"}) {
     const auto help = run_program({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
-    for (const unsigned char c : help.out) ASSERT_TRUE(c == '\n' || c >= 0x20) << command << help.out;
+    for (const char c : help.out)
+      ASSERT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << command << help.out;
     EXPECT_EQ(help.out.find("ENUM"), std::string::npos) << help.out;
   }
   const std::string sim = run_program({"sim", "--help"}).out;

@@ -394,7 +394,7 @@ TEST(CollisionStep, HeldContactsThatDoNotFitAreInvalid) {
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.interaction.vertices[0] = -1; }), InputError::kBadContact);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.second = 1'000; }), InputError::kBadContact);
   EXPECT_EQ(error_with([](RepulsionContact& c) { c.second_t0 = -1; }), InputError::kBadContact);
-  for (const std::size_t count : {0, 3, 5, 1'000'000'000}) {  // 3 is of self pairs alone
+  for (const std::size_t count : std::vector<std::size_t>{0, 3, 5, 1'000'000'000}) {  // 3 is of self pairs alone
     EXPECT_EQ(error_with([=](RepulsionContact& c) { c.interaction.vertex_count = count; }), InputError::kBadContact)
         << count;
   }
