@@ -37,9 +37,9 @@ TEST(ContactEnergy, CountsMotionBesideWhatAPartMeets) {
   mesh.edges = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {6, 7}, {7, 8}, {8, 6}};
   const std::vector<double> inverse_mass = {1, 1, 1, 0.5, 0.5, 0.5, 0, 0, 0};
   const Positions x = Positions::Zero(9, 3);
-  const auto contact = [&](PairKind kind, const std::array<VertexId, 4>& vertices) {
+  const auto contact = [&](const std::array<VertexId, 4>& vertices) {
     RepulsionContact result;
-    result.interaction = make_interaction(kind, vertices, {1, 1, 0, 0}, inverse_mass);
+    result.interaction = make_interaction(PairKind::kVf, vertices, {1, 1, 0, 0}, inverse_mass);
     return result;
   };
   const auto energies = [&](double common_m_s, const std::vector<RepulsionContact>& met) {
@@ -51,16 +51,15 @@ TEST(ContactEnergy, CountsMotionBesideWhatAPartMeets) {
   const double elastic_j = 4;
   for (const double common_m_s : {0.0, 1024.0}) {
     // The first beside the body, at 3 m/s; beside the second, whose centre of mass with it stands still; beside itself.
-    const auto on_body = energies(common_m_s, {contact(PairKind::kVf, {0, 6, 7, 8})});
+    const auto on_body = energies(common_m_s, {contact({0, 6, 7, 8})});
     EXPECT_DOUBLE_EQ(on_body[0].before_j, elastic_j + 3 * 9.0 / 2) << common_m_s;
-    const auto on_cloth = energies(common_m_s, {contact(PairKind::kVf, {0, 3, 4, 5})});
+    const auto on_cloth = energies(common_m_s, {contact({0, 3, 4, 5})});
     EXPECT_DOUBLE_EQ(on_cloth[0].before_j, elastic_j + 3 * 4.0 / 2) << common_m_s;
     EXPECT_DOUBLE_EQ(on_cloth[3].before_j, 3 * 2 * 1.0 / 2) << common_m_s;
-    const auto on_itself = energies(common_m_s, {contact(PairKind::kVf, {0, 0, 1, 2})});
+    const auto on_itself = energies(common_m_s, {contact({0, 0, 1, 2})});
     EXPECT_DOUBLE_EQ(on_itself[0].before_j, elastic_j) << common_m_s;
     // Of both, the mean: 5 and 0 m/s.
-    const auto on_both =
-        energies(common_m_s, {contact(PairKind::kVf, {0, 3, 4, 5}), contact(PairKind::kVf, {0, 6, 7, 8})});
+    const auto on_both = energies(common_m_s, {contact({0, 3, 4, 5}), contact({0, 6, 7, 8})});
     EXPECT_DOUBLE_EQ(on_both[0].before_j, elastic_j + 3 * 0.25 / 2) << common_m_s;
   }
 }

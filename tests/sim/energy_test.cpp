@@ -325,8 +325,8 @@ TEST(Energy, ThatAllMovesDoesNotHideWhatContactGains) {
 }
 
 TEST(Energy, VeryStiffClothGainsNoneInContact) {
-  // Where a step was taken whatever the collision step put in at last, these had up to 16, 5.1 and 1.6
-  // times as much on the way.
+  // Where a step was taken whatever the collision step put in at last, these had up to 16, 5.1 and 1.6 times as much on
+  // the way.
   struct Case {
     std::string solver, time;
     double stretch_n_m;
@@ -335,7 +335,6 @@ TEST(Energy, VeryStiffClothGainsNoneInContact) {
   for (const Case& c : {Case{"explicit", "max_step_s = 0.0167\n", 1e6, kBox},
                         Case{"explicit", "max_step_s = 0.0167\n", 1e7, kBall}, Case{"implicit", "", 1e7, kBall}}) {
     for (const int height : {1, 7, 10}) {  // of twelve that were tried, those that had
-
       std::string text = stiff_fall(c.solver, c.time, c.stretch_n_m, 0.1, c.on);
       text.replace(text.find("0.3]"), 4, std::to_string(0.3 + 0.003 * height) + "]");
       expect_no_gain(text, 10);

@@ -352,7 +352,8 @@ TEST(Untangle, Float32ResultsLieOnTheLattice) {
   EXPECT_EQ(result.x, result.x.cast<float>().cast<double>());
 }
 
-// Random small tangles of one to three sheets, crumpled, sometimes pinned, sometimes with a body.
+// Random small tangles of one to three sheets, crumpled, sometimes pinned, sometimes with a body. One draw a name: two
+// in one expression were other scenes for every compiler.
 TEST(Untangle, EndsCleanOrSaysWhatRemains) {
   int tangled = 0, repaired = 0;
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
@@ -365,14 +366,17 @@ TEST(Untangle, EndsCleanOrSaysWhatRemains) {
     const int sheets = static_cast<int>(between(1, 4));
     for (int n = 0; n < sheets; ++n) {
       const int side = static_cast<int>(between(4, 9));
-      const StepScene::Part part = scene.add(make_sheet(side, side, 0.1, 0.1),
-                                             Vec3(between(-0.03, 0.03), between(-0.03, 0.03), between(-0.01, 0.01)));
+      const double z = between(-0.01, 0.01), y = between(-0.03, 0.03), x = between(-0.03, 0.03);
+      const StepScene::Part part = scene.add(make_sheet(side, side, 0.1, 0.1), Vec3(x, y, z));
       for (VertexId v = part.begin; v < part.end; ++v) {
         for (int axis = 0; axis < 3; ++axis) scene.V_t0(v, axis) += crumple_m * between(-1, 1);
       }
       if (engine() % 8 == 0) scene.inverse_mass[static_cast<std::size_t>(part.begin)] = 0;
     }
-    if (engine() % 2 == 0) scene.add(make_sphere(between(0.01, 0.04), 1), Vec3(0.01, 0, between(-0.05, 0.05)), 0);
+    if (engine() % 2 == 0) {
+      const double z = between(-0.05, 0.05), radius_m = between(0.01, 0.04);
+      scene.add(make_sphere(radius_m, 1), Vec3(0.01, 0, z), 0);
+    }
     const bool is_tangled = !exact_defect(scene, scene.V_t0).empty();
     const UntangleResult result = untangle_scene(scene);
     ASSERT_EQ(defect_of(scene, result), "") << seed;
