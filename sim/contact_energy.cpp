@@ -41,7 +41,7 @@ std::vector<Vec3> velocities_met(const SurfaceParts& parts, VertexId cloth_count
 
 std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, const SurfaceParts& parts,
                                             std::span<const double> inverse_mass, const ResolvedStep& step,
-                                            double least_m_s) {
+                                            double fall_m_s) {
   const VertexId count = springs.vertex_count();
   std::vector<ContactEnergy> energies(static_cast<std::size_t>(count));
   const auto part_of = [&](VertexId i) { return static_cast<std::size_t>(parts.part(i)); };
@@ -56,7 +56,7 @@ std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, const S
     const double w = inverse_mass[static_cast<std::size_t>(i)];
     if (!(w > 0)) continue;
     const double beside_m_s = (step.v_before.row(i).transpose() - met[part_of(i)]).norm();
-    energies[part_of(i)].before_j += (beside_m_s * beside_m_s + least_m_s * least_m_s) / (2 * w);
+    energies[part_of(i)].before_j += (beside_m_s * beside_m_s + fall_m_s * fall_m_s) / (2 * w);
   }
   return energies;
 }

@@ -28,10 +28,11 @@ struct ResolvedStep {
 /// Of each connected part by itself, at its smallest vertex, so that what else moves hides nothing. Motion counts
 /// beside the mean velocity of the part's contacts, each that of the centre of mass of its two points, once for either
 /// side: counted in the world, what sheet and box had in common hid what contact put in. Stiff cloth that fell on a
-/// box, both at 20 m/s, came to 2.4 times its energy as the box sees it (tests/sim/energy_test.cpp). All vertices count
-/// as if they moved at least_m_s besides. O(vertices + springs + contacts).
+/// box, both at 20 m/s, came to 2.4 times its energy as the box sees it (tests/sim/energy_test.cpp). Vertices count as
+/// if they fell at fall_m_s besides: what cloth at rest falls in a step, contact takes up again. O(vertices + springs +
+/// contacts).
 [[nodiscard]] std::vector<ContactEnergy> contact_energies(const SpringSystem& springs, const SurfaceParts& parts,
                                                           std::span<const double> inverse_mass,
-                                                          const ResolvedStep& step, double least_m_s);
+                                                          const ResolvedStep& step, double fall_m_s);
 
 }  // namespace selvage::sim

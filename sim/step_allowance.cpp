@@ -1,7 +1,6 @@
 #include "sim/step_allowance.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/contact_energy.h"
 #include "sim/springs/spring_strain.h"
@@ -62,13 +61,11 @@ bool StepAllowance::overstrains(const Positions& x_t0, const Positions& candidat
 
 bool StepAllowance::energizes(const ResolvedStep& step, std::span<const double> inverse_mass, double dt_s,
                               bool is_new) const {
-  // What cloth at rest falls in a step, contact takes up again; and to go by the tolerance is no motion: cloth without
-  // weight may have no other beside what it lies on than rounding (Energy.RoundingToFloat32IsNoGain).
-  const double least_m_s = std::hypot(dt_s * scene_.gravity_m_s2.norm(), scene_.collision.tolerance_m / dt_s);
+  const double fall_m_s = dt_s * scene_.gravity_m_s2.norm();
   const double borne_if_new = dt_s > kLongStep_s ? kEnergyBorneInLongSteps : kEnergyBorne;
   const double borne_share = is_new && scene_.solver == Solver::kExplicit ? borne_if_new : kEnergyBorneAtLast;
   return std::ranges::any_of(
-      contact_energies(world_.springs, parts_, inverse_mass, step, least_m_s),
+      contact_energies(world_.springs, parts_, inverse_mass, step, fall_m_s),
       [&](const ContactEnergy& energy) { return energy.gain_j > borne_share * energy.before_j; });
 }
 
