@@ -270,15 +270,23 @@ class WorldBuilder {
   }
 
   [[nodiscard]] Collider::Motion carried_by(std::size_t body, const std::vector<VertexId>& vertices) const {
-    const io::Group& group = groups_[scene_.cloths.size() + body];
-    const auto faces = std::span(triangles_).first(static_cast<std::size_t>(group.face_end));
+    const Collider& carrier = bodies_[body];
     // Where the bodies will stand. How a face of 3 mm has turned is known to 1 in 50 by float32 at a kilometre, and
     // what hung 0.3 m from one that had not moved began 9 mm away from where it was put.
     const bool is_float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
-    if (!is_float32)
-      return Attachment(x_(vertices, Eigen::all), faces.subspan(static_cast<std::size_t>(group.face_begin)), x_);
-    const Positions x = x_.cast<float>().cast<double>();
-    return Attachment(x(vertices, Eigen::all), faces.subspan(static_cast<std::size_t>(group.face_begin)), x);
+    Positions points = x_(vertices, Eigen::all);
+    if (is_float32) points = points.cast<float>().cast<double>().eval();
+    Attachment attachment(std::move(points), faces_of(body), carrier.placed_at(0, is_float32, x_));
+    return Collider::Carried{std::move(attachment), carrier.script(), carrier.vertices().front()};
+  }
+
+  /// Of its own vertices, numbered from 0.
+  [[nodiscard]] io::Triangles faces_of(std::size_t body) const {
+    const io::Group& group = groups_[scene_.cloths.size() + body];
+    const VertexId begin = bodies_[body].vertices().front();
+    io::Triangles faces(triangles_.begin() + group.face_begin, triangles_.begin() + group.face_end);
+    for (auto& face : faces) face = {face[0] - begin, face[1] - begin, face[2] - begin};
+    return faces;
   }
 
   // About the mean of the vertices.

@@ -14,7 +14,7 @@ namespace {
 using Face = std::array<VertexId, 3>;
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_of(const Face& face, const Positions& x) {
+Corners corners_of(const Face& face, const PositionsRef& x) {
   return {Vec3(x.row(face[0])), Vec3(x.row(face[1])), Vec3(x.row(face[2]))};
 }
 
@@ -32,7 +32,8 @@ Ball ball_around(const Corners& corners) {
 
 }  // namespace
 
-Attachment::Attachment(Positions points, std::span<const Face> faces, const Positions& x) : points_(std::move(points)) {
+Attachment::Attachment(Positions points, std::span<const Face> faces, const PositionsRef& x)
+    : points_(std::move(points)) {
   SELVAGE_ASSERT(!faces.empty());
   std::vector<Ball> balls;
   for (const Face& face : faces) balls.push_back(ball_around(corners_of(face, x)));
@@ -52,7 +53,7 @@ Attachment::Attachment(Positions points, std::span<const Face> faces, const Posi
   }
 }
 
-Positions Attachment::placed_on(const Positions& x) const {
+Positions Attachment::placed_on(const PositionsRef& x) const {
   Positions placed = points_;
   for (std::size_t i = 0; i < anchors_.size(); ++i) {
     const Anchor& anchor = anchors_[i];

@@ -11,14 +11,15 @@ namespace selvage::sim {
 
 class Attachment {
  public:
-  /// Every row of `points` hangs on the point of `faces`, at least one, that is nearest to it; x: #V by 3, where the
-  /// vertices of the faces are meanwhile. O(points faces), 3 ns each where most faces are too far to be asked.
-  Attachment(Positions points, std::span<const std::array<VertexId, 3>> faces, const Positions& x);
+  /// Every row of `points` hangs on the point of `faces`, at least one, that is nearest to it; x, of as many rows as
+  /// the body has vertices: where these are meanwhile. O(points faces), 3 ns each where most faces are too far to be
+  /// asked.
+  Attachment(Positions points, std::span<const std::array<VertexId, 3>> faces, const PositionsRef& x);
 
   /// Where the points are when x has the vertices of the body: each keeps its distance from its point of the body, and
   /// turns about that as the face there turns, best in least squares. Up to rounding a rigid motion where the body's is
-  /// one; `points` to the bit where that is at rest. x: #V by 3.
-  [[nodiscard]] Positions placed_on(const Positions& x) const;
+  /// one; `points` to the bit where that is at rest.
+  [[nodiscard]] Positions placed_on(const PositionsRef& x) const;
   [[nodiscard]] Eigen::Index count() const { return points_.rows(); }
 
  private:

@@ -11,18 +11,17 @@ namespace {
 struct CountRows {
   Eigen::Index operator()(const Collider::Rigid& rigid) const { return rigid.local.rows(); }
   Eigen::Index operator()(const Collider::Animated& animated) const { return animated.local->first().x.rows(); }
-  Eigen::Index operator()(const Attachment& attachment) const { return attachment.count(); }
 };
+
+Eigen::Index rows_of(const Collider::Script& script) { return std::visit(CountRows{}, script); }
 
 struct Place {
   double time_s;
-  const Positions& x;
 
   Positions operator()(const Collider::Rigid& rigid) const { return transform(rigid.linkage.at(time_s), rigid.local); }
   Positions operator()(const Collider::Animated& animated) const {
     return transform(animated.linkage.at(time_s), animated.local->at(time_s));
   }
-  Positions operator()(const Attachment& attachment) const { return attachment.placed_on(x); }
 };
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -43,31 +42,46 @@ Collider::Collider(std::string name, std::vector<VertexId> vertices, Motion moti
       motion_(std::move(motion)),
       release_s_(release_s),
       met_(std::move(met)) {
-  SELVAGE_ASSERT(std::ssize(vertices_) == std::visit(CountRows{}, motion_));
+  const Carried* const carried = carry();
+  SELVAGE_ASSERT(std::ssize(vertices_) == (carried != nullptr ? carried->attachment.count() : rows_of(script())));
 }
 
+const Collider::Script& Collider::script() const {
+  const Carried* const carried = carry();
+  return carried != nullptr ? carried->body : std::get<Script>(motion_);
+}
+
+bool Collider::deforms() const { return carry() != nullptr || std::holds_alternative<Animated>(script()); }
+
 const BodySequence* Collider::sequence() const {
-  const auto* animated = std::get_if<Animated>(&motion_);
-  return animated != nullptr ? animated->local.get() : nullptr;
+  const auto* animated = std::get_if<Animated>(&script());
+  return animated != nullptr && carry() == nullptr ? animated->local.get() : nullptr;
 }
 
 Positions Collider::placed_at(double time_s, bool round_to_float32, const Positions& x) const {
-  Positions placed = std::visit(Place{time_s, x}, motion_);
+  const Carried* const carried = carry();
+  Positions placed = carried != nullptr
+                         ? carried->attachment.placed_on(x.middleRows(carried->body_begin, rows_of(carried->body)))
+                         : std::visit(Place{time_s}, script());
   if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
   return placed;
 }
 
-const Linkage* Collider::linkage() const {
-  if (const auto* rigid = std::get_if<Rigid>(&motion_)) return &rigid->linkage;
-  const auto* animated = std::get_if<Animated>(&motion_);
-  return animated != nullptr ? &animated->linkage : nullptr;
+Positions Collider::scripted_at(double time_s) const {
+  Positions placed = std::visit(Place{time_s}, script());
+  const Carried* const carried = carry();
+  return carried != nullptr ? carried->attachment.placed_on(placed) : placed;
+}
+
+const Linkage& Collider::linkage() const {
+  return std::visit([](const auto& motion) -> const Linkage& { return motion.linkage; }, script());
 }
 
 std::vector<double> Collider::times_between(double t0_s, double t1_s) const {
-  std::vector<double> times = linkage()->keys_between(t0_s, t1_s);
-  if (const BodySequence* frames = sequence(); frames != nullptr) {
-    const std::vector<double> own = frames->frames_between(t0_s, t1_s);
-    times.insert(times.end(), own.begin(), own.end());
+  std::vector<double> times = linkage().keys_between(t0_s, t1_s);
+  if (const auto* animated = std::get_if<Animated>(&script())) {
+    const std::vector<double> frames = animated->local->frames_between(t0_s, t1_s);
+    times.insert(times.end(), frames.begin(), frames.end());
   }
   for (const double share : {0.25, 0.75}) times.push_back(t0_s + share * (t1_s - t0_s));
   std::ranges::sort(times);
@@ -81,7 +95,7 @@ void Collider::add_turns(double t0_s, double t1_s, std::vector<double>& times) c
   double from_s = t0_s;
   times.push_back(t1_s);
   for (const double to_s : times) {
-    const double pieces = std::ceil(linkage()->turn_deg(from_s, to_s) / kSampledTurn_deg);
+    const double pieces = std::ceil(linkage().turn_deg(from_s, to_s) / kSampledTurn_deg);
     for (double piece = 1; piece < pieces; ++piece) more.push_back(from_s + piece / pieces * (to_s - from_s));
     from_s = to_s;
   }
@@ -92,7 +106,7 @@ void Collider::add_turns(double t0_s, double t1_s, std::vector<double>& times) c
 
 Passage Collider::passage(double t0_s, double t1_s, const std::vector<double>& times, Rows rows) const {
   const auto placed = [&](double time_s) {
-    Positions all = placed_at(time_s, false, {});
+    Positions all = scripted_at(time_s);
     return rows == Rows::kMet && met_ ? Positions(all(*met_, Eigen::all)) : all;
   };
   const Positions to = placed(t1_s);  // the first last: a sequence keeps two frames
@@ -103,15 +117,15 @@ Passage Collider::passage(double t0_s, double t1_s, const std::vector<double>& t
 }
 
 Positions Collider::bow_m(double t0_s, double t1_s) const {
-  if (linkage() == nullptr || vertices_.empty()) return Positions::Zero(std::ssize(vertices_), 3);
+  if (vertices_.empty()) return Positions::Zero(0, 3);
   return passage(t0_s, t1_s, times_between(t0_s, t1_s), Rows::kAll).bow_m();
 }
 
 Collider::Bend Collider::bend(double t0_s, double t1_s) const {
   Bend bend;
-  if ((met_ ? met_->empty() : vertices_.empty()) || linkage() == nullptr) return bend;
+  if (met_ ? met_->empty() : vertices_.empty()) return bend;
   std::vector<double> times = times_between(t0_s, t1_s);
-  const double turn_deg = linkage()->turn_deg(t0_s, t1_s);
+  const double turn_deg = linkage().turn_deg(t0_s, t1_s);
   const bool turns_far = turn_deg > kMaxTurn_deg;
   if (turn_deg > kMaxSampledTurn_deg) return {kInfinite, 0, {Vec3::Constant(-kInfinite), Vec3::Constant(kInfinite)}};
   if (turns_far) add_turns(t0_s, t1_s, times);

@@ -29,7 +29,14 @@ class Collider {
     std::shared_ptr<const BodySequence> local;
     Linkage linkage;
   };
-  using Motion = std::variant<Rigid, Animated, Attachment>;
+  using Script = std::variant<Rigid, Animated>;
+  /// By a body: to its rows, which are vertices from `body_begin` on.
+  struct Carried {
+    Attachment attachment;
+    Script body;
+    VertexId body_begin;
+  };
+  using Motion = std::variant<Script, Carried>;
 
   static constexpr double kNeverReleased_s = std::numeric_limits<double>::infinity();
 
@@ -41,13 +48,15 @@ class Collider {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
   [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
+  /// Its own, or that of the body that carries it.
+  [[nodiscard]] const Script& script() const;
   /// Null where none animates it.
   [[nodiscard]] const BodySequence* sequence() const;
   /// Whether its vertices may move against each other: then each waits, and catches up, by itself.
-  [[nodiscard]] bool deforms() const { return !std::holds_alternative<Rigid>(motion_); }
+  [[nodiscard]] bool deforms() const;
   /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. x: all
-  /// vertices, of which an attachment looks where its body is. Throws io::Error where a frame of the sequence cannot be
-  /// read any more.
+  /// vertices, of which what is carried looks where its body is. Throws io::Error where a frame of the sequence cannot
+  /// be read any more.
   [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32, const Positions& x) const;
   /// Of its vertices that cloth can meet, between two times.
   struct Bend {
@@ -56,19 +65,24 @@ class Collider {
     Eigen::AlignedBox3d within;   ///< where they are meanwhile; not of one that goes straight
   };
   /// At its keys, at the frames of its sequence and at quarters of the time between. Lines are left without bound where
-  /// it turns by more than 90 degrees, of which the ends say little. 0 of an attachment, whose body tells. Reads every
-  /// frame between once, those about the middle twice: the steps of a run read what lies within them, and what lies
-  /// within steps that they then halve or double, some four times in all, where the start has read all frames already.
+  /// it turns by more than 90 degrees, of which the ends say little. What is carried is looked at where the script has
+  /// its body. Reads every frame between once, those about the middle twice: the steps of a run read what lies within
+  /// them, and what lies within steps that they then halve or double, some four times in all, where the start has read
+  /// all frames already.
   [[nodiscard]] Bend bend(double t0_s, double t1_s) const;
-  /// Of all its vertices in a step between (Passage). 0 of an attachment.
+  /// Of all its vertices in a step between (Passage).
   [[nodiscard]] Positions bow_m(double t0_s, double t1_s) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;
 
  private:
   enum class Rows { kAll, kMet };
-  /// Null of an attachment.
-  [[nodiscard]] const Linkage* linkage() const;
+  /// Null where nothing does.
+  [[nodiscard]] const Carried* carry() const { return std::get_if<Carried>(&motion_); }
+  /// Of the script.
+  [[nodiscard]] const Linkage& linkage() const;
+  /// Where the script has its vertices.
+  [[nodiscard]] Positions scripted_at(double time_s) const;
   /// Where something may change: keys, frames, a quarter and three quarters; in their order.
   [[nodiscard]] std::vector<double> times_between(double t0_s, double t1_s) const;
   void add_turns(double t0_s, double t1_s, std::vector<double>& times) const;

@@ -117,6 +117,24 @@ TEST(TurningBodies, APinThatTurnsShortensSteps) {
   EXPECT_NEAR(pin.bend(0, 1).leaves_line_by_m, 0.1 * (1 - std::sqrt(0.75)), 1e-12);
 }
 
+// On a spindle that turns by 80 degrees a frame; the chord of its way passes within the post.
+TEST(TurningBodies, ClothThatABodyCarriesMeetsWhatStandsInItsWay) {
+  Simulation simulation =
+      make("explicit", "frames = 2",
+           "[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 3, ny = 3, width_m = 0.04, height_m = 0.04}\n"
+           "position_m = [0.95, 0, 0]\n" +
+               std::string(kMaterial) +
+               "[[cloth.pin]]\nvertices = [0, 1, 2, 3, 4, 5, 6, 7, 8]\nbody = \"spindle\"\n"
+               "[[body]]\nname = \"spindle\"\nbox = {size_m = [0.01, 0.01, 0.4]}\n"
+               "key = [{time_s = 0}, {time_s = 1, rotation_deg = [0, 0, 2400]}]\n"
+               "[[body]]\nname = \"post\"\nbox = {size_m = [0.02, 0.02, 0.4]}\nposition_m = [0.727, 0.61, 0]\n");
+  StepResult step = simulation.step();
+  EXPECT_LT(step.dt_s, 0.01) << "an arc of 4 mm";
+  while (step.report.status != StepStatus::kStopped && simulation.clock().time_s() < 1.0 / 30 - 1e-9)
+    step = simulation.step();
+  EXPECT_EQ(step.report.status, StepStatus::kStopped) << "what is pinned cannot give way";
+}
+
 TEST(TurningBodies, ABoxThatComesAndGoesWithinAStepThrowsTheCloth) {
   Simulation simulation =
       make("explicit", "duration_s = 0.2",
