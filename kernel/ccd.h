@@ -21,8 +21,9 @@ struct CcdOptions {
 /// What a query answers.
 enum class CcdVerdict : std::uint8_t {
   kSeparated,  ///< PROVED: no touch for t in [0,1], and distance > tolerance at t = 1
-  kCollides,   ///< the features come within gap_bound (PROVED) at some t in [0,1]: at most 2^-39 of their size
-               ///< (kMotion), or, at t = 1, the upper bound of their distance, whose lower one tolerance reaches (kEnd)
+  kCollides,   ///< the features come within gap_bound (PROVED) at some t in [0,1]: at most 2^-39 of the largest
+               ///< difference of a coordinate between two of their corners at t = 0 or 1, however small they are
+               ///< (kMotion); or, at t = 1, the upper bound of their distance, whose lower one tolerance reaches (kEnd)
   kUnresolved,  ///< the limit, or that of double-double arithmetic (K8), was reached: a collision at toi_lower to
                 ///< whoever must be safe
 };
@@ -42,7 +43,8 @@ struct CcdResult {
   double gap_bound = 0;                ///< length; PROVED for kCollides
   std::array<double, 4> weights = {};  ///< as in Proximity, at toi_lower (kMotion) or 1 (kEnd)
   Vec3 normal = Vec3::Zero();          ///< as in Proximity, at a time shortly before the touch (kMotion) or at 1; up to
-                                       ///< its sign where the features touch at t = 0: no side is behind them
+                                       ///< its sign where the features touch at t = 0: no side is behind them. Zero
+                                       ///< where they touch within rounding and their corners lie on a line or point
   std::int32_t intervals = 0;          ///< time intervals examined: a deterministic measure of work
 };
 

@@ -12,6 +12,11 @@ Vec3 unit(const Double3& direction) {
   return is_zero(direction) ? Vec3::Zero() : to_vec3(scaled(1 / norm(direction), direction));
 }
 
+/// The normal of the polygon where the features touch but for rounding, and nothing else says where from.
+Double3 direction_or_normal(const Double3& direction, const ClosestPoint<double>& closest) {
+  return is_zero(direction) ? closest.plane_normal : direction;
+}
+
 /// The direction a little before `tick`, where the gap is wide enough that its bracket shows it to be good.
 Double3 approach_direction(const PairMotion<double>& motion, Tick tick) {
   constexpr double kGoodBracket = 1 - 0x1p-20;  // sin(angle) <= sqrt(1 - kGoodBracket^2) = 2^-9.5
@@ -21,7 +26,7 @@ Double3 approach_direction(const PairMotion<double>& motion, Tick tick) {
     const auto closest = closest_point(motion.kind, at);
     const auto [lower, direction] = supported_distance(motion, at, closest);
     const double upper = gap_upper(motion, earlier, at, closest.weights);
-    if (earlier == 0 || lower > kGoodBracket * upper) return direction;
+    if (earlier == 0 || lower > kGoodBracket * upper) return direction_or_normal(direction, closest);
   }
   return {};
 }
@@ -76,7 +81,7 @@ void answer_end(CcdResult& result, const PairMotion<double>& motion, double tole
   result.cause = CcdCause::kEnd;
   result.gap_bound = times_power_upper(gap_upper(motion, kTicks, motion.t1, closest.weights), motion.exponent);
   result.weights = closest.weights;
-  result.normal = unit(direction);
+  result.normal = unit(direction_or_normal(direction, closest));
 }
 
 }  // namespace selvage::detail

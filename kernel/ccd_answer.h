@@ -15,7 +15,7 @@ namespace selvage::detail {
                                const std::array<double, 4>& weights);
 
 /// The answer to a contact of plain doubles, in canonical order; `exponent` as PairMotion's.
-[[nodiscard]] CcdResult contact_answer(const PlanePassage& passage, int exponent);
+[[nodiscard, gnu::noinline]] CcdResult contact_answer(const PlanePassage& passage, int exponent);
 
 /// Fills in a contact at the tick from the features' closest points, with the normal they had a little before.
 /// Unresolved if the gap is no alarm's.

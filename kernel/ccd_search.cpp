@@ -136,7 +136,7 @@ bool Search::clear(const TickInterval& interval) {
   int examined = 0;
   while (depth > 0) {
     if (limit_reached()) {
-      result_.toi_lower = time_of(begin);
+      answer_contact(result_, motion_, begin);
       return false;
     }
     ++result_.intervals;
@@ -196,7 +196,10 @@ CcdResult Search::run() {
   if (has_cubic()) {
     const PlanePassage plain = plane_passage(motion_);
     result_.intervals = std::min(plain.intervals, options_.max_intervals);
-    if (plain.intervals > options_.max_intervals) return result_;
+    if (plain.intervals > options_.max_intervals) {
+      answer_contact(result_, motion_, 0);
+      return result_;
+    }
     if (plain.passage == Passage::kContact) return contact_answer(plain, motion_.exponent);
     if (plain.passage == Passage::kSeparated) {
       answer_end(result_, motion_, options_.tolerance);

@@ -22,9 +22,10 @@ constexpr unsigned kControlWanted = 0x1f80;  // to nearest, neither FTZ nor DAZ,
 unsigned read_control() { return _mm_getcsr(); }
 void write_control(unsigned control) { _mm_setcsr(control); }
 #else
-// FPCR (Arm ARM, C5.2.8): exception traps bits 8-12 and 15, rounding bits 22-23, FZ bit 24.
-constexpr unsigned kControlBits = 0x01c09f00;
-constexpr unsigned kControlWanted = 0;  // to nearest, no flush to zero, no trap
+// FPCR (Arm ARM, C5.2.8): FIZ, AH and NEP bits 0-2 (where the processor has FEAT_AFP, else zero), exception traps bits
+// 8-12 and 15, rounding bits 22-23, FZ bit 24.
+constexpr unsigned kControlBits = 0x01c09f07;
+constexpr unsigned kControlWanted = 0;  // to nearest, no flush to zero of inputs or results, no trap
 
 unsigned read_control() {
   unsigned long control = 0;

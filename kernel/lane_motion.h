@@ -49,7 +49,7 @@ class LanePairs {
 class LaneMotion {
  public:
   /// O(#V).
-  LaneMotion(const PositionsRef& V_t0, const PositionsRef& V_t1);
+  [[gnu::noinline]] LaneMotion(const PositionsRef& V_t0, const PositionsRef& V_t1);
 
   /// False where a coordinate is outside the domain: the lanes have nothing to say then.
   [[nodiscard]] bool is_valid() const { return is_valid_; }

@@ -69,6 +69,13 @@ void expect_gap(PairKind kind, const Points& x_t0, const Points& x_t1, const Ccd
       << result.gap_bound;
 }
 
+/// Those of each feature add up to 1.
+void expect_convex(PairKind kind, const std::array<double, 4>& w) {
+  const double first = kind == PairKind::kEe ? w[0] + w[1] : w[0], all = w[0] + w[1] + w[2] + w[3];
+  EXPECT_NEAR(first, 1, 1e-15);
+  EXPECT_NEAR(all, 2, 1e-15);
+}
+
 }  // namespace
 
 TEST(Ccd, ConstructedContactsAreFound) {
@@ -174,6 +181,28 @@ TEST(Ccd, TimesOfSimpleContactsAreTight) {
     EXPECT_GT(vf_ccd(face_t0, face_t1, kNoTolerance).normal[2], 0);
     EXPECT_GT(ee_ccd(edge_t0, edge_t1, kNoTolerance).normal[2], 0);
   }
+}
+
+// The features have no distance there that could tell a direction.
+TEST(Ccd, AContactOnABorderHasANormal) {
+  const auto normal = [](PairKind kind, const Points& x_t0, const Points& x_t1) {
+    const CcdResult result = ccd(kind, x_t0, x_t1, kNoTolerance);
+    EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+    EXPECT_NEAR(result.normal.norm(), 1, 1e-15);
+    return result.normal;
+  };
+  const auto down = [](Points x, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) x[i][2] -= 1;
+    return x;
+  };
+  // They touch at the start: a vertex on the border of the face, and the end of an edge on the other.
+  const Points face = {Vec3(0.5, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  EXPECT_EQ(std::fabs(normal(PairKind::kVf, face, down(face, 1))[2]), 1);
+  const Points edges = {Vec3(0.5, 0, 0), Vec3(0.5, 1, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  EXPECT_EQ(std::fabs(normal(PairKind::kEe, edges, down(edges, 2))[2]), 1);
+  // They touch at t = 1 alone, and are an ulp apart till then.
+  normal(PairKind::kVf, {Vec3(-1, 0, 2), Vec3(0, -2, -2), Vec3(-2, 0, 3), Vec3(0x1.8000000000001p+1, 0, -2)},
+         {Vec3(-1, 0, 2), Vec3(0, -2, -0x1.fffffffffffffp+0), Vec3(-2, 0, 3), Vec3(3, 0, -2)});
 }
 
 TEST(Ccd, AlarmsAreNearContacts) {
@@ -346,6 +375,7 @@ TEST(Ccd, AReachedLimitIsUnresolvedAndItsTimeIsSafe) {
     const CcdResult result = ccd(kind, query.x_t0, query.x_t1, {0, limit});
     EXPECT_LE(result.intervals, limit);
     EXPECT_LE(full.intervals, 4096);
+    if (result.verdict != CcdVerdict::kSeparated) expect_convex(kind, result.weights);
     if (full.intervals <= limit) {
       EXPECT_EQ(result.verdict, full.verdict);
     } else if (result.verdict == CcdVerdict::kUnresolved) {
@@ -356,6 +386,7 @@ TEST(Ccd, AReachedLimitIsUnresolvedAndItsTimeIsSafe) {
     } else {
       // Fewer intervals can also end in an earlier, coarser alarm, never in a proof.
       EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+      expect_gap(kind, query.x_t0, query.x_t1, result);
     }
   }
   EXPECT_GT(limited, 30);
