@@ -23,7 +23,7 @@ inline bool may_be_left_out(const Mesh& mesh, const PositionsRef& V_t0, const Po
                             double tolerance) {
   if (pair.kind == PairKind::kSelf) return false;
   const CcdResult without_limit = ask_without_limit(mesh, V_t0, V_t1, pair, tolerance);
-  if (without_limit.verdict == CcdVerdict::kSeparated) return pair.ccd.verdict == CcdVerdict::kUnresolved;
+  if (without_limit.verdict == CcdVerdict::kSeparated) return pair.ccd.intervals < without_limit.intervals;
   return without_limit.cause == CcdCause::kEnd && without_limit.gap_bound > tolerance;
 }
 
