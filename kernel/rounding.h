@@ -47,6 +47,7 @@ inline constexpr double kUnderflowError = 0x1p-1000;
 
 /// x(t) = fl( fl((1-t) s0) + fl(t s1) ), with t and 1 - t exact: the subtraction that made s, the product, the sum.
 ///   |x - X| <= 3 u ((1-t)|s0| + t|s1|) <= 3 u E.
+/// Without a quarter, because rounding to nearest has |d| <= u / (1 + u) (support.gappa).
 inline constexpr double kPointRoundings = 3;
 
 /// fl(n . x): each product 1, the sums 2, relative to sum |n_j| |x_j|; and the points' own 3 u E_j:
