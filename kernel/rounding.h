@@ -47,6 +47,7 @@ inline constexpr double kUnderflowError = 0x1p-1000;
 
 /// x(t) = fl( fl((1-t) s0) + fl(t s1) ), with t and 1 - t exact: the subtraction that made s, the product, the sum.
 ///   |x - X| <= 3 u ((1-t)|s0| + t|s1|) <= 3 u E.
+/// Without a quarter, because rounding to nearest has |d| <= u / (1 + u) (support.gappa).
 inline constexpr double kPointRoundings = 3;
 
 /// fl(n . x): each product 1, the sums 2, relative to sum |n_j| |x_j|; and the points' own 3 u E_j:
@@ -93,13 +94,13 @@ inline constexpr double kWindingError = error_of<Real>(2, 3, 4);
 ///   a coordinate: rounded to float32, 1; what its double was off by is below 2^-20 u;
 ///   a projection: the product 1, the sums 2, and the coordinates' 1: 4 u N;
 ///   two of them, and their difference, which is below 2 N: 10 u N.
-/// The bound (kNearError + tolerance) N + kNearSlack is computed with 4 roundings, of second order; they, and the
+/// The bound (kNearError + tolerance) N + kNearSlack is computed with 5 roundings, of second order; they, and the
 /// doubles', are in the half. Euclidean: N >= |n|. Each of the 6 products may lose 2^-150: kNearSlack. Infinity and NaN
 /// in n make N so, and then prove nothing.
 inline constexpr float kNearUnitRoundoff = 0x1p-24F;
 inline constexpr float kNearError = 10.5F * kNearUnitRoundoff;
 inline constexpr float kNearSlack = 0x1p-140F;
-/// A tolerance in that scale in float32, rounded up by more than 4 roundings. Nothing is 4 apart.
+/// A tolerance in that scale in float32, rounded up by more than the 8 roundings on its way. Nothing is 4 apart.
 inline float near_tolerance(double tolerance) {
   return tolerance > 0 ? static_cast<float>(std::min(tolerance, 4.0) * (1 + 0x1p-20)) + 0x1p-126F : 0.0F;
 }

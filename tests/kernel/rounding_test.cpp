@@ -204,14 +204,15 @@ void check_windings(int cases, double least_share) {
 
 // The bounds that kernel/proofs/*.gappa prove, in the terms of these files.
 static_assert(detail::kPointRoundings == 3);
-static_assert(3 * detail::kSupportError<double> == 75 * 0x1p-55);
-static_assert(4 * detail::kWindingError<double> == 37 * 0x1p-53);
-static_assert(18 * detail::kDeterminantError<double> == 369 * 0x1p-54);
-static_assert(detail::kBlossomError<double> == 25 * 0x1p-55);
-static_assert(4 * detail::kWitnessError == 100 * 0x1p-55);
+static_assert(detail::kSupportError<double> == 25 * 0x1p-55 && detail::kSupportError<DoubleDouble> == 99 * 0x1p-108);
+static_assert(detail::kWindingError<double> == 37 * 0x1p-55 && detail::kWindingError<DoubleDouble> == 139 * 0x1p-108);
+static_assert(detail::kDeterminantError<double> == 41 * 0x1p-55 &&
+              detail::kDeterminantError<DoubleDouble> == 139 * 0x1p-108);
+static_assert(detail::kBlossomError<double> == 25 * 0x1p-55 && detail::kBlossomError<DoubleDouble> == 127 * 0x1p-108);
+static_assert(detail::kWitnessError == 25 * 0x1p-55 && detail::kBlendError == 13 * 0x1p-55);
 static_assert(detail::kNormError == 11 * 0x1p-55);
 static_assert(detail::kQuotientError == 8 * 0x1p-53 && detail::kWitnessQuotientError == 32 * 0x1p-53);
-static_assert(3 * detail::kNearError > 30 * 0x1p-24F);
+static_assert(detail::kNearError == 21 * 0x1p-25F);
 static_assert(detail::RoundingOf<DoubleDouble>::kProduct == 7 * 0x1p-106);
 static_assert(detail::kUnderflowError > 0x1p-1058 && detail::kNearSlack > 0x1p-147F);
 
