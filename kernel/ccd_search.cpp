@@ -49,6 +49,8 @@ class Search {
   [[nodiscard]] Polygon polygon(Tick tick) const { return polygon_at_tick(motion_, tick); }
   [[nodiscard]] bool limit_reached() const { return result_.intervals >= options_.max_intervals; }
 
+  /// False: what clear() says then.
+  bool answer(Tick contact);
   bool clear(const TickInterval& interval);
   bool certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end);
   void look_precisely();
@@ -114,8 +116,7 @@ bool Search::clear_precisely(const TickInterval& interval, double suspect) {
   std::int32_t left = options_.max_intervals - result_.intervals;
   const auto contact = first_precise_contact(*precise_motion_, interval, suspect, left);
   result_.intervals = options_.max_intervals - left;
-  if (contact) answer_contact(result_, motion_, *contact);
-  return !contact;
+  return !contact || answer(*contact);
 }
 
 /// Whether the features are in contact at the begin of an interval with these signs, as far as doubles can tell.
@@ -124,6 +125,11 @@ bool Search::is_contact(Tick tick, const Polygon& at, const ClosestPoint<double>
   const auto& w = closest.weights;
   const double least_weight = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
   return (signs.root && least_weight > kInnerWeight) || gap_upper(motion_, tick, at, w) == 0;
+}
+
+bool Search::answer(Tick contact) {
+  answer_contact(result_, motion_, contact);
+  return false;
 }
 
 /// Depth first, from left to right: everything before `begin` is certified at all times.
@@ -135,10 +141,7 @@ bool Search::clear(const TickInterval& interval) {
   Polygon at_begin = polygon(begin);
   int examined = 0;
   while (depth > 0) {
-    if (limit_reached()) {
-      answer_contact(result_, motion_, begin);
-      return false;
-    }
+    if (limit_reached()) return answer(begin);
     ++result_.intervals;
     if (++examined > kMaxDoubleIntervals) return clear_precisely({begin, interval.end}, 0);
     const TickInterval piece = {begin, ends[depth - 1]};
@@ -177,8 +180,7 @@ bool Search::clear(const TickInterval& interval) {
     } else if (signs.root ? width > kNarrowWidth : width > 1 && (signs.nonzero_begin || is_apart)) {
       ends[depth++] = begin + width / 2;
     } else if (is_contact(begin, at_begin, closest, signs)) {
-      answer_contact(result_, motion_, begin);
-      return false;
+      return answer(begin);
     } else {
       if (!clear_precisely(piece, signs.root.value_or(0))) return false;
       begin = piece.end;
@@ -197,7 +199,7 @@ CcdResult Search::run() {
     const PlanePassage plain = plane_passage(motion_);
     result_.intervals = std::min(plain.intervals, options_.max_intervals);
     if (plain.intervals > options_.max_intervals) {
-      answer_contact(result_, motion_, 0);
+      answer(0);
       return result_;
     }
     if (plain.passage == Passage::kContact) return contact_answer(plain, motion_.exponent);
