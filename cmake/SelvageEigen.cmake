@@ -1,4 +1,5 @@
-# SELVAGE_EIGEN_LAYOUT: how Eigen aligns and allocates under these flags, for kernel/types.h to compare in every unit.
+# SELVAGE_EIGEN_LAYOUT: how Eigen aligns and allocates under these flags, and SELVAGE_CHECKED_CONTAINERS: whether containers of the
+# standard library check themselves; for kernel/types.h to compare in every unit.
 include(CheckCXXSourceCompiles)
 
 # Options of this folder come beside CMAKE_CXX_FLAGS: those that a project around this one gives to all that it builds.
@@ -23,6 +24,16 @@ foreach(layout 33 32 65 64 129 128)
     break()
   endif()
 endforeach()
+check_cxx_source_compiles("
+  #include <vector>
+  #ifndef _GLIBCXX_DEBUG
+  #error
+  #endif
+  int main() {}" SELVAGE_CHECKS_CONTAINERS_${flags})
+set(SELVAGE_CHECKED_CONTAINERS 0)
+if(SELVAGE_CHECKS_CONTAINERS_${flags})
+  set(SELVAGE_CHECKED_CONTAINERS 1)
+endif()
 unset(CMAKE_REQUIRED_LIBRARIES)
 unset(CMAKE_REQUIRED_FLAGS)
 if(NOT SELVAGE_EIGEN_LAYOUT)

@@ -43,7 +43,9 @@ enum class InputError : std::uint8_t {
   kBadTimeStep,
   kOffLattice,
   kBadSurfaces,
-  kBadContact
+  kBadContact,
+  kBadBodies,
+  kInUse
 };
 
 /// One sentence for a person, with the remedy.

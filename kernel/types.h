@@ -14,6 +14,22 @@ static_assert(2 * EIGEN_DEFAULT_ALIGN_BYTES + EIGEN_MALLOC_ALREADY_ALIGNED == SE
               "selvage: this is compiled with other -march, -mavx or -fsanitize flags than the library, and Eigen's "
               "matrices differ; compile both with the same (cmake -DCMAKE_CXX_FLAGS=... builds the library so)");
 #endif
+static_assert(sizeof(EIGEN_DEFAULT_DENSE_INDEX_TYPE) == sizeof(std::int64_t),
+              "selvage: Eigen's matrices count their rows in other integers than the library's; compile without "
+              "-DEIGEN_DEFAULT_DENSE_INDEX_TYPE=...");
+
+// Containers that check themselves are larger than those that do not.
+#ifdef SELVAGE_CHECKED_CONTAINERS
+#ifdef _GLIBCXX_DEBUG
+static_assert(SELVAGE_CHECKED_CONTAINERS,
+              "selvage: this is compiled with -D_GLIBCXX_DEBUG, and the library is not, so that std::vector differs; "
+              "compile both with the same (cmake -DCMAKE_CXX_FLAGS=... builds the library so)");
+#else
+static_assert(!SELVAGE_CHECKED_CONTAINERS,
+              "selvage: the library is compiled with -D_GLIBCXX_DEBUG, and this is not, so that std::vector differs; "
+              "compile both with the same");
+#endif
+#endif
 
 namespace selvage {
 

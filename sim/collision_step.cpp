@@ -1,6 +1,7 @@
 #include "sim/collision_step.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -54,6 +55,23 @@ struct Persistent {
   StartProximities proximities;
   std::vector<RepulsionContact> room_of_found;
   Contacts room_of_swept;
+  std::atomic_flag in_use;
+};
+
+/// Of what persists, by one call.
+class Use {
+ public:
+  explicit Use(std::atomic_flag& flag) : flag_(flag), is_first_(!flag.test_and_set(std::memory_order_acquire)) {}
+  ~Use() {
+    if (is_first_) flag_.clear(std::memory_order_release);
+  }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+  [[nodiscard]] bool is_first() const { return is_first_; }
+
+ private:
+  std::atomic_flag& flag_;
+  const bool is_first_;
 };
 
 /// As they stand at the start of a step from V_t0. In room_of_found, which grows as it must.
@@ -356,6 +374,11 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(impl_ != nullptr);
   CollisionStepResult result{V_t0, Positions::Zero(V_t0.rows(), 3), {}, {}};
+  const Use use(impl_->in_use);
+  if (!use.is_first()) {
+    result.report.input_error = InputError::kInUse;
+    return result;
+  }
   result.report.input_error = validate_step_input(impl_->mesh, impl_->options, V_t0, V_candidate, bodies, dt_s);
   if (result.report.input_error == InputError::kNone) result.report.input_error = impl_->contacts.error();
   if (result.report.input_error == InputError::kNone) result.report.input_error = validate_held(impl_->mesh, held);
@@ -380,6 +403,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   SELVAGE_ASSERT(attempt.motion().x().allFinite());
   result.report.certificate = attempt.tracker().report();
   result.report.below_tolerance = attempt.tracker().collisions();
+  result.report.trusted_pairs = attempt.tracker().trusted(attempt.motion());
   result.x = attempt.motion().x();
   result.velocity = average_velocity(attempt.motion().displacement(), dt_s);
   return result;
@@ -391,7 +415,8 @@ std::vector<RepulsionContact> CollisionStep::find_contacts(const PositionsRef& V
   const FpEnvGuard guard;
   SELVAGE_REQUIRE(impl_ != nullptr);
   Impl& impl = *impl_;
-  if (!impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
+  const Use use(impl.in_use);
+  if (!use.is_first() || !impl.options.repulsion || impl.contacts.error() != InputError::kNone) return {};
   if (validate_step_input(impl.mesh, impl.options, V_t0, V_candidate, bodies, 1) != InputError::kNone) return {};
   const std::vector<std::uint8_t> surface = impl.parts.cloth_flags(bodies);
   impl.proximities.start(impl.hierarchy, V_t0, surface);

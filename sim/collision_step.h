@@ -31,15 +31,15 @@ enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kAbandoned,    ///< the caller's Patience ended; the returned positions are V_t0
-  kInvalidInput  ///< NaN, sizes, domain (input_error says which; first_bad_option(), where it is one of the options,
-                 ///< which): nothing was done; the returned positions are V_t0
+  kInvalidInput  ///< NaN, sizes, domain (input_error says which; first_bad_option(), step_input.h, where it is one of
+                 ///< the options, which): nothing was done; the returned positions are V_t0
 };
 [[nodiscard]] std::string_view name_of(StepStatus status);
 
 struct CollisionStepReport {
   StepStatus status = StepStatus::kInvalidInput;
   InputError input_error = InputError::kNone;
-  /// Candidates of cloth that were cut back before anything else, as the simulation has blown up (travel_limit.h):
+  /// Candidates of cloth that were cut back before anything else, as the simulation has blown up:
   /// those farther from their start than 1024 diagonals of the scene's box, or all, by powers of two, where more than
   /// 64 pairs a vertex, and than 16,384, would collide, or come within a tolerance that is not long beside the edges.
   std::int64_t cut_candidates = 0;
@@ -59,7 +59,11 @@ struct CollisionStepReport {
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
   std::vector<VertexId> waiting_vertices;    ///< sorted; theirs: all, or some where they deform
   std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
-  std::optional<Collision> witness;          ///< for kStopped
+  /// Those of them in which nothing moved, and which cannot be told from touching: free of touch because V_t0 is, at
+  /// which the step does not look. Not 0 where V_t0 touches, against PRE, or comes within rounding of that: ask
+  /// verify::check_frame, which names all that intersects.
+  std::int64_t trusted_pairs = 0;
+  std::optional<Collision> witness;  ///< for kStopped
   /// Of x: the pairs not proved separated (those of below_tolerance), and the queries of all rounds. A pair is asked
   /// again only after one of its vertices changed, so each answer is for the motion V_t0 -> x.
   CollisionReport certificate;
@@ -83,7 +87,9 @@ struct CollisionStepResult {
 };
 
 /// Holds what persists between steps: connectivity, hierarchy, and the near pairs at the last V_t0, which a second try
-/// from the same positions needs again. None of it changes a result.
+/// from the same positions needs again. None of it changes a result. One call at a time: where another thread's has not
+/// returned a step answers kInvalidInput (kInUse), and find_contacts() nothing. Different objects are independent. A
+/// call may throw std::bad_alloc, after which the object is as good as before.
 class CollisionStep {
  public:
   /// The mesh must outlive it. With `surfaces` each pair has the thickness, tolerance and friction of its two surfaces
@@ -97,26 +103,27 @@ class CollisionStep {
   CollisionStep& operator=(CollisionStep&&) noexcept;
 
   /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
-  /// looked at (a part of the mesh in which every vertex has a body that is no pin is one). V_candidate: any finite
+  /// looked at (a part of the mesh in which every vertex has a body that is no pin is one). The step does not check
+  /// that: of a V_t0 that intersects nothing is promised, and what is through stays through (verify::check_frame is for
+  /// the first; each kSafe x is free again). V_candidate: any finite
   /// positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the
   /// scripts' too, are rounded to it; a script beyond the largest float32 is invalid (kTooLarge). POST (kSafe): the
   /// straight motion V_t0 -> x is exactly free of touching; what is nearer than its tolerance is named; scripted
   /// vertices are at their (rounded) candidates, or at V_t0 where they wait; all others are within
   /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + vertices of those that deform + 2)
-  /// (impulse_iterations + zone_iterations + 3 #V + 4 + kMaxCuts, travel_limit.h) searches for collisions.
-  /// Deterministic for any thread count.
+  /// (impulse_iterations + zone_iterations + 3 #V + 16) searches for collisions. Deterministic for any thread count.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,
                                                const Patience& patience = {},
                                                std::span<const RepulsionContact> held = {});
 
-  /// For dynamics that hold contacts (held_contacts.h): those that a motion from V_t0 to V_candidate would press, to be
-  /// given back as `held` for a step from the same V_t0, in which they repel like all others where something is left,
-  /// but for those beyond what is straight (straight_surface.h). Those that rest, too: which a fall by `fall`, m, of
-  /// one of the two alone would press, and of `pressed` all that are near. REQUIRES valid arguments, as above; with an
-  /// invalid one there is none. Time and memory grow with the pairs within reach (contact_reach.h), as of a step: O(n
-  /// log n) where edges are not much shorter than that, all pairs of a mesh that is smaller than its cloth is thick. A
-  /// step from the same V_t0 need not look for near pairs again.
+  /// For dynamics that hold contacts, as those of the explicit and the implicit solver do: those that a motion from
+  /// V_t0 to V_candidate would press, to be given back as `held` for a step from the same V_t0, in which they repel
+  /// like all others where something is left, but for those beyond what is straight (straight_surface.h). Those that
+  /// rest, too: which a fall by `fall`, m, of one of the two alone would press, and of `pressed` all that are near.
+  /// REQUIRES valid arguments, as above; with an invalid one there is none. Time and memory grow with the pairs within
+  /// reach (contact_reach.h), as of a step: O(n log n) where edges are not much shorter than that, all pairs of a mesh
+  /// that is smaller than its cloth is thick. A step from the same V_t0 need not look for near pairs again.
   [[nodiscard]] std::vector<RepulsionContact> find_contacts(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                             const CollisionBodies& bodies,
                                                             const Vec3& fall = Vec3::Zero(),

@@ -25,15 +25,17 @@ bool is_on_lattice(const PositionsRef& V, CollisionOptions::Precision precision)
   return true;
 }
 
-InputError validate_masses(std::size_t vertex_count, const CollisionBodies& bodies) {
+InputError validate_bodies(std::size_t vertex_count, const CollisionBodies& bodies) {
   if (bodies.inverse_mass.size() != vertex_count) return InputError::kSizeMismatch;
   if (!bodies.body.empty() && bodies.body.size() != vertex_count) return InputError::kSizeMismatch;
   for (std::size_t v = 0; v < vertex_count; ++v) {
     if (!is_finite_nonnegative(bodies.inverse_mass[v])) return InputError::kBadMass;
-    const bool on_body = !bodies.body.empty() && bodies.body[v] >= 0;
-    if (on_body && bodies.inverse_mass[v] > 0) return InputError::kBadMass;
+    const std::int32_t body = bodies.body.empty() ? -1 : bodies.body[v];
+    if (body < -1) return InputError::kBadBodies;
+    if (body >= 0 && bodies.inverse_mass[v] > 0) return InputError::kBadMass;
   }
-  return InputError::kNone;
+  const bool is_policy = bodies.policy == SqueezePolicy::kStop || bodies.policy == SqueezePolicy::kYield;
+  return is_policy && bodies.first_pin >= 0 ? InputError::kNone : InputError::kBadBodies;
 }
 
 /// Cloth may be sent to any finite place: StepMotion cuts its candidates at the edge of the domain. A script is
@@ -58,6 +60,8 @@ std::string_view first_bad_option(const CollisionOptions& o) {
   if (!(o.relaxation > 0 && o.relaxation <= 1)) return "relaxation";
   if (o.impulse_iterations < 0) return "impulse_iterations";
   if (o.zone_iterations < 0) return "zone_iterations";
+  using Precision = CollisionOptions::Precision;
+  if (o.precision != Precision::kFloat64 && o.precision != Precision::kFloat32) return "precision";
   return o.max_intervals < 1 ? "max_intervals" : "";
 }
 
@@ -68,7 +72,7 @@ InputError validate_step_input(const Mesh& mesh, const CollisionOptions& options
   if (const InputError error = validate(mesh, V_t0, V_t0); error != InputError::kNone) return error;
   if (V_candidate.rows() != V_t0.rows()) return InputError::kSizeMismatch;
   const auto vertex_count = static_cast<std::size_t>(mesh.vertex_count);
-  if (const InputError error = validate_masses(vertex_count, bodies); error != InputError::kNone) return error;
+  if (const InputError error = validate_bodies(vertex_count, bodies); error != InputError::kNone) return error;
   if (const InputError error = validate_candidate(V_candidate, bodies.inverse_mass, options.precision);
       error != InputError::kNone) {
     return error;

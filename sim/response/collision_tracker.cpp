@@ -29,35 +29,47 @@ CollisionReport CollisionTracker::find(const StepMotion& motion, std::span<const
   CollisionReport found = find_collisions(mesh_, hierarchy_, motion.V_t0(), motion.x(), options, active, limits);
   if (!contacts_.is_uniform()) hold_to_own_tolerance(motion, found);
   for (Collision& collision : found.collisions) {
-    if (std::ranges::any_of(vertices(collision), [&](VertexId v) { return motion.moves(v); })) continue;
+    if (moves(collision, motion)) continue;
     collision.ccd.cause = CcdCause::kEnd;
     collision.ccd.toi_lower = 1;
   }
   return found;
 }
 
-void CollisionTracker::hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const {
-  const auto corners = [](const Positions& V, const std::array<VertexId, 4>& v) {
+bool CollisionTracker::moves(const Collision& collision, const StepMotion& motion) const {
+  return std::ranges::any_of(vertices(collision), [&](VertexId v) { return motion.moves(v); });
+}
+
+std::int64_t CollisionTracker::trusted(const StepMotion& motion) const {
+  return std::ranges::count_if(report_.collisions, [&](const Collision& collision) {
+    return !moves(collision, motion) && ask(collision, motion, 0).verdict != CcdVerdict::kSeparated;
+  });
+}
+
+CcdResult CollisionTracker::ask(const Collision& pair, const StepMotion& motion, double tolerance_m) const {
+  const std::array<VertexId, 4> v = vertices(pair);
+  const auto corners = [&](const Positions& V) {
     return std::array<Vec3, 4>{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
   };
+  const std::array<Vec3, 4> x_t0 = corners(motion.V_t0()), x_t1 = corners(motion.x());
+  const CcdOptions options{tolerance_m, max_intervals_};
+  switch (pair.kind) {
+    case PairKind::kVf:
+      return vf_ccd(x_t0, x_t1, options);
+    case PairKind::kEe:
+      return ee_ccd(x_t0, x_t1, options);
+    case PairKind::kSelf:
+      break;
+  }
+  return self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
+}
+
+void CollisionTracker::hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const {
   for (Collision& collision : found.collisions) {
     if (collision.ccd.cause != CcdCause::kEnd) continue;  // a motion is free of touch or not, whatever the tolerance
-    const std::array<VertexId, 4> v = vertices(collision);
-    const CcdOptions options{contacts_.of(collision.kind, collision.first, collision.second).tolerance_m,
-                             max_intervals_};
-    if (options.tolerance == contacts_.tolerance_upper()) continue;
-    const std::array<Vec3, 4> x_t0 = corners(motion.V_t0(), v), x_t1 = corners(motion.x(), v);
-    switch (collision.kind) {
-      case PairKind::kVf:
-        collision.ccd = vf_ccd(x_t0, x_t1, options);
-        break;
-      case PairKind::kEe:
-        collision.ccd = ee_ccd(x_t0, x_t1, options);
-        break;
-      case PairKind::kSelf:
-        collision.ccd = self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
-        break;
-    }
+    const double tolerance_m = contacts_.of(collision.kind, collision.first, collision.second).tolerance_m;
+    if (tolerance_m == contacts_.tolerance_upper()) continue;
+    collision.ccd = ask(collision, motion, tolerance_m);
     found.intervals += collision.ccd.intervals;
   }
   std::erase_if(found.collisions, [](const Collision& c) { return c.ccd.verdict == CcdVerdict::kSeparated; });

@@ -28,6 +28,8 @@ class CollisionTracker {
   /// Not separated, sorted by (kind, first, second). A pair in which nothing moves cannot touch, V_t0 being free of
   /// intersections; where the kernel could not tell, its cause is made kEnd.
   [[nodiscard]] const std::vector<Collision>& collisions() const { return report_.collisions; }
+  /// How many of them the kernel cannot tell from touching where nothing in them moves.
+  [[nodiscard]] std::int64_t trusted(const StepMotion& motion) const;
   /// Whether any of them is not proved free of touch.
   [[nodiscard]] bool has_motion_collision() const;
   /// The pairs above, and the queries of all calls since start().
@@ -37,6 +39,8 @@ class CollisionTracker {
  private:
   [[nodiscard]] CollisionReport find(const StepMotion& motion, std::span<const std::uint8_t> active,
                                      const CollisionLimits& limits = {});
+  [[nodiscard]] bool moves(const Collision& collision, const StepMotion& motion) const;
+  [[nodiscard]] CcdResult ask(const Collision& pair, const StepMotion& motion, double tolerance_m) const;
   /// Asks pairs that are apart by the largest tolerance alone for their own.
   void hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const;
   void count(const CollisionReport& found);

@@ -77,7 +77,7 @@ TEST(Requirements, AreAskedBeforeAnythingIsProved) {
 }
 
 TEST(InputErrorText, EveryErrorSaysWhatToDo) {
-  constexpr int kLast = static_cast<int>(InputError::kBadContact);
+  constexpr int kLast = static_cast<int>(InputError::kInUse);
   for (int i = 0; i <= kLast; ++i) EXPECT_STRNE(describe(static_cast<InputError>(i)), "unknown error") << i;
   EXPECT_STREQ(describe(static_cast<InputError>(kLast + 1)), "unknown error") << "an error after the last";
   EXPECT_STREQ(describe(static_cast<InputError>(255)), "unknown error");

@@ -1,9 +1,11 @@
 #include "sim/collision_step.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <random>
 #include <set>
+#include <thread>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -306,6 +308,57 @@ TEST(CollisionStep, NamesPairsBelowToleranceAndPushesThemApart) {
   EXPECT_EQ(exact_defect(scene, pushed), "");
   EXPECT_TRUE(pushed.report.below_tolerance.empty());
   EXPECT_LT(lowest(pushed.x, lower), 0);
+}
+
+// What lies on one another at the start cannot be told from what moves through: that nothing moved is all that is
+// known.
+TEST(CollisionStep, CountsPairsThatItTakesOnTrust) {
+  StepScene apart;
+  apart.add(triangle(0.1), Vec3::Zero());
+  apart.add(triangle(0.01), Vec3(0, 0, 2e-7));
+  apart.options.impulse_iterations = 0;
+  apart.options.zone_iterations = 0;
+  const CollisionStepResult near = apart.step();
+  EXPECT_FALSE(near.report.below_tolerance.empty());
+  EXPECT_EQ(near.report.trusted_pairs, 0);
+
+  StepScene touching;
+  touching.add(sheet(3), Vec3::Zero());
+  touching.push(touching.add(sheet(3), Vec3::Zero()), Vec3(0, 0, -0.01));
+  const CollisionStepResult result = touching.step();
+  EXPECT_EQ(result.report.status, StepStatus::kSafe);
+  EXPECT_GE(result.report.trusted_pairs, 9) << "every vertex lies on another";
+}
+
+// An object that two threads use would answer one of them with what the other has found.
+TEST(CollisionStep, RefusesASecondCallWhileOneRuns) {
+  StepScene scene;
+  scene.add(sheet(12), Vec3::Zero());
+  scene.push(scene.add(sheet(12), Vec3(0.003, 0.002, 0.005)), Vec3(0, 0, -0.02));
+  const Mesh mesh = scene.mesh();
+  const CollisionBodies bodies = scene.bodies();
+  CollisionStep step(mesh, scene.options);
+  const auto call = [&] { return step(scene.V_t0, scene.V_candidate, bodies, scene.dt_s); };
+  const CollisionStepResult alone = call();
+  std::atomic<bool> was_refused = false;
+  std::atomic<int> wrong = 0;
+  const auto call_until_refused = [&] {
+    for (int i = 0; i < 1000 && !was_refused && wrong == 0; ++i) {
+      const CollisionStepResult result = call();
+      if (result.report.input_error == InputError::kInUse) {
+        was_refused = true;
+        wrong += result.report.status != StepStatus::kInvalidInput || result.x != scene.V_t0;
+      } else {
+        wrong += result.report.status != StepStatus::kSafe || result.x != alone.x;
+      }
+    }
+  };
+  std::thread other(call_until_refused);
+  call_until_refused();
+  other.join();
+  EXPECT_TRUE(was_refused);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(call().x, alone.x) << "and is free again";
 }
 
 // A corner that comes near the opposite edge of its own face.

@@ -17,6 +17,8 @@ struct Input {
   Positions V_t0 = Positions::Random(3, 3), V_candidate = Positions::Random(3, 3);
   std::vector<double> inverse_mass{1, 1, 0};
   std::vector<std::int32_t> body{-1, -1, 0};
+  SqueezePolicy policy = SqueezePolicy::kStop;
+  std::int32_t first_pin = 1;
   double dt_s = 1e-2;
   Input() {
     Faces F(1, 3);
@@ -24,7 +26,7 @@ struct Input {
     mesh = make_mesh(3, F);
   }
   [[nodiscard]] InputError error() const {
-    return validate_step_input(mesh, options, V_t0, V_candidate, {inverse_mass, body, SqueezePolicy::kStop}, dt_s);
+    return validate_step_input(mesh, options, V_t0, V_candidate, {inverse_mass, body, policy, first_pin}, dt_s);
   }
 };
 
@@ -59,6 +61,11 @@ TEST(StepInput, NamesTheDefect) {
     EXPECT_EQ(error_after([=](Input& i) { i.inverse_mass[0] = mass; }), InputError::kBadMass);
   }
   EXPECT_EQ(error_after([](Input& i) { i.inverse_mass[2] = 1; }), InputError::kBadMass);  // a body with mass
+  EXPECT_EQ(error_after([](Input& i) { i.body[1] = -2; }), InputError::kBadBodies);
+  EXPECT_EQ(error_after([](Input& i) { i.policy = static_cast<SqueezePolicy>(77); }), InputError::kBadBodies);
+  EXPECT_EQ(error_after([](Input& i) { i.policy = SqueezePolicy::kYield; }), InputError::kNone);
+  EXPECT_EQ(error_after([](Input& i) { i.first_pin = -5; }), InputError::kBadBodies);
+  EXPECT_EQ(error_after([](Input& i) { i.first_pin = 0; }), InputError::kNone);
   for (const double dt_s : {0.0, -1e-2, kNan, kInfinity}) {
     EXPECT_EQ(error_after([=](Input& i) { i.dt_s = dt_s; }), InputError::kBadTimeStep);
   }
