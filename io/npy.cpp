@@ -60,7 +60,9 @@ NpyHeader whole_file_header(std::string_view bytes, const std::string& name) {
 
 void require_rows_of_three(const NpyHeader& header, const std::string& name) {
   if (header.shape.size() == 2 && header.shape[1] == 3 && header.shape[0] <= kMaxElements) return;
-  bad_input(name, "the shape is " + shape_text(header) + ", not n by 3; reshape the array");
+  bad_input(name, "the shape is " + shape_text(header) +
+                      ", not n by 3; write rows of three, "
+                      "positions or corners: split polygons into triangles, and leave out what a row has besides");
 }
 
 /// Where item (row, column) of an n-by-3 array lies.

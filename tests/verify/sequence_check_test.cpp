@@ -341,6 +341,41 @@ TEST(Report, TextAndJsonTellTheSame) {
   EXPECT_NE(text.find("and " + std::to_string(report.violations_total.total() - 1) + " more"), std::string::npos);
 }
 
+TEST(Report, SaysThatMotionsAreNotChecked) {
+  SequenceOptions frames_only;
+  frames_only.motions = false;
+  const auto motions_of = [](const SequenceReport& report) {
+    const std::string text = text_report(report, {}, 0);
+    const std::size_t begin = text.find("motions:");
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  const std::vector<io::MeshData> two = {sheet(3), lifted(sheet(3), 1)};
+  EXPECT_EQ(motions_of(check_frames(two, frames_only)), "motions:    not checked (--motion does)");
+  EXPECT_EQ(motions_of(check_frames(two)), "motions:    1 of 1 checked, 0 violated");
+  EXPECT_EQ(motions_of(check_frames({sheet(3)}, frames_only)), "motions:    0 of 0 checked, 0 violated");
+}
+
+TEST(Report, NamesWeldingWhereAMeshIsSplitAtSeams) {
+  io::MeshData split = sheet(3);
+  for (std::size_t corner = 0; corner < 3; ++corner) {  // the last face has its own vertices
+    std::int32_t& vertex = split.triangles.back()[corner];
+    vertex = testing::add_vertex(split, split.points[static_cast<std::size_t>(vertex)]);
+  }
+  const auto says = [](const SequenceReport& report) {
+    return text_report(report, {}, 0).find("split at seams (--weld") != std::string::npos;
+  };
+  const SequenceReport report = check_frames({split});
+  EXPECT_EQ(report.verdict, Verdict::kViolated);
+  EXPECT_TRUE(says(report));
+  SequenceOptions weld;
+  weld.weld = true;
+  EXPECT_EQ(check_frames({split}, weld).verdict, Verdict::kClean);
+  EXPECT_FALSE(says(check_frames({split}, weld)));
+  const SequenceReport through = check_frames({sheet_and_triangle(3, -3)});
+  EXPECT_EQ(through.verdict, Verdict::kViolated);
+  EXPECT_FALSE(says(through)) << "which no seam explains";
+}
+
 // Sequences of other simulators; the numbers of intersecting face pairs beside them are CGAL's.
 TEST(SequenceCheck, CountsWhatCgalCountsInPublicSequences) {
   const auto data = testing::public_data();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
+#include <span>
 #include <string_view>
 
 #include "io/text.h"
@@ -64,6 +66,28 @@ std::string line(const Violation& violation, const ReportContext& context) {
   return text;
 }
 
+/// "Clean" of frames alone is not to be read as clean of what happens between them.
+std::string motions_line(const SequenceReport& report) {
+  if (report.motions_expected == 0 && report.frames_expected > 1) return "motions:    not checked (--motion does)\n";
+  return "motions:    " + std::to_string(report.motions.checked) + " of " + std::to_string(report.motions_expected) +
+         " checked, " + std::to_string(report.motions.violated) + " violated\n";
+}
+
+/// Vertices of violations that lie, to the bit, where another of the same violation does.
+std::set<std::int32_t> coincident(std::span<const Violation> violations) {
+  std::set<std::int32_t> found;
+  for (const Violation& violation : violations) {
+    const std::vector<std::int32_t> v = vertices(violation);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        const bool lies_on = v[i] != v[k] && violation.x_t0[i] == violation.x_t0[k];
+        if (lies_on && violation.x_t1[i] == violation.x_t1[k]) found.insert(v[i]);
+      }
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 const char* name_of(Verdict verdict) {
@@ -113,8 +137,7 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   text += "\n";
   text += "frames:     " + count(report.frames.checked) + " of " + count(report.frames_expected) + " checked, " +
           count(report.frames.violated) + " violated\n";
-  text += "motions:    " + count(report.motions.checked) + " of " + count(report.motions_expected) + " checked, " +
-          count(report.motions.violated) + " violated\n";
+  text += motions_line(report);
   text += "pairs:      " + count(report.pairs.vf) + " vf, " + count(report.pairs.ee) + " ee, " +
           count(report.pairs.overlap) + " overlap, " + count(report.pairs.self) + " self; " +
           count(report.pairs.exact) + " needed exact arithmetic\n";
@@ -161,6 +184,11 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
             count(report.welded->collapsed_faces) + " faces lost a corner and are degenerate\n";
   }
   for (const std::string& what : report.unchecked) text += "unchecked:  " + io::printable(what) + "\n";
+  if (const std::size_t seam = coincident(report.violations).size(); seam > 0 && !report.welded) {
+    text += "note:       " + std::to_string(seam) +
+            " vertices of the violations listed lie at the place of another, as where a mesh is split at seams (--weld "
+            "joins them)\n";
+  }
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
   if (listed > 0 && report.violations.front().case_file.empty()) {
