@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <numeric>
-#include <random>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/measure.h"
 #include "bench/query_methods.h"
 #include "bench/textbook.h"
 
 namespace selvage::bench {
 namespace {
-
-struct FileQuery {
-  MethodQuery asked;
-  std::optional<bool> truth;
-  std::size_t file = 0, line = 0;  ///< of its first row
-};
 
 struct TimedMethod {
   const char* name;
@@ -35,24 +27,6 @@ std::array<TimedMethod, 3> timed_methods(double kernel_tolerance) {
            {"exact", exact, 0, false}}};
 }
 
-std::vector<FileQuery> flatten(std::span<const QueryFile> files) {
-  std::vector<FileQuery> queries;
-  for (const QueryFile& file : files) {
-    std::size_t line = 1;
-    for (const io::CcdQuery& read : file.queries) {
-      std::array<Vec3, 4> x_t0, x_t1;
-      for (std::size_t i = 0; i < 4; ++i) {
-        x_t0[i] = Vec3(read.points[i].data());
-        x_t1[i] = Vec3(read.points[i + 4].data());
-      }
-      const auto number = static_cast<std::size_t>(&file - files.data());
-      queries.push_back({method_query(file.kind, x_t0, x_t1), read.truth, number, line});
-      line += io::kRowsPerQuery;
-    }
-  }
-  return queries;
-}
-
 using Clock = std::chrono::steady_clock;
 double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
 
@@ -65,34 +39,19 @@ double clock_cost() {
   return best;
 }
 
-/// Answers in the order of the queries, and the times of `repeat` passes.
-std::vector<MethodAnswer> time_method(const TimedMethod& method, const std::vector<FileQuery>& queries, int repeat,
-                                      QueryTimes& ns) {
-  const auto ask = [&](std::size_t i) { return method.ask(queries[i].asked, method.tolerance); };
-  std::vector<std::size_t> order(queries.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<MethodAnswer> answers(queries.size());
-  for (const std::size_t i : order) answers[i] = ask(i);  // warms up, and gives the answers
+struct Answered {
+  std::vector<MethodAnswer> answers;  ///< in the order of the queries
+  QueryTimes ns;
+};
 
-  std::vector<double> single(queries.size(), std::numeric_limits<double>::infinity());
-  double best_pass = std::numeric_limits<double>::infinity();
-  std::mt19937_64 shuffler(1);  // a fixed order of queries would teach it to the branch predictor
-  bool answered = true;         // keeps the calls from being removed
-  for (int pass = 0; pass < repeat; ++pass) {
-    std::shuffle(order.begin(), order.end(), shuffler);
-    const double pass_start = thread_nanoseconds();
-    for (const std::size_t i : order) answered &= ask(i).alarm == answers[i].alarm;
-    best_pass = std::min(best_pass, thread_nanoseconds() - pass_start);
-    for (const std::size_t i : order) {
-      const Clock::time_point start = Clock::now();
-      answered &= ask(i).alarm == answers[i].alarm;
-      single[i] = std::min(single[i], nanoseconds(Clock::now() - start));
-    }
-  }
-  if (!answered) throw std::logic_error(std::string(method.name) + " answered one query in two ways");
-  std::sort(single.begin(), single.end());
-  ns = {best_pass / static_cast<double>(queries.size()), quantile(single, 0.5), quantile(single, 0.99), single.back()};
-  return answers;
+Answered time_method(const TimedMethod& method, const std::vector<FileQuery>& queries, int repeat) {
+  const auto ask = [&](std::size_t i) { return method.ask(queries[i].asked, method.tolerance); };
+  Answered answered;
+  for (std::size_t i = 0; i < queries.size(); ++i) answered.answers.push_back(ask(i));
+  const TimedAnswers timed = time_answers(answered.answers, repeat, ask);
+  if (timed.unsteady) throw std::logic_error(std::string(method.name) + " answered one query in two ways");
+  answered.ns = timed.ns;
+  return answered;
 }
 
 ToiError measure_toi(const std::vector<FileQuery>& queries, const std::vector<MethodAnswer>& answers,
@@ -109,47 +68,64 @@ ToiError measure_toi(const std::vector<FileQuery>& queries, const std::vector<Me
   return errors.summary();
 }
 
-}  // namespace
+/// What the methods' answers are held against.
+struct Truth {
+  std::vector<verify::MotionAnswer> exact;
+  std::vector<bool> touches;  ///< by the file, or by the exact checker where it says nothing
+};
 
-std::optional<PairKind> kind_of_path(const std::filesystem::path& file) {
-  const std::string stem = file.stem().string();
-  if (stem.ends_with("vf")) return PairKind::kVf;
-  if (stem.ends_with("ee")) return PairKind::kEe;
-  for (const std::filesystem::path& folder : file.parent_path()) {
-    if (folder == "vertex-face") return PairKind::kVf;
-    if (folder == "edge-edge") return PairKind::kEe;
+MethodReport judge(const std::string& name, const Answered& answered, bool gives_toi,
+                   const std::vector<FileQuery>& queries, const Truth& truth) {
+  MethodReport report;
+  report.name = name;
+  report.ns = answered.ns;
+  report.gives_toi = gives_toi;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const MethodAnswer& answer = answered.answers[i];
+    report.false_negatives += truth.touches[i] && !answer.alarm;
+    report.false_positives += !truth.touches[i] && answer.alarm;
+    report.unresolved += answer.gave_up;
   }
-  return std::nullopt;
+  if (gives_toi) report.toi = measure_toi(queries, answered.answers, truth.exact);
+  return report;
 }
 
-QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBenchOptions& options) {
+std::int64_t count_beyond_gap(const GuestMethod& guest, const std::vector<FileQuery>& queries, const Truth& truth) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const bool is_false = guest.answers[i].alarm && !truth.touches[i] && !truth.exact[i].touches;
+    count += is_false && guest.is_beyond_gap(queries[i].asked, guest.answers[i]);
+  }
+  return count;
+}
+
+}  // namespace
+
+QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBenchOptions& options,
+                                 const std::optional<GuestMethod>& guest) {
   QueryBenchReport report;
   for (const QueryFile& file : files) report.files.push_back(file.file.string());
-  const std::vector<FileQuery> queries = flatten(files);
-  std::vector<verify::MotionAnswer> exact;
-  exact.reserve(queries.size());
-  std::vector<bool> truth;
+  const std::vector<FileQuery> queries = all_queries(files);
+  Truth truth;
+  truth.exact.reserve(queries.size());
   for (const FileQuery& query : queries) {
-    exact.push_back(exact_answer(query.asked, verify::Detail::kFirstTime));
-    truth.push_back(query.truth.value_or(exact.back().touches));
+    truth.exact.push_back(exact_answer(query.asked, verify::Detail::kFirstTime));
+    const bool touches = truth.exact.back().touches;
+    truth.touches.push_back(query.truth.value_or(touches));
     report.truth_in_files += query.truth.has_value();
-    report.positives += truth.back();
-    if (truth.back() != exact.back().touches) {
-      report.contradicted.push_back(report.files[query.file] + ":" + std::to_string(query.line));
-    }
+    report.positives += truth.touches.back();
+    if (truth.touches.back() != touches) report.contradicted.push_back(place_of(query, files));
   }
   report.queries = static_cast<std::int64_t>(queries.size());
   report.clock_ns = clock_cost();
   for (const TimedMethod& method : timed_methods(options.tolerance)) {
-    MethodReport& of_method = report.methods.emplace_back();
-    of_method.name = method.name;
-    const std::vector<MethodAnswer> answers = time_method(method, queries, options.repeat, of_method.ns);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      of_method.false_negatives += truth[i] && !answers[i].alarm;
-      of_method.false_positives += !truth[i] && answers[i].alarm;
-      of_method.unresolved += answers[i].gave_up;
-    }
-    if (method.gives_toi) of_method.toi = measure_toi(queries, answers, exact);
+    const Answered answered = time_method(method, queries, options.repeat);
+    report.methods.push_back(judge(method.name, answered, method.gives_toi, queries, truth));
+  }
+  if (guest) {
+    report.methods.push_back(judge(kGuestRow, {guest->answers, guest->ns}, guest->facts.has_toi, queries, truth));
+    report.methods.back().false_positives_beyond_gap = count_beyond_gap(*guest, queries, truth);
+    report.guest = guest->facts;
   }
   return report;
 }
@@ -170,15 +146,27 @@ std::string to_json(const QueryBenchReport& report) {
           {"early_max", toi.early_max}}},
         {"ns",
          {{"mean", method.ns.mean}, {"median", method.ns.median}, {"p99", method.ns.p99}, {"max", method.ns.max}}}};
+    if (method.false_positives_beyond_gap) {
+      methods[method.name]["false_positives_beyond_gap"] = *method.false_positives_beyond_gap;
+    }
   }
-  const nlohmann::ordered_json json = {{"schema", "selvage.bench.queries/1"},
-                                       {"files", report.files},
-                                       {"queries", report.queries},
-                                       {"positives", report.positives},
-                                       {"truth_in_files", report.truth_in_files},
-                                       {"contradicted", report.contradicted},
-                                       {"clock_ns", report.clock_ns},
-                                       {"methods", methods}};
+  nlohmann::ordered_json json = {{"schema", "selvage.bench.queries/1"},
+                                 {"files", report.files},
+                                 {"queries", report.queries},
+                                 {"positives", report.positives},
+                                 {"truth_in_files", report.truth_in_files},
+                                 {"contradicted", report.contradicted},
+                                 {"clock_ns", report.clock_ns},
+                                 {"methods", methods}};
+  if (report.guest) {
+    const GuestFacts& guest = *report.guest;
+    json[kGuestRow] = {{"file", guest.file},
+                       {"name", guest.name},
+                       {"crc32", guest.crc32},
+                       {"tolerance", guest.tolerance},
+                       {"relative_tolerance", guest.relative_tolerance},
+                       {"has_toi", guest.has_toi}};
+  }
   return json.dump(2) + "\n";
 }
 

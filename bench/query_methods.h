@@ -23,6 +23,7 @@ struct MethodAnswer {
   bool alarm = false;    ///< does not call the pair separated
   bool gave_up = false;  ///< an alarm because a limit of work was reached
   double toi = 1;
+  friend bool operator==(const MethodAnswer&, const MethodAnswer&) = default;
 };
 
 [[nodiscard]] MethodAnswer textbook_within(const MethodQuery& query, double tolerance);

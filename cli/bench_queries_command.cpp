@@ -1,8 +1,12 @@
 #include "cli/bench_queries_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,14 +16,17 @@
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
+#include "cli/plugin_method.h"
 #include "cli/process/terminal.h"
+#include "fuzz/run/worker.h"
 
 namespace selvage::cli {
 namespace {
 
 struct QueriesArguments {
   std::vector<std::string> files;
-  std::string kind, json;
+  std::string kind, json, plugin;
+  double case_time_s = fuzz::kCaseSeconds;
   bench::QueryBenchOptions options;
 };
 
@@ -31,23 +38,36 @@ PairKind kind_of(const std::string& file, const std::string& named) {
                    "FILE_vf.csv, FILE_ee.csv, or a folder vertex-face or edge-edge; use --kind");
 }
 
+/// A line on what a plugin is and declares, without which its false alarms say little.
+std::string words_of(const std::string& row, const bench::GuestFacts& facts, const bench::MethodReport& report) {
+  return fmt::format(
+      "{}: {}, CRC-32 {:08x}, alarms within {:.3g} + {:.3g} of the size{}; {} of its false alarms beyond that\n", row,
+      facts.file, facts.crc32, facts.tolerance, facts.relative_tolerance, facts.has_toi ? "" : ", no times of impact",
+      report.false_positives_beyond_gap.value());
+}
+
 std::string table(const bench::QueryBenchReport& report) {
   std::string text =
       fmt::format("{} queries, {} with a contact; truth from the files for {}, from the exact checker for {}\n",
                   report.queries, report.positives, report.truth_in_files, report.queries - report.truth_in_files);
-  text +=
-      fmt::format("{:<9} {:>7} {:>7} {:>10} {:>8} {:>10} {:>9} {:>10} {:>11}  {}\n", "method", "missed", "false",
-                  "unresolved", "late toi", "mean ns", "median ns", "p99 ns", "max ns", "toi early: median, p99, max");
+  const std::string guest = report.guest ? fmt::format("{} {}", bench::kGuestRow, report.guest->name) : "";
+  const std::size_t width = std::max<std::size_t>(9, guest.size());
+  text += fmt::format("{:<{}} {:>7} {:>7} {:>10} {:>8} {:>10} {:>9} {:>10} {:>11}  {}\n", "method", width, "missed",
+                      "false", "unresolved", "late toi", "mean ns", "median ns", "p99 ns", "max ns",
+                      "toi early: median, p99, max");
   for (const bench::MethodReport& method : report.methods) {
-    text += fmt::format("{:<9} {:>7} {:>7} {:>10} {:>8} {:>10.0f} {:>9.0f} {:>10.0f} {:>11.0f}", method.name,
-                        method.false_negatives, method.false_positives, method.unresolved, method.toi.late,
-                        method.ns.mean, method.ns.median, method.ns.p99, method.ns.max);
-    if (method.name != "exact") {
+    const std::string late = method.gives_toi ? std::to_string(method.toi.late) : "-";
+    text += fmt::format("{:<{}} {:>7} {:>7} {:>10} {:>8} {:>10.0f} {:>9.0f} {:>10.0f} {:>11.0f}",
+                        method.name == bench::kGuestRow ? guest : method.name, width, method.false_negatives,
+                        method.false_positives, method.unresolved, late, method.ns.mean, method.ns.median,
+                        method.ns.p99, method.ns.max);
+    if (method.gives_toi) {
       text +=
           fmt::format("  {:.1e}, {:.1e}, {:.1e}", method.toi.early_median, method.toi.early_p99, method.toi.early_max);
     }
     text += '\n';
   }
+  if (report.guest) text += words_of(guest, *report.guest, report.methods.back());
   return text + fmt::format(
                     "one thread; mean: processor time of the best whole pass; the others: wall time of single queries, "
                     "best of the "
@@ -65,7 +85,9 @@ void print_contradicted(const std::vector<std::string>& places) {
 }
 
 ExitCode bench_queries(const QueriesArguments& arguments) {
-  require_outputs({arguments.files.begin(), arguments.files.end()}, {arguments.json});
+  std::vector<std::filesystem::path> inputs = {arguments.files.begin(), arguments.files.end()};
+  if (!arguments.plugin.empty()) inputs.emplace_back(arguments.plugin);
+  require_outputs(inputs, {arguments.json});
   std::vector<bench::QueryFile> files;
   std::size_t count = 0;
   for (const std::string& name : arguments.files) {
@@ -73,12 +95,27 @@ ExitCode bench_queries(const QueriesArguments& arguments) {
     count += files.back().queries.size();
   }
   if (count == 0) throw io::Error(io::ErrorKind::kBadInput, arguments.files.front() + ": no queries to measure");
-  const bench::QueryBenchReport report = bench::run_query_bench(files, arguments.options);
+  std::optional<bench::GuestMethod> guest;
+  if (!arguments.plugin.empty()) {
+    // Before there are threads, which its process could not take along, and before the others have taken their time.
+    PluginMeasurement measured =
+        measure_plugin(arguments.plugin, files, arguments.options.repeat, arguments.case_time_s);
+    if (!measured.misbehaviour.empty()) {
+      say("selvage: {}\n", measured.misbehaviour);
+      return ExitCode::kViolation;
+    }
+    guest = std::move(measured.method);
+  }
+  const bench::QueryBenchReport report = bench::run_query_bench(files, arguments.options, guest);
   print_result(table(report), {arguments.json});
   if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
   print_contradicted(report.contradicted);
-  const bench::MethodReport& kernel = report.methods.front();
-  const bool is_right = kernel.false_negatives == 0 && kernel.toi.late == 0 && report.contradicted.empty();
+  const auto must_be_safe = [](const bench::MethodReport& method) {
+    return method.name == "kernel" || method.name == bench::kGuestRow;
+  };
+  const bool is_right = report.contradicted.empty() && std::ranges::none_of(report.methods, [&](const auto& method) {
+                          return must_be_safe(method) && method.is_unsafe();
+                        });
   return is_right ? ExitCode::kClean : ExitCode::kViolation;
 }
 
@@ -88,14 +125,25 @@ void add_bench_queries_command(CLI::App& bench, Job& job) {
   CLI::App& queries = add_command(
       bench, "queries",
       "The kernel, the textbook method and the exact checker on files of queries (CSV of the "
-      "public sets). Exit code 1 if the kernel missed a contact or answered late, or if the exact checker contradicts "
-      "the truth of a file.",
+      "public sets), and with --plugin somebody's own kernel. Exit code 1 if the kernel or the plugin missed a contact "
+      "or answered late, if the plugin misbehaves (then nothing is measured), or if the exact checker contradicts the "
+      "truth of a file.",
       "selvage bench queries vertex-face/data_0_0.csv edge-edge/data_0_0.csv --json out.json");
   const auto arguments = std::make_shared<QueriesArguments>();
   queries.add_option("FILE", arguments->files, "CSV files: eight rows a query, three rationals a row, truth optional")
       ->required();
   queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")
       ->check(CLI::IsMember({"vf", "ee"}));
+  queries
+      .add_option("--plugin", arguments->plugin,
+                  "Measure this collision code as well: a library with the interface fuzz/selvage-plugin.h, in a "
+                  "process of its own")
+      ->type_name("LIB.so");
+  queries
+      .add_option("--case-time", arguments->case_time_s,
+                  "Seconds that the plugin may compute and sleep over a query, or being loaded, before that is a hang")
+      ->check(number_above(0))
+      ->capture_default_str();
   queries.add_option("--json", arguments->json, "Also write the report to this file");
   queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))

@@ -113,8 +113,8 @@ ExitCode run_only(const FuzzArguments& arguments, fuzz::Properties& properties) 
     throw UsageError("--only: " + property.name() + " has no stream '" + name + "'");
   const fuzz::OneCase one = fuzz::run_case(property, *stream, arguments.seed, *number, arguments.case_time_s);
   const std::string& failure = one.outcome.failure;
-  fmt::print("{}: {}\n  {}: {}, case {} of seed {}\n", property.name(), property.promise(), stream->name,
-             failure.empty() ? "holds" : failure, *number, arguments.seed);
+  fmt::print("promise tested by {}: {}\n  {}: {}, case {} of seed {}\n", property.name(), property.promise(),
+             stream->name, failure.empty() ? "holds" : failure, *number, arguments.seed);
   fmt::print(" ");
   for (std::size_t i = 0; i < property.counters().size(); ++i) {
     fmt::print(" {}: {}{}", property.counters()[i], one.outcome.counts.of[i],

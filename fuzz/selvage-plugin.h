@@ -1,4 +1,5 @@
-/* How someone else's collision code is put under `selvage fuzz --plugin LIB.so`: a shared library that exports
+/* How someone else's collision code is put under `selvage fuzz --plugin LIB.so`, and measured by `selvage bench queries
+ * --plugin LIB.so`: a shared library that exports
  *
  *     const selvage_plugin* selvage_plugin_entry(void);
  *

@@ -45,13 +45,18 @@ std::string fp_misdeed() {
 
 /// Of this process, by whichever thread.
 std::atomic<std::int64_t> fork_count = 0;
+/// Between calls of which nobody sees whether a child comes back: it would go on with them, and fork again.
+std::atomic<bool> ends_children_at_once = false;
+void end_child() {
+  if (ends_children_at_once) _exit(0);
+}
 
 /// Begins before somebody else's code runs.
 class ForkWatch {
  public:
   ForkWatch() {
     static const int is_counting = pthread_atfork(
-        nullptr, [] { ++fork_count; }, nullptr);
+        nullptr, [] { ++fork_count; }, end_child);
     if (is_counting != 0) throw std::system_error(is_counting, std::generic_category(), "pthread_atfork");
     forks_ = fork_count;
   }
@@ -94,17 +99,6 @@ class Fenced {
   static constexpr unsigned char kPattern = 0xa5;
   std::vector<T> all_;
 };
-
-selvage_query plain(const MotionQuery& query) {
-  selvage_query plain{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      plain.x_t0[i][axis] = query.x_t0[i][axis];
-      plain.x_t1[i][axis] = query.x_t1[i][axis];
-    }
-  }
-  return plain;
-}
 
 bool is_same(const selvage_query& a, const selvage_query& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
@@ -196,6 +190,17 @@ Plugin::Plugin(const std::filesystem::path& library) {
   info_.has_batch = plugin_->answer_batch != nullptr;
 }
 
+selvage_query plain(const MotionQuery& query) {
+  selvage_query plain{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      plain.x_t0[i][axis] = query.x_t0[i][axis];
+      plain.x_t1[i][axis] = query.x_t1[i][axis];
+    }
+  }
+  return plain;
+}
+
 const std::vector<std::uint32_t>& batch_sizes() {
   static const std::vector<std::uint32_t> sizes = [] {
     std::vector<std::uint32_t> all(kSmallBatches);
@@ -219,6 +224,16 @@ Plugin::Answer Plugin::ask(const MotionQuery& query, BatchSize batch) const {
   Answer result = ask_alone(kind, original);
   if (batch && info_.has_batch && result.misdeed.empty()) ask_batch(kind, original, *batch, result);
   return result;
+}
+
+std::string Plugin::watch(const std::function<void()>& calls) const {
+  const FpEnvGuard guard;
+  const ForkWatch forks;
+  ends_children_at_once = true;
+  calls();
+  ends_children_at_once = false;
+  const std::string misdeed = forks.misdeed();
+  return misdeed.empty() ? fp_misdeed() : misdeed;
 }
 
 bool Plugin::stands_by(const MotionQuery& query, const Answer& before, BatchSize batch) const {

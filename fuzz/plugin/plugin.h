@@ -43,6 +43,9 @@ inline constexpr const char* kUnsteady = "unsteady";
 /// One of the former in seven of eight draws.
 [[nodiscard]] std::uint32_t draw_batch_size(ChoiceSource& source);
 
+/// As a plugin is asked it.
+[[nodiscard]] selvage_query plain(const MotionQuery& query);
+
 /// "separated", "collides at t = 0x1p-1".
 [[nodiscard]] std::string words_of(const selvage_answer& answer, bool has_toi);
 
@@ -63,6 +66,15 @@ class Plugin {
   /// REQUIRES vf or ee. Where there is a batch, asks it with queries made of it in one of that size as well, each first
   /// alone.
   [[nodiscard]] Answer ask(const MotionQuery& query, BatchSize batch) const;
+  /// The bare call, whose time is the plugin's alone: within watch(), and of what it has answered to ask().
+  [[nodiscard]] selvage_answer answer(PairKind kind, const selvage_query& query) const {
+    selvage_answer answer{};
+    plugin_->answer(kind == PairKind::kVf ? SELVAGE_VF : SELVAGE_EE, &query, &answer);
+    return answer;
+  }
+  /// Runs `calls` in a clean environment; a child that the plugin forks ends at once. What the plugin did meanwhile
+  /// that shows in the end: forked, changed-rounding-mode, set-flush-to-zero; or nothing.
+  [[nodiscard]] std::string watch(const std::function<void()>& calls) const;
   /// Called before it is asked anything: a case may take as long as every answer may.
   void before_asking(std::function<void()> call) { before_asking_ = std::move(call); }
   /// Whether it says the same again, bit for bit, with the same misdeed at the same place in a batch and none alone.

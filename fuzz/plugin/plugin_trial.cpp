@@ -21,12 +21,15 @@ PluginJudgement judge_plugin(const Plugin& plugin, const MotionQuery& query, Bat
   judgement.touches = exact.touches;
   if (exact.touches && !judgement.alarm) judgement.failure = "missed";
   if (exact.touches && has_time && answer.toi > 0 && exact.order < 0) judgement.failure = "late-time";
-  if (!exact.touches && judgement.alarm) {
-    const double gap = plugin.info().gap.of(query);
-    const std::array<double, 3> hints{has_time ? answer.toi : 1, 0, 1};
-    if (closest_approach(query, gap, hints, kEnoughTests) == Approach::kBeyond) judgement.failure = "alarm-too-far";
+  if (!exact.touches && judgement.alarm && is_beyond_gap(query, plugin.info().gap, has_time ? answer.toi : 1)) {
+    judgement.failure = "alarm-too-far";
   }
   return judgement;
+}
+
+bool is_beyond_gap(const MotionQuery& query, const DeclaredGap& gap, double hint) {
+  const std::array<double, 3> hints{hint, 0, 1};
+  return closest_approach(query, gap.of(query), hints, kEnoughTests) == Approach::kBeyond;
 }
 
 namespace {

@@ -18,6 +18,9 @@ struct PluginJudgement {
 /// depends on what was asked before, or on chance, and no case can keep that.
 [[nodiscard]] PluginJudgement judge_steadily(const Plugin& plugin, const MotionQuery& query, BatchSize batch);
 
+/// Of an alarm without a touch: PROVED that the features never come within the gap. `hint`: a time to try first.
+[[nodiscard]] bool is_beyond_gap(const MotionQuery& query, const DeclaredGap& gap, double hint);
+
 /// Those of its answer; or the misdeed, or where a batch differed.
 [[nodiscard]] std::string words_of(const Plugin::Answer& answer, bool has_toi);
 

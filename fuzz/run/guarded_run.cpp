@@ -31,9 +31,11 @@ enum class Stage : int { kBegun, kPrepared, kDone, kRefused, kThrew };
 /// At the head of the memory that parent and child share.
 struct alignas(64) Shared {
   std::atomic<Stage> stage = Stage::kBegun;
+  std::atomic<std::int64_t> beat = 0;
   char refusal[512] = {};
 };
-static_assert(std::atomic<Stage>::is_always_lock_free, "shared between processes");
+static_assert(std::atomic<Stage>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "shared between processes");
 
 class SharedMemory {
  public:
@@ -62,7 +64,7 @@ class SharedMemory {
   try {
     child.prepare.run();
     head.stage = Stage::kPrepared;
-    child.work(memory.result());
+    child.work(memory.result(), head.beat);
     head.stage = Stage::kDone;
   } catch (const std::exception& error) {
     const bool is_refusal = head.stage == Stage::kBegun;
@@ -85,8 +87,8 @@ std::optional<int> wait_for(pid_t process, const Shared& head, const ChildWork& 
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, std::chrono::microseconds(100'000));  // as the driver looks
     const bool is_preparing = head.stage == Stage::kBegun;
-    const WorkerSight sight{is_preparing ? 1 : 2, processor_seconds(process).value_or(0), is_asleep(process),
-                            std::chrono::steady_clock::now()};
+    const WorkerSight sight{is_preparing ? 0 : 1 + head.beat, processor_seconds(process).value_or(0),
+                            is_asleep(process), std::chrono::steady_clock::now()};
     if (!clock.is_over(sight, is_preparing ? child.prepare.seconds : child.seconds)) continue;
     kill(process, SIGKILL);
     waitpid(process, nullptr, 0);
@@ -124,9 +126,8 @@ ChildEnd run_in_child(const ChildWork& child, void* result) {
     end.death = kThrew;
   } else if (stage != Stage::kDone || WIFSIGNALED(*status)) {
     end.death = death_of(*status);
-  } else {
-    std::memcpy(result, memory.result(), child.size);
   }
+  std::memcpy(result, memory.result(), child.size);
   return end;
 }
 

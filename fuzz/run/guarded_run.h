@@ -1,7 +1,9 @@
 // Code under test, run once in a child process, where it may crash, hang or exit.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -21,14 +23,14 @@ struct Preparation {
   double seconds = 0;
 };
 
-/// What `prepare` and then `work` leave in a memory of `size` bytes that parent and child share. How the child died
-/// (deaths.h), or nothing. What `prepare` throws is thrown here, as io::Error(kBadInput). What the child prints goes to
-/// stderr: it is no result.
+/// What `prepare` and then `work` leave in a memory of `size` bytes that parent and child share, zero before; also
+/// where the child dies. How it died (deaths.h), or nothing. What `prepare` throws is thrown here, as
+/// io::Error(kBadInput). What the child prints goes to stderr: it is no result.
 struct ChildWork {
   Preparation prepare;
-  std::function<void(void* memory)> work;
+  std::function<void(void* memory, std::atomic<std::int64_t>& beat)> work;
   std::size_t size = 0;
-  double seconds = 0;  ///< for `work`
+  double seconds = 0;  ///< for `work`, anew whenever it has made `beat` grow
 };
 struct ChildEnd {
   std::string death;
@@ -47,9 +49,10 @@ template <class Result>
 [[nodiscard]] Guarded<Result> run_guarded(Preparation prepare, const std::function<Result()>& work, double seconds) {
   static_assert(std::is_trivially_copyable_v<Result>);
   Guarded<Result> guarded;
-  const ChildWork child{std::move(prepare), [&work](void* memory) { *static_cast<Result*>(memory) = work(); },
-                        sizeof(Result), seconds};
-  const ChildEnd end = run_in_child(child, &guarded.result);
+  const auto leave = [&work](void* memory, std::atomic<std::int64_t>&) { *static_cast<Result*>(memory) = work(); };
+  Result left{};
+  const ChildEnd end = run_in_child({std::move(prepare), leave, sizeof(Result), seconds}, &left);
+  if (end.death.empty()) guarded.result = left;
   guarded.death = end.death;
   guarded.has_prepared = end.has_prepared;
   return guarded;

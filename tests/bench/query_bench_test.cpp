@@ -55,6 +55,29 @@ TEST(QueryBench, ToleranceIsTheKernelsAlone) {
   EXPECT_EQ(report.methods[2].false_positives, 0);
 }
 
+TEST(QueryBench, AGuestIsJudgedLikeTheOthersUnderANameThatNoneOfThemHas) {
+  // The last truth is a lie: what touches is no alarm beyond a gap, whatever the file says.
+  const QueryFile file{"x",
+                       PairKind::kVf,
+                       {falling_point(0.25, 0.25, -1, true), falling_point(0.25, 0.25, -1, true),
+                        falling_point(0.25, 0.25, 0.5, false), falling_point(0.25, 0.25, -1, false)}};
+  GuestMethod guest;
+  guest.facts.name = "kernel";
+  guest.facts.has_toi = true;
+  guest.answers = {{}, {true, false, 0.75}, {true}, {true, false, 0.25}};
+  guest.is_beyond_gap = [](const MethodQuery&, const MethodAnswer&) { return true; };
+  const QueryBenchReport report = run_query_bench(std::span(&file, 1), {.tolerance = 0, .repeat = 1}, guest);
+  ASSERT_EQ(report.methods.size(), 4U);
+  const MethodReport& judged = report.methods.back();
+  EXPECT_EQ(judged.name, kGuestRow);
+  EXPECT_EQ(judged.false_negatives, 1);
+  EXPECT_EQ(judged.false_positives, 2);
+  EXPECT_EQ(judged.false_positives_beyond_gap, 1);
+  EXPECT_EQ(judged.toi.late, 1);
+  EXPECT_TRUE(judged.is_unsafe());
+  EXPECT_FALSE(report.methods.front().false_positives_beyond_gap.has_value());
+}
+
 TEST(QueryBench, TimesAreOrdered) {
   const QueryFile file{"x", PairKind::kVf, std::vector<io::CcdQuery>(200, falling_point(0.25, 0.25, -1, true))};
   for (const MethodReport& method : run_query_bench(std::span(&file, 1), {.tolerance = 0, .repeat = 2}).methods) {

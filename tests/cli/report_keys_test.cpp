@@ -102,6 +102,29 @@ TEST(ReportKeys, OfReplayAreDocumented) {
   EXPECT_EQ(keys, documented("The report of `selvage replay --json`"));
 }
 
+// Its tables name the last part of a key: most are of many methods.
+TEST(ReportKeys, OfBenchQueriesAreDocumented) {
+  const TemporaryFolder folder;
+  const auto queries = folder.path() / "a_vf.csv", json = folder.path() / "report.json";
+  const std::string at_rest = "1,4,1,4,0,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,1,1,0,1\n";  // a vertex on a face
+  spit(queries, at_rest + at_rest);
+  ASSERT_EQ(run_program(folder, {"bench", "queries", queries, "--repeat", "1", "--json", json, "--plugin",
+                                 SELVAGE_TEXTBOOK_PLUGIN})
+                .exit_code,
+            0);
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  EXPECT_TRUE(keys.contains("methods.plugin.false_positives_beyond_gap"));
+  const std::string page = slurp(SELVAGE_SOURCE_DIR "/docs/formats.md");
+  const std::size_t begin = page.find("| keys of `bench queries` |");
+  ASSERT_NE(begin, page.npos);
+  const std::string tables = page.substr(begin, page.find("| keys of `bench ccd` |") - begin);
+  for (const std::string& key : keys) {
+    const std::string word = key.substr(key.rfind('.') + 1);
+    EXPECT_TRUE(word == "schema" || tables.find("`" + word + "`") != tables.npos) << key;
+  }
+}
+
 TEST(ReportKeys, OfDoctorAreDocumented) {
   const TemporaryFolder folder;
   const auto json = folder.path() / "report.json";

@@ -34,7 +34,7 @@ constexpr std::uint32_t kVersion = SELVAGE_PLUGIN_VERSION + 1;
 #else
 constexpr std::uint32_t kVersion = SELVAGE_PLUGIN_VERSION;
 #endif
-#if defined(GIVES_NO_TIME) || defined(CALLS_ALL_COLLISIONS)
+#if defined(GIVES_NO_TIME) || defined(CALLS_ALL_COLLISIONS) || defined(ANSWERS_LATE)
 constexpr std::int32_t kHasToi = 1;
 #else
 constexpr std::int32_t kHasToi = 0;
@@ -67,6 +67,8 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   answer->toi = std::numeric_limits<double>::quiet_NaN();  // which counts where it is said to be a time
 #if defined(CALLS_ALL_COLLISIONS)
   *answer = {SELVAGE_COLLIDES, 0};
+#elif defined(ANSWERS_LATE)
+  answer->toi = 1;
 #elif defined(HANGS)
   volatile bool goes_on = true;
   while (goes_on) {
@@ -86,6 +88,8 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   static int calls = 0;
   if (++calls == 30) [[maybe_unused]]
     const auto ignored = fork();
+#elif defined(CRASHES_AT_REST)
+  if (std::memcmp(query->x_t0, query->x_t1, sizeof query->x_t0) == 0) std::raise(SIGSEGV);
 #elif defined(CRASHES)
   std::raise(SIGSEGV);
 #elif defined(WRITES_OUT_OF_BOUNDS)

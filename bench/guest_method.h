@@ -1,0 +1,31 @@
+// A method that is not Selvage's, in a benchmark that knows nothing of where it comes from.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/query_methods.h"
+#include "bench/query_times.h"
+
+namespace selvage::bench {
+
+/// By what it is known again, and what it says of itself.
+struct GuestFacts {
+  std::string file, name;
+  std::uint32_t crc32 = 0;        ///< of the file
+  double tolerance = 0;           ///< what an alarm may be off by: a length, and to it
+  double relative_tolerance = 0;  ///< this part of the query's size
+  bool has_toi = false;
+};
+
+struct GuestMethod {
+  GuestFacts facts;
+  std::vector<MethodAnswer> answers;  ///< to all queries, in their order
+  QueryTimes ns;
+  /// Of an alarm without a touch: whether the features stay farther apart than both tolerances together.
+  std::function<bool(const MethodQuery&, const MethodAnswer&)> is_beyond_gap;
+};
+
+}  // namespace selvage::bench
