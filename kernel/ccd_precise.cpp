@@ -20,14 +20,14 @@ constexpr Part kNarrow = Part{kNarrowWidth} << kPartBits;
 /// direction will separate them.
 constexpr double kNoPreciseGap = 0x1p-94;
 
+/// Of an interval, at whose begin the features are about to touch where a direction separates no more of it.
+constexpr double kTinyShare = 0x1p-20;
+
 /// Where to split an interval that is not certified, of which a direction separates this share at the begin; 0 if none
 /// does. Where the share is tiny, half way to it in powers of two: from a whole step down to a touch this takes a third
 /// of the splits that halving does. With 2^-8 a sixth, but then more contacts of slivers end without an alarm's gap: 16
 /// of 167,000 in the fuzzer's classes, where halving alone leaves 5 and this 1.
-double split_share(double reach_share) {
-  constexpr double kTiny = 0x1p-20;
-  return reach_share < kTiny ? std::sqrt(reach_share) : 0.5;
-}
+double split_share(double reach_share) { return reach_share < kTinyShare ? std::sqrt(reach_share) : 0.5; }
 
 Polygon polygon_within(const PairMotion<DoubleDouble>& motion, Part time) {
   const auto tick = static_cast<Tick>(time >> kPartBits);
@@ -77,11 +77,17 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
     const auto reach = separated_reach(motion, at_begin, at_end, nearest);
     if (reach.share == 0 && is_near(nearest)) return static_cast<Tick>(begin >> kPartBits);
     const auto reached = static_cast<Part>(reach.share * static_cast<double>(width));
-    if (reach.share > kFarShare && reach.share < 1 && reached > 0) {
+    // Where the motion along the direction is all there is, what it separates ends at the touch: edges that lie in one
+    // line throughout take 11 intervals there in place of 24 to 31, in a seventh to an eleventh of the time. What
+    // follows is then looked at from there on, by itself.
+    const bool may_arrive = reach.share < kTinyShare && !is_near(nearest);
+    if ((reach.share > kFarShare || may_arrive) && reach.share < 1 && reached > 0) {
       const Polygon at_reached = polygon_within(motion, begin + reached);
-      if (separates(motion, at_begin, at_reached, reach.direction)) {
+      const bool goes_on = !may_arrive || is_near(closest_point(motion.kind, at_reached));
+      if (goes_on && separates(motion, at_begin, at_reached, reach.direction)) {
         begin += reached;
         at_begin = at_reached;
+        if (may_arrive && end - begin > kNarrow) ends[depth++] = begin + kNarrow;
         continue;
       }
     }
@@ -94,7 +100,8 @@ std::optional<Tick> first_precise_contact(const PairMotion<DoubleDouble>& motion
       begin = end;
       at_begin = at_end;
       --depth;
-    } else if (middle == begin || (width <= kNarrow && is_near(closest_point(motion.kind, at_end)))) {
+    } else if (middle == begin ||
+               (width <= kNarrow && (is_near(nearest) || is_near(closest_point(motion.kind, at_end))))) {
       return static_cast<Tick>(begin >> kPartBits);
     } else {
       const auto split = static_cast<Part>(split_share(reach.share) * static_cast<double>(width));

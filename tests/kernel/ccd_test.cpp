@@ -332,6 +332,23 @@ TEST(Ccd, TouchesWithinAPlaneTakeFewIntervals) {
   EXPECT_LT(intervals, 40 * touches);
 }
 
+// Sheets that lie exactly over one another have many such pairs: edges in one line, and one behind the other.
+TEST(Ccd, EdgesThatComeTogetherInALineTakeFewIntervals) {
+  const auto height = [](int i) { return 1e-3 * std::sin(3.0 * i); };
+  for (int i = 0; i < 50; ++i) {
+    const auto at = [&](int k, double above) { return Vec3(0.1 * k, 0.7, above + height(k)); };
+    for (const int behind : {0, 1}) {
+      const Points x_t0 = {at(i, 0.05), at(i + 1, 0.05), at(i + behind, 0), at(i + behind + 1, 0)};
+      Points x_t1 = x_t0;
+      for (const std::size_t k : {0U, 1U}) x_t1[k][2] -= 0.2;
+      const CcdResult result = ee_ccd(x_t0, x_t1, kNoTolerance);
+      EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
+      EXPECT_NEAR(result.toi_lower, 0.25, 1e-15);
+      EXPECT_LE(result.intervals, 14) << i;
+    }
+  }
+}
+
 TEST(Ccd, TheEndIsJudgedByTheTolerance) {
   Random random(51);
   int near = 0;
