@@ -11,15 +11,16 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/enclosed_cloth.h"
 #include "cli/answer/part_name.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/thread_limit.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
-#include "cli/start/enclosed_cloth.h"
 #include "cli/start/start_check.h"
 #include "io/text.h"
+#include "sim/base/points.h"
 #include "sim/description.h"
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"
@@ -169,6 +170,19 @@ void note_failure(sim::Recorder& recorder, const std::exception_ptr& exception) 
   }
 }
 
+/// Of cloth inside bodies.
+std::vector<std::string> notes_on_start(const sim::Simulation& simulation) {
+  std::vector<std::string> notes;
+  const sim::World& world = simulation.world();
+  for (const auto& [cloth, body] : find_enclosed(world.mesh, world.groups, sim::points_of(simulation.x()))) {
+    notes.push_back(fmt::format(
+        "{} starts inside the closed body {} without meeting it, which is taken as intended: it will stay inside; move "
+        "it out if it was to be outside",
+        cloth, body));
+  }
+  return notes;
+}
+
 ExitCode simulate(const SimArguments& arguments) {
   catch_interrupts();
   const auto limit = arguments.threads.hold();
@@ -187,7 +201,7 @@ ExitCode simulate(const SimArguments& arguments) {
     return ExitCode::kInterrupted;
   }
   say("{}", sim::describe(simulation.scene(), simulation.world()));
-  if (!goes_on) print_notes(notes_on_enclosed(simulation.world(), simulation.x()));
+  if (!goes_on) print_notes(notes_on_start(simulation));
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
   if (recorder.resumed()) say("resumed    at {:.6f} s\n", simulation.clock().time_s());

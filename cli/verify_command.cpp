@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/answer/case_output.h"
+#include "cli/answer/enclosed_cloth.h"
 #include "cli/answer/result.h"
 #include "cli/answer/verdict.h"
 #include "cli/answer/verify_progress.h"
@@ -68,6 +69,17 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
   }
 }
 
+/// Of what was found clean. Where the motion was checked too, what is inside at first is inside at last. Faces that may
+/// touch by a rule, or are left out, leave no inside.
+std::vector<std::string> notes_on_clean(const VerifyArguments& arguments, const io::SequenceReader& sequence,
+                                        const verify::SequenceOptions& options, const verify::SequenceReport& report) {
+  const bool has_rules = !arguments.exempt.empty() || !arguments.ignore.empty();
+  if (report.verdict != verify::Verdict::kClean || has_rules || report.frames.checked == 0) return {};
+  const auto first = static_cast<std::size_t>(report.first_frame),
+             last = static_cast<std::size_t>(report.end_frame) - 1;
+  return notes_on_enclosed(sequence, first, options.motions ? first : last);
+}
+
 /// Before the check, which may take hours.
 void require_writable_outputs(const VerifyArguments& arguments) {
   require_writable({arguments.json, arguments.html});
@@ -111,10 +123,13 @@ ExitCode run(const VerifyArguments& arguments) {
   }
   const auto sequence = open_sequence(arguments);
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
-  const verify::ReportContext context = report_context(arguments, *sequence, options);
+  verify::ReportContext context = report_context(arguments, *sequence, options);
   print_notes(notes_on_groups(arguments, *sequence));
   require_writable_outputs(arguments);
   verify::SequenceReport report = check(arguments, *sequence, options, context);
+  const std::vector<std::string> on_enclosed = notes_on_clean(arguments, *sequence, options, report);
+  print_notes(on_enclosed);
+  context.notes.insert(context.notes.end(), on_enclosed.begin(), on_enclosed.end());
   const auto print = [&] {
     const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
     print_report(verify::text_report(report, context, max_listed), report.verdict, {arguments.json, arguments.html});
