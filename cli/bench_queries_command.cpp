@@ -134,16 +134,18 @@ void add_bench_queries_command(CLI::App& bench, Job& job) {
       ->required();
   queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")
       ->check(CLI::IsMember({"vf", "ee"}));
-  queries
-      .add_option("--plugin", arguments->plugin,
-                  "Measure this collision code as well: a library with the interface fuzz/selvage-plugin.h, in a "
-                  "process of its own")
-      ->type_name("LIB.so");
+  CLI::Option* const plugin =
+      queries
+          .add_option("--plugin", arguments->plugin,
+                      "Measure this collision code as well: a library with the interface fuzz/selvage-plugin.h, in a "
+                      "process of its own")
+          ->type_name("LIB.so");
   queries
       .add_option("--case-time", arguments->case_time_s,
                   "Seconds that the plugin may compute and sleep over a query, or being loaded, before that is a hang")
       ->check(number_above(0))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(plugin);
   queries.add_option("--json", arguments->json, "Also write the report to this file");
   queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))

@@ -14,6 +14,7 @@
 #include "fuzz/run/guarded_run.h"
 #include "fuzz/run/worker.h"
 #include "io/fail.h"
+#include "io/text.h"
 
 namespace selvage::cli {
 namespace {
@@ -92,9 +93,8 @@ class Session {
 
 std::string words_of(const std::filesystem::path& library, const std::string& misdeed, const std::string& where) {
   const std::string more_time = misdeed == fuzz::kHung ? ", or give it more time with --case-time, if it needs it" : "";
-  return fmt::format(
-      "{0}: {1} {2}; nothing was measured: mend it{3}; 'selvage fuzz --plugin {0}' finds more of the kind",
-      library.string(), misdeed, where, more_time);
+  return fmt::format("{}: {} {}; nothing was measured: mend it{}; selvage fuzz --plugin {} finds more of the kind",
+                     library.string(), misdeed, where, more_time, io::shell_word(library.string()));
 }
 
 }  // namespace

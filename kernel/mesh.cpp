@@ -79,9 +79,8 @@ const char* describe(InputError error) {
       return "a held contact is none of this mesh, or not as it was met; give back what a step from the same positions "
              "has met";
     case InputError::kBadBodies:
-      return "a body's number is below -1, the first pin's below 0, or the squeeze policy none of those that there "
-             "are; "
-             "number bodies from 0, with -1 for cloth";
+      return "a body's number is below -1, the first pin's below 0, or the squeeze policy none that there is; number "
+             "bodies from 0, with -1 for cloth";
     case InputError::kInUse:
       return "another call on the same object has not returned yet; make one object for each thread";
   }

@@ -16,8 +16,10 @@ ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world) : scene_(
       cloth_surfaces.insert(surface);
     }
   }
-  for (const Collider& collider : world.colliders) {
-    thickness_.push_back(thickness_with_cloth(collider, cloth_surfaces));
+  carried_by_.resize(world.colliders.size());
+  for (std::size_t i = 0; i < world.colliders.size(); ++i) {
+    thickness_.push_back(thickness_with_cloth(world.colliders[i], cloth_surfaces));
+    if (const auto carrier = world.colliders[i].carrier()) carried_by_[*carrier].push_back(i);
   }
 }
 
@@ -59,16 +61,26 @@ ScriptedMotion::Way ScriptedMotion::way(const Positions& x, const Positions& v, 
     if (!cloth) cloth = box_of_cloth(x, v, clock.dt_s());
     return cloth->squaredExteriorDistance(within) <= thickness_m * thickness_m;
   };
+  const auto way_of = [&](const Collider::Bend& bend, const Thickness& thickness) {
+    const bool is_bent = bend.leaves_line_by_m > thickness.least_m;
+    if (!is_bent && bend.off_by_m <= thickness.least_m) return Way::kAsSeen;
+    if (!may_meet_cloth(bend.within, thickness.most_m)) return Way::kAsSeen;
+    return is_bent ? Way::kBent : Way::kUneven;
+  };
   Way worst = Way::kAsSeen;
   for (std::size_t i = 0; i < world_.colliders.size(); ++i) {
     const Collider& collider = world_.colliders[i];
-    if (!collider.holds(t0_s)) continue;
-    const Collider::Bend bend = collider.bend(t0_s, t1_s);
-    const auto& [least_m, most_m] = thickness_[i];
-    const bool is_bent = bend.leaves_line_by_m > least_m;
-    if ((!is_bent && bend.off_by_m <= least_m) || !may_meet_cloth(bend.within, most_m)) continue;
-    if (is_bent) return Way::kBent;
-    worst = Way::kUneven;
+    if (collider.carrier() || !collider.holds(t0_s)) continue;
+    std::vector<std::size_t> moved = {i};
+    std::vector<const Collider*> carried;
+    for (const std::size_t pin : carried_by_[i]) {
+      if (!world_.colliders[pin].holds(t0_s)) continue;
+      moved.push_back(pin);
+      carried.push_back(&world_.colliders[pin]);
+    }
+    const std::vector<Collider::Bend> bends = collider.bends(t0_s, t1_s, carried);
+    for (std::size_t k = 0; k < moved.size(); ++k) worst = std::max(worst, way_of(bends[k], thickness_[moved[k]]));
+    if (worst == Way::kBent) break;
   }
   return worst;
 }

@@ -63,7 +63,8 @@ class ScriptedMotion {
 
   const Scene& scene_;
   const World& world_;
-  std::vector<Thickness> thickness_;  ///< by collider
+  std::vector<Thickness> thickness_;                  ///< by collider
+  std::vector<std::vector<std::size_t>> carried_by_;  ///< likewise: the pins that hang on it
   ScriptedVertices scripted_;
   std::vector<std::uint8_t> waits_;  ///< #V
   Positions bow_m_;

@@ -277,7 +277,7 @@ class WorldBuilder {
     Positions points = x_(vertices, Eigen::all);
     if (is_float32) points = points.cast<float>().cast<double>().eval();
     Attachment attachment(std::move(points), faces_of(body), carrier.placed_at(0, is_float32, x_));
-    return Collider::Carried{std::move(attachment), carrier.script(), carrier.vertices().front()};
+    return Collider::Carried{std::move(attachment), body, carrier.vertices().front()};
   }
 
   /// Of its own vertices, numbered from 0.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "kernel/assert.h"
 
@@ -11,18 +12,43 @@ namespace {
 struct CountRows {
   Eigen::Index operator()(const Collider::Rigid& rigid) const { return rigid.local.rows(); }
   Eigen::Index operator()(const Collider::Animated& animated) const { return animated.local->first().x.rows(); }
+  Eigen::Index operator()(const Collider::Carried& carried) const { return carried.attachment.count(); }
 };
-
-Eigen::Index rows_of(const Collider::Script& script) { return std::visit(CountRows{}, script); }
 
 struct Place {
   double time_s;
+  const Positions& x;
 
   Positions operator()(const Collider::Rigid& rigid) const { return transform(rigid.linkage.at(time_s), rigid.local); }
   Positions operator()(const Collider::Animated& animated) const {
     return transform(animated.linkage.at(time_s), animated.local->at(time_s));
   }
+  Positions operator()(const Collider::Carried& carried) const {
+    return carried.attachment.placed_on(x.bottomRows(x.rows() - carried.body_begin));
+  }
 };
+
+/// Points that move with a body: where they are when its vertices are at x.
+using Follower = std::function<Positions(const Positions& x)>;
+
+/// Of all followers while the script moves the body, which is placed once for each time.
+std::vector<Passage> passages(const Collider& body, double t0_s, double t1_s, const std::vector<double>& times,
+                              const std::vector<Follower>& followers) {
+  const auto placed = [&](double time_s) { return body.placed_at(time_s, false, {}); };
+  const Positions to = placed(t1_s);  // the first last: a sequence keeps two frames
+  const Positions from = placed(t0_s), middle = placed((t0_s + t1_s) / 2);
+  std::vector<Passage> passages;
+  for (const Follower& follower : followers) {
+    passages.emplace_back(follower(from), follower(middle), follower(to));
+  }
+  for (const double time_s : times) {
+    const Positions at = placed(time_s);
+    for (std::size_t i = 0; i < followers.size(); ++i) {
+      passages[i].add((time_s - t0_s) / (t1_s - t0_s), followers[i](at));
+    }
+  }
+  return passages;
+}
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -42,46 +68,35 @@ Collider::Collider(std::string name, std::vector<VertexId> vertices, Motion moti
       motion_(std::move(motion)),
       release_s_(release_s),
       met_(std::move(met)) {
-  const Carried* const carried = carry();
-  SELVAGE_ASSERT(std::ssize(vertices_) == (carried != nullptr ? carried->attachment.count() : rows_of(script())));
+  SELVAGE_ASSERT(std::ssize(vertices_) == std::visit(CountRows{}, motion_));
 }
-
-const Collider::Script& Collider::script() const {
-  const Carried* const carried = carry();
-  return carried != nullptr ? carried->body : std::get<Script>(motion_);
-}
-
-bool Collider::deforms() const { return carry() != nullptr || std::holds_alternative<Animated>(script()); }
 
 const BodySequence* Collider::sequence() const {
-  const auto* animated = std::get_if<Animated>(&script());
-  return animated != nullptr && carry() == nullptr ? animated->local.get() : nullptr;
+  const auto* animated = std::get_if<Animated>(&motion_);
+  return animated != nullptr ? animated->local.get() : nullptr;
 }
 
 Positions Collider::placed_at(double time_s, bool round_to_float32, const Positions& x) const {
-  const Carried* const carried = carry();
-  Positions placed = carried != nullptr
-                         ? carried->attachment.placed_on(x.middleRows(carried->body_begin, rows_of(carried->body)))
-                         : std::visit(Place{time_s}, script());
+  Positions placed = std::visit(Place{time_s, x}, motion_);
   if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
   return placed;
 }
 
-Positions Collider::scripted_at(double time_s) const {
-  Positions placed = std::visit(Place{time_s}, script());
-  const Carried* const carried = carry();
-  return carried != nullptr ? carried->attachment.placed_on(placed) : placed;
+std::optional<std::size_t> Collider::carrier() const {
+  return carried() != nullptr ? std::optional(carried()->body) : std::nullopt;
 }
 
 const Linkage& Collider::linkage() const {
-  return std::visit([](const auto& motion) -> const Linkage& { return motion.linkage; }, script());
+  SELVAGE_ASSERT(carried() == nullptr);
+  const auto* const rigid = std::get_if<Rigid>(&motion_);
+  return rigid != nullptr ? rigid->linkage : std::get<Animated>(motion_).linkage;
 }
 
 std::vector<double> Collider::times_between(double t0_s, double t1_s) const {
   std::vector<double> times = linkage().keys_between(t0_s, t1_s);
-  if (const auto* animated = std::get_if<Animated>(&script())) {
-    const std::vector<double> frames = animated->local->frames_between(t0_s, t1_s);
-    times.insert(times.end(), frames.begin(), frames.end());
+  if (const BodySequence* frames = sequence(); frames != nullptr) {
+    const std::vector<double> own = frames->frames_between(t0_s, t1_s);
+    times.insert(times.end(), own.begin(), own.end());
   }
   for (const double share : {0.25, 0.75}) times.push_back(t0_s + share * (t1_s - t0_s));
   std::ranges::sort(times);
@@ -104,39 +119,41 @@ void Collider::add_turns(double t0_s, double t1_s, std::vector<double>& times) c
   std::ranges::sort(times);
 }
 
-Passage Collider::passage(double t0_s, double t1_s, const std::vector<double>& times, Rows rows) const {
-  const auto placed = [&](double time_s) {
-    Positions all = scripted_at(time_s);
-    return rows == Rows::kMet && met_ ? Positions(all(*met_, Eigen::all)) : all;
-  };
-  const Positions to = placed(t1_s);  // the first last: a sequence keeps two frames
-  Positions from = placed(t0_s);
-  Passage passage(std::move(from), placed((t0_s + t1_s) / 2), to);
-  for (const double time_s : times) passage.add((time_s - t0_s) / (t1_s - t0_s), placed(time_s));
-  return passage;
-}
-
 Positions Collider::bow_m(double t0_s, double t1_s) const {
   if (vertices_.empty()) return Positions::Zero(0, 3);
-  return passage(t0_s, t1_s, times_between(t0_s, t1_s), Rows::kAll).bow_m();
+  const auto all = [](const Positions& x) { return x; };
+  return passages(*this, t0_s, t1_s, times_between(t0_s, t1_s), {all}).front().bow_m();
 }
 
-Collider::Bend Collider::bend(double t0_s, double t1_s) const {
-  Bend bend;
-  if (met_ ? met_->empty() : vertices_.empty()) return bend;
-  std::vector<double> times = times_between(t0_s, t1_s);
+std::vector<Collider::Bend> Collider::bends(double t0_s, double t1_s, std::span<const Collider* const> carried) const {
+  std::vector<Bend> bends(1 + carried.size());
+  const bool is_met = met_ ? !met_->empty() : !vertices_.empty();
+  if (!is_met && carried.empty()) return bends;
   const double turn_deg = linkage().turn_deg(t0_s, t1_s);
+  if (turn_deg > kMaxSampledTurn_deg) {
+    std::ranges::fill(bends, Bend{kInfinite, 0, {Vec3::Constant(-kInfinite), Vec3::Constant(kInfinite)}});
+    return bends;
+  }
+  std::vector<double> times = times_between(t0_s, t1_s);
   const bool turns_far = turn_deg > kMaxTurn_deg;
-  if (turn_deg > kMaxSampledTurn_deg) return {kInfinite, 0, {Vec3::Constant(-kInfinite), Vec3::Constant(kInfinite)}};
   if (turns_far) add_turns(t0_s, t1_s, times);
-  const Passage seen = passage(t0_s, t1_s, times, Rows::kMet);
-  bend.leaves_line_by_m = turns_far ? kInfinite : seen.leaves_line_by_m();
-  bend.off_by_m = seen.off_by_m();
-  bend.within = seen.box();
-  // Between the samples: as far again as they are from each other, where they may have missed half of a turn.
-  const Vec3 more = Vec3::Constant(turns_far ? bend.within.diagonal().norm() : bend.leaves_line_by_m);
-  bend.within = {bend.within.min() - more, bend.within.max() + more};
-  return bend;
+  std::vector<Follower> followers;
+  followers.push_back([&](const Positions& x) { return met_ && is_met ? Positions(x(*met_, Eigen::all)) : x; });
+  for (const Collider* collider : carried) {
+    followers.push_back([collider](const Positions& x) { return collider->carried()->attachment.placed_on(x); });
+  }
+  const std::vector<Passage> seen = passages(*this, t0_s, t1_s, times, followers);
+  for (std::size_t i = 0; i < bends.size(); ++i) {
+    if (i == 0 && !is_met) continue;
+    Bend& bend = bends[i];
+    bend.leaves_line_by_m = turns_far ? kInfinite : seen[i].leaves_line_by_m();
+    bend.off_by_m = seen[i].off_by_m();
+    bend.within = seen[i].box();
+    // Between the samples: as far again as they are from each other, where they may have missed half of a turn.
+    const Vec3 more = Vec3::Constant(turns_far ? bend.within.diagonal().norm() : bend.leaves_line_by_m);
+    bend.within = {bend.within.min() - more, bend.within.max() + more};
+  }
+  return bends;
 }
 
 void Collider::place_at(double time_s, bool round_to_float32, Positions& x) const {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,14 +30,13 @@ class Collider {
     std::shared_ptr<const BodySequence> local;
     Linkage linkage;
   };
-  using Script = std::variant<Rigid, Animated>;
-  /// By a body: to its rows, which are vertices from `body_begin` on.
+  /// By a body, to whose rows it is attached.
   struct Carried {
     Attachment attachment;
-    Script body;
-    VertexId body_begin;
+    std::size_t body;     ///< its place among the colliders
+    VertexId body_begin;  ///< its first vertex
   };
-  using Motion = std::variant<Script, Carried>;
+  using Motion = std::variant<Rigid, Animated, Carried>;
 
   static constexpr double kNeverReleased_s = std::numeric_limits<double>::infinity();
 
@@ -48,12 +48,12 @@ class Collider {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<VertexId>& vertices() const { return vertices_; }
   [[nodiscard]] bool holds(double time_s) const { return time_s < release_s_; }
-  /// Its own, or that of the body that carries it.
-  [[nodiscard]] const Script& script() const;
   /// Null where none animates it.
   [[nodiscard]] const BodySequence* sequence() const;
+  /// The body that carries it.
+  [[nodiscard]] std::optional<std::size_t> carrier() const;
   /// Whether its vertices may move against each other: then each waits, and catches up, by itself.
-  [[nodiscard]] bool deforms() const;
+  [[nodiscard]] bool deforms() const { return !std::holds_alternative<Rigid>(motion_); }
   /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. x: all
   /// vertices, of which what is carried looks where its body is. Throws io::Error where a frame of the sequence cannot
   /// be read any more.
@@ -65,28 +65,25 @@ class Collider {
     Eigen::AlignedBox3d within;   ///< where they are meanwhile; not of one that goes straight
   };
   /// At its keys, at the frames of its sequence and at quarters of the time between. Lines are left without bound where
-  /// it turns by more than 90 degrees, of which the ends say little. What is carried is looked at where the script has
-  /// its body. Reads every frame between once, those about the middle twice: the steps of a run read what lies within
-  /// them, and what lies within steps that they then halve or double, some four times in all, where the start has read
-  /// all frames already.
-  [[nodiscard]] Bend bend(double t0_s, double t1_s) const;
-  /// Of all its vertices in a step between (Passage).
+  /// it turns by more than 90 degrees, of which the ends say little. Reads every frame between once, those about the
+  /// middle twice: the steps of a run read what lies within them, and what lies within steps that they then halve or
+  /// double, some four times in all, where the start has read all frames already. REQUIRES that nothing carries it.
+  [[nodiscard]] Bend bend(double t0_s, double t1_s) const { return bends(t0_s, t1_s, {}).front(); }
+  /// Its own, then those of what it carries, where its script has it; it is placed as often as for its own alone.
+  [[nodiscard]] std::vector<Bend> bends(double t0_s, double t1_s, std::span<const Collider* const> carried) const;
+  /// Of all its vertices in a step between (Passage). REQUIRES that nothing carries it.
   [[nodiscard]] Positions bow_m(double t0_s, double t1_s) const;
   /// Writes them to their rows.
   void place_at(double time_s, bool round_to_float32, Positions& x) const;
 
  private:
-  enum class Rows { kAll, kMet };
-  /// Null where nothing does.
-  [[nodiscard]] const Carried* carry() const { return std::get_if<Carried>(&motion_); }
-  /// Of the script.
+  /// Null where nothing carries it.
+  [[nodiscard]] const Carried* carried() const { return std::get_if<Carried>(&motion_); }
+  /// REQUIRES that nothing carries it.
   [[nodiscard]] const Linkage& linkage() const;
-  /// Where the script has its vertices.
-  [[nodiscard]] Positions scripted_at(double time_s) const;
   /// Where something may change: keys, frames, a quarter and three quarters; in their order.
   [[nodiscard]] std::vector<double> times_between(double t0_s, double t1_s) const;
   void add_turns(double t0_s, double t1_s, std::vector<double>& times) const;
-  [[nodiscard]] Passage passage(double t0_s, double t1_s, const std::vector<double>& times, Rows rows) const;
 
   std::string name_;
   std::vector<VertexId> vertices_;

@@ -334,7 +334,7 @@ TEST(CollisionStep, CountsPairsThatItTakesOnTrust) {
 TEST(CollisionStep, RefusesASecondCallWhileOneRuns) {
   StepScene scene;
   scene.add(sheet(12), Vec3::Zero());
-  scene.push(scene.add(sheet(12), Vec3(0.003, 0.002, 0.005)), Vec3(0, 0, -0.02));
+  scene.push(scene.add(sheet(12), Vec3(0.003, 0.002, 0.0015)), Vec3(0, 0, -0.02));
   const Mesh mesh = scene.mesh();
   const CollisionBodies bodies = scene.bodies();
   CollisionStep step(mesh, scene.options);
@@ -343,7 +343,7 @@ TEST(CollisionStep, RefusesASecondCallWhileOneRuns) {
   std::atomic<bool> was_refused = false;
   std::atomic<int> wrong = 0;
   const auto call_until_refused = [&] {
-    for (int i = 0; i < 1000 && !was_refused && wrong == 0; ++i) {
+    for (int i = 0; i < 200000 && !was_refused && wrong == 0; ++i) {  // as threads take turns on one core
       const CollisionStepResult result = call();
       if (result.report.input_error == InputError::kInUse) {
         was_refused = true;
@@ -359,6 +359,24 @@ TEST(CollisionStep, RefusesASecondCallWhileOneRuns) {
   EXPECT_TRUE(was_refused);
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(call().x, alone.x) << "and is free again";
+
+  // Nor while contacts are looked for, of which there are some, nor those while a step runs.
+  const auto search = [&] { return step.find_contacts(scene.V_t0, scene.V_candidate, bodies); };
+  ASSERT_FALSE(search().empty());
+  for (int again = 0; again < 20; ++again) {
+    was_refused = false;
+    std::atomic<bool> has_ended = false;
+    std::thread searching([&] {
+      while (!has_ended) {
+        if (search().empty()) was_refused = true;
+      }
+    });
+    call_until_refused();
+    has_ended = true;
+    searching.join();
+    ASSERT_TRUE(was_refused);
+    ASSERT_EQ(wrong, 0);
+  }
 }
 
 // A corner that comes near the opposite edge of its own face.

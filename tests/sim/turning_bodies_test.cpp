@@ -117,6 +117,34 @@ TEST(TurningBodies, APinThatTurnsShortensSteps) {
   EXPECT_NEAR(pin.bend(0, 1).leaves_line_by_m, 0.1 * (1 - std::sqrt(0.75)), 1e-12);
 }
 
+// A figure that steps aside by 0.1 m and back within two frames; what hangs on it is seen where it is placed for
+// itself.
+TEST(TurningBodies, WhatASequenceCarriesIsSeenWithIt) {
+  const testing::TemporaryFolder folder;
+  for (const int frame : {0, 1, 2}) {
+    const std::string y = frame == 1 ? "0.1" : "0";
+    testing::spit(folder / ("figure_" + std::to_string(frame) + ".obj"),
+                  "v 0 " + y + " 0\nv 1 " + y + " 0\nv 0 " + y + " 1\nf 1 2 3\n");
+  }
+  const Simulation simulation(parse_scene(
+      "[time]\nframes = 1\n[collision]\nthickness_m = 0.004\n[[cloth]]\nsheet = {nx = 4, ny = 4, width_m = 0.2, "
+      "height_m = 0.2}\nposition_m = [0.5, 0.02, 0.2]\n" +
+          std::string(kMaterial) +
+          "[[cloth.pin]]\nedge = \"top\"\nbody = \"figure\"\n[[cloth.pin]]\nedge = \"bottom\"\nbody = \"figure\"\n"
+          "[[body]]\nname = \"figure\"\nsequence = {file = \"figure_*.obj\", frames_per_s = 30}\n",
+      folder / "scene.toml"));
+  const std::vector<Collider>& colliders = simulation.world().colliders;
+  ASSERT_EQ(colliders.size(), 3U);
+  const Collider* const pins[] = {&colliders[1], &colliders[2]};
+  EXPECT_EQ(pins[0]->carrier(), std::optional<std::size_t>(0));
+  const std::vector<Collider::Bend> bends = colliders[0].bends(0, 2.0 / 30, pins);
+  ASSERT_EQ(bends.size(), 3U);
+  for (const Collider::Bend& bend : bends) EXPECT_NEAR(bend.leaves_line_by_m, 0.1, 1e-12);
+  EXPECT_EQ(bends[0].within.min(), colliders[0].bend(0, 2.0 / 30).within.min());
+  EXPECT_NEAR(bends[1].within.max()[1], 0.12 + 0.1 + 0.1, 1e-12) << "once more beyond where it was seen";
+  EXPECT_NEAR(bends[2].within.max()[1], -0.08 + 0.1 + 0.1, 1e-12);
+}
+
 // On a spindle that turns by 80 degrees a frame; the chord of its way passes within the post.
 TEST(TurningBodies, ClothThatABodyCarriesMeetsWhatStandsInItsWay) {
   Simulation simulation =

@@ -352,6 +352,9 @@ TEST(Report, SaysThatMotionsAreNotChecked) {
   const std::vector<io::MeshData> two = {sheet(3), lifted(sheet(3), 1)};
   EXPECT_EQ(motions_of(check_frames(two, frames_only)), "motions:    not checked (--motion does)");
   EXPECT_EQ(motions_of(check_frames(two)), "motions:    1 of 1 checked, 0 violated");
+  frames_only.range = std::pair<std::size_t, std::size_t>(0, 1);
+  EXPECT_EQ(motions_of(check_frames(two, frames_only)), "motions:    not checked (--motion does)") << "a part";
+  frames_only.range.reset();
   EXPECT_EQ(motions_of(check_frames({sheet(3)}, frames_only)), "motions:    0 of 0 checked, 0 violated");
 }
 
@@ -362,7 +365,7 @@ TEST(Report, NamesWeldingWhereAMeshIsSplitAtSeams) {
     vertex = testing::add_vertex(split, split.points[static_cast<std::size_t>(vertex)]);
   }
   const auto says = [](const SequenceReport& report) {
-    return text_report(report, {}, 0).find("split at seams (--weld") != std::string::npos;
+    return text_report(report, {}, 0).find("split at seams (selvage verify --weld") != std::string::npos;
   };
   const SequenceReport report = check_frames({split});
   EXPECT_EQ(report.verdict, Verdict::kViolated);

@@ -68,7 +68,7 @@ std::string line(const Violation& violation, const ReportContext& context) {
 
 /// "Clean" of frames alone is not to be read as clean of what happens between them.
 std::string motions_line(const SequenceReport& report) {
-  if (report.motions_expected == 0 && report.frames_expected > 1) return "motions:    not checked (--motion does)\n";
+  if (report.motions_expected == 0 && report.frame_count > 1) return "motions:    not checked (--motion does)\n";
   return "motions:    " + std::to_string(report.motions.checked) + " of " + std::to_string(report.motions_expected) +
          " checked, " + std::to_string(report.motions.violated) + " violated\n";
 }
@@ -185,9 +185,10 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   }
   for (const std::string& what : report.unchecked) text += "unchecked:  " + io::printable(what) + "\n";
   if (const std::size_t seam = coincident(report.violations).size(); seam > 0 && !report.welded) {
-    text += "note:       " + std::to_string(seam) +
-            " vertices of the violations listed lie at the place of another, as where a mesh is split at seams (--weld "
-            "joins them)\n";
+    text +=
+        "note:       at least " + std::to_string(seam) +
+        " vertices of the violations lie at the place of another, as where a mesh is split at seams (selvage verify "
+        "--weld joins them)\n";
   }
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);
