@@ -38,7 +38,7 @@ struct Violation {
 };
 
 struct PairCounts {
-  std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;  ///< examined (boxes overlap)
+  std::int64_t vf = 0, ee = 0, overlap = 0, self = 0;  ///< examined: boxes overlap, in motions on a lattice of 32 bits
   std::int64_t exact = 0;                              ///< needed exact arithmetic
   std::int64_t asked_again = 0, disagreed = 0;         ///< of the second opinion
 

@@ -10,15 +10,23 @@
 
 namespace selvage::fuzz {
 
-/// Throws where the reader is gone. What is this short goes through a pipe in one piece, so a kill leaves no half.
+/// False where the reader is gone. What is this short goes through a pipe in one piece, so a kill leaves no half.
 template <class Message>
-void send(int pipe, const Message& message) {
+[[nodiscard]] bool try_send(int pipe, const Message& message) {
   static_assert(std::is_trivially_copyable_v<Message> && sizeof(Message) <= _POSIX_PIPE_BUF);
   ssize_t written = 0;
   do {
     written = write(pipe, &message, sizeof(Message));
   } while (written < 0 && errno == EINTR);
+  if (written < 0 && errno == EPIPE) return false;
   if (written != static_cast<ssize_t>(sizeof(Message))) throw std::system_error(errno, std::generic_category(), "pipe");
+  return true;
+}
+
+/// Throws where the reader is gone.
+template <class Message>
+void send(int pipe, const Message& message) {
+  if (!try_send(pipe, message)) throw std::system_error(EPIPE, std::generic_category(), "pipe");
 }
 
 /// False at the end of the pipe.

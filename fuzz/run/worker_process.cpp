@@ -76,7 +76,7 @@ void WorkerProcess::give(const Job& job, const std::vector<bool>& is_skipped, co
   job_ = job;
   clock_ = {};
   beat_at_job_ = progress_->beat.load();
-  send(jobs_, job);
+  static_cast<void>(try_send(jobs_, job));  // one that has died meanwhile is buried where its events end
 }
 
 std::optional<Event> WorkerProcess::receive_event() {
@@ -103,7 +103,7 @@ Death WorkerProcess::bury() {
 void WorkerProcess::revive() {
   start();
   if (job_ && job_->kind == Job::Kind::kUnit) {
-    send(jobs_, *job_);
+    static_cast<void>(try_send(jobs_, *job_));
   } else {
     job_.reset();
   }

@@ -8,6 +8,10 @@
 #include <utility>
 #include <vector>
 
+// clang-format off: before all else of CGAL
+#include "verify/decision/cgal_fpu.h"
+// clang-format on
+
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>

@@ -4,6 +4,10 @@
 #include <variant>
 #include <vector>
 
+// clang-format off: before all else of CGAL
+#include "verify/decision/cgal_fpu.h"
+// clang-format on
+
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>

@@ -3,6 +3,7 @@
 #include "verify/decision/second_opinion.h"
 
 #include <cfenv>
+#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -56,6 +57,15 @@ TEST(SecondOpinion, LeavesTheRoundingMode) {
     EXPECT_EQ(after, mode);
     EXPECT_EQ(second.touches, exact_vf_motion(motion.x_t0, motion.x_t1, Detail::kDecision).touches);
   }
+}
+
+// Of a host that links the checker, whether it asks for a second opinion or not: CGAL would end it as it ends itself.
+TEST(SecondOpinion, AHostMayEndInAnotherRoundingMode) {
+  const auto end_rounding_up = [] {
+    std::fesetround(FE_UPWARD);
+    std::exit(0);
+  };
+  EXPECT_EXIT(end_rounding_up(), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
