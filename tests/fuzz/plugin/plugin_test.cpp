@@ -144,6 +144,9 @@ TEST(Plugin, TheTextbookMissesAndTheMissIsMadeSimpleAndShown) {
     if (file.string().find("missed") == std::string::npos) continue;
     const Case kept = read_case(file);
     EXPECT_TRUE(kept.touches) << file;
+    const std::array<Vec3, 4>& x = kept.query.x_t0;
+    EXPECT_FALSE(x[0] == x[1] && x[1] == x[2] && x[2] == x[3] && x == kept.query.x_t1)
+        << file << ": four points in one place at rest, which no class draws";
     fewest = std::min(fewest, cost_of(kept.query).non_zero);
   }
   EXPECT_LE(fewest, 12);
