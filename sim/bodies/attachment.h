@@ -11,9 +11,9 @@ namespace selvage::sim {
 
 class Attachment {
  public:
-  /// Every row of `points` hangs on the point of `faces`, at least one, that is nearest to it; x, of as many rows as
-  /// the body has vertices: where these are meanwhile. O(points faces), 3 ns each where most faces are too far to be
-  /// asked.
+  /// Every row of `points` hangs on the point of `faces`, at least one, that is nearest to it; x: where the vertices of
+  /// the body are meanwhile, of which the faces name the rows; what follows them is not looked at. O(points faces), 3
+  /// ns each where most faces are too far to be asked.
   Attachment(Positions points, std::span<const std::array<VertexId, 3>> faces, const PositionsRef& x);
 
   /// Where the points are when x has the vertices of the body: each keeps its distance from its point of the body, and
