@@ -1,9 +1,11 @@
 #include "bench/ccd_bench.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -21,14 +23,13 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 class CcdBench {
  public:
-  CcdBench(const MeshMotion& motion, const CcdBenchOptions& options) : motion_(motion), repeat_(options.repeat) {
+  CcdBench(const MeshMotion& motion, TimedCandidates candidates, const CcdBenchOptions& options)
+      : motion_(motion), repeat_(options.repeat), candidates_(std::move(candidates.pairs)) {
     ccd_options_.tolerance = options.tolerance;
-    const double start = process_nanoseconds();
-    candidates_ = candidates_of(motion, options.tolerance);
-    report_.broad_phase_ns = process_nanoseconds() - start;
+    report_.broad_phase_ns = candidates.ns;
   }
 
-  CcdBenchReport run(std::span<const LabelledPair> labels) {
+  CcdBenchReport run(std::span<const LabelledPair> labels, const std::optional<GuestMethod<KindTimes>>& guest) {
     report_.vertices = motion_.mesh.vertex_count;
     report_.faces = static_cast<std::int64_t>(motion_.mesh.faces.size());
     report_.vf_candidates = static_cast<std::int64_t>(candidates_.vf.size());
@@ -36,6 +37,7 @@ class CcdBench {
     const auto methods = ccd_methods();
     for (const CcdMethod& method : methods) report_.methods.emplace_back().name = method.name;
     for (const PairKind kind : kKinds) measure(kind, methods);
+    if (guest) judge_guest(*guest);
     compare_labels(labels);
     summarize();
     return std::move(report_);
@@ -43,7 +45,10 @@ class CcdBench {
 
  private:
   void measure(PairKind kind, std::span<const CcdMethod> methods);
-  void judge(PairKind kind, const CcdMethod& method, const std::vector<Alarm>& alarms, CcdMethodReport& of_method);
+  using IsWithinGap = std::function<bool(const Alarm&)>;
+  void judge(PairKind kind, const std::vector<Alarm>& alarms, bool gives_toi, const IsWithinGap& is_within_gap,
+             CcdMethodReport& of_method);
+  void judge_guest(const GuestMethod<KindTimes>& guest);
   [[nodiscard]] bool within_gap(PairKind kind, const Alarm& alarm) const;
   void measure_toi(PairKind kind, const std::vector<Alarm>& found, ToiErrors& errors);
   void compare_labels(std::span<const LabelledPair> labels);
@@ -78,13 +83,16 @@ void CcdBench::measure(PairKind kind, std::span<const CcdMethod> methods) {
   for (const Alarm& contact : answers.back().alarms) truth(kind)[contact.pair] = true;
   (is_vf ? report_.vf_contacts : report_.ee_contacts) = static_cast<std::int64_t>(answers.back().alarms.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    judge(kind, methods[i], answers[i].alarms, report_.methods[i]);
+    judge(
+        kind, answers[i].alarms, methods[i].gives_toi,
+        [&](const Alarm& alarm) { return methods[i].gives_gap_bound && !alarm.unresolved && within_gap(kind, alarm); },
+        report_.methods[i]);
     (is_vf ? report_.methods[i].ns_vf : report_.methods[i].ns_ee) = best_ns[i];
     report_.methods[i].searched += answers[i].searched;
   }
 }
 
-void CcdBench::judge(PairKind kind, const CcdMethod& method, const std::vector<Alarm>& alarms,
+void CcdBench::judge(PairKind kind, const std::vector<Alarm>& alarms, bool gives_toi, const IsWithinGap& is_within_gap,
                      CcdMethodReport& of_method) {
   std::vector<Alarm> found;
   for (const Alarm& alarm : alarms) {
@@ -94,31 +102,49 @@ void CcdBench::judge(PairKind kind, const CcdMethod& method, const std::vector<A
       continue;
     }
     ++of_method.false_positives;
-    of_method.false_positives_beyond_gap += !(method.gives_gap_bound && !alarm.unresolved && within_gap(kind, alarm));
+    of_method.false_positives_beyond_gap += !is_within_gap(alarm);
   }
   const std::int64_t contacts = kind == PairKind::kVf ? report_.vf_contacts : report_.ee_contacts;
   of_method.alarms += static_cast<std::int64_t>(alarms.size());
   of_method.false_negatives += contacts - static_cast<std::int64_t>(found.size());
-  if (method.gives_toi) measure_toi(kind, found, toi_errors_[of_method.name]);
+  if (gives_toi) measure_toi(kind, found, toi_errors_[of_method.name]);
+}
+
+void CcdBench::judge_guest(const GuestMethod<KindTimes>& guest) {
+  CcdMethodReport& row = report_.methods.emplace_back();
+  row.name = kGuestRow;
+  row.ns_vf = guest.ns.vf;
+  row.ns_ee = guest.ns.ee;
+  auto answer = guest.answers.begin();
+  for (const PairKind kind : kKinds) {
+    std::vector<Alarm> alarms;
+    const std::size_t count = truth(kind).size();
+    for (std::size_t pair = 0; pair < count; ++pair, ++answer) {
+      if (answer->alarm) alarms.push_back({pair, answer->toi, 0, answer->gave_up});
+    }
+    const auto is_within_gap = [&](const Alarm& alarm) {
+      const MethodQuery query = query_of(kind, motion_, candidates_, alarm.pair);
+      return !guest.is_beyond_gap(query, {true, alarm.unresolved, alarm.toi});
+    };
+    judge(kind, alarms, guest.facts.has_toi, is_within_gap, row);
+  }
+  report_.guest = guest.facts;
 }
 
 /// The witness of an alarm is at toi_lower or, where only the end of the step is near, at 1.
 bool CcdBench::within_gap(PairKind kind, const Alarm& alarm) const {
-  const ExactQuery query = exact_query(kind, motion_, candidates_, alarm.pair);
+  const MethodQuery query = query_of(kind, motion_, candidates_, alarm.pair);
   const auto within_at = kind == PairKind::kVf ? verify::vf_within_at : verify::ee_within_at;
-  return within_at(query.x_t0, query.x_t1, alarm.toi, alarm.gap_bound);
+  return within_at(query.point_t0, query.point_t1, alarm.toi, alarm.gap_bound);
 }
 
 void CcdBench::measure_toi(PairKind kind, const std::vector<Alarm>& found, ToiErrors& errors) {
   const std::size_t stride = found.size() / kToiSample + 1;
   for (std::size_t i = 0; i < found.size(); i += stride) {
-    const ExactQuery query = exact_query(kind, motion_, candidates_, found[i].pair);
-    const bool is_vf = kind == PairKind::kVf;
-    const double first =
-        (is_vf ? verify::exact_vf_motion : verify::exact_ee_motion)(query.x_t0, query.x_t1, verify::Detail::kFirstTime)
-            .first.lower_approx;
+    const MethodQuery query = query_of(kind, motion_, candidates_, found[i].pair);
     const double toi = found[i].toi;
-    errors.add(first, toi, verify::compare_first_touch(query.x_t0, query.x_t1, is_vf, toi) < 0);
+    errors.add(exact_answer(query, verify::Detail::kFirstTime).first.lower_approx, toi,
+               verify::compare_first_touch(query.point_t0, query.point_t1, kind == PairKind::kVf, toi) < 0);
   }
 }
 
@@ -155,9 +181,16 @@ void CcdBench::summarize() {
 
 }  // namespace
 
-CcdBenchReport run_ccd_bench(const MeshMotion& motion, std::span<const LabelledPair> labels,
-                             const CcdBenchOptions& options) {
-  return CcdBench(motion, options).run(labels);
+TimedCandidates time_candidates(const MeshMotion& motion, double tolerance) {
+  const double start = process_nanoseconds();
+  TimedCandidates found{candidates_of(motion, tolerance)};
+  found.ns = process_nanoseconds() - start;
+  return found;
+}
+
+CcdBenchReport run_ccd_bench(const MeshMotion& motion, TimedCandidates candidates, std::span<const LabelledPair> labels,
+                             const CcdBenchOptions& options, const std::optional<GuestMethod<KindTimes>>& guest) {
+  return CcdBench(motion, std::move(candidates), options).run(labels, guest);
 }
 
 std::string to_json(const CcdBenchReport& report) {
@@ -179,17 +212,18 @@ std::string to_json(const CcdBenchReport& report) {
                             {"ns", {{"mean", method.ns_mean}, {"vf", method.ns_vf}, {"ee", method.ns_ee}}}};
     ratio[method.name] = method.ratio;
   }
-  const nlohmann::ordered_json json = {{"schema", "selvage.bench.ccd/1"},
-                                       {"motion", report.motion},
-                                       {"vertices", report.vertices},
-                                       {"faces", report.faces},
-                                       {"candidates", {{"vf", report.vf_candidates}, {"ee", report.ee_candidates}}},
-                                       {"contacts", {{"vf", report.vf_contacts}, {"ee", report.ee_contacts}}},
-                                       {"labels", report.labels},
-                                       {"labels_contradicted", report.labels_contradicted},
-                                       {"broad_phase_ns", report.broad_phase_ns},
-                                       {"methods", methods},
-                                       {"ratio_to_textbook", ratio}};
+  nlohmann::ordered_json json = {{"schema", "selvage.bench.ccd/1"},
+                                 {"motion", report.motion},
+                                 {"vertices", report.vertices},
+                                 {"faces", report.faces},
+                                 {"candidates", {{"vf", report.vf_candidates}, {"ee", report.ee_candidates}}},
+                                 {"contacts", {{"vf", report.vf_contacts}, {"ee", report.ee_contacts}}},
+                                 {"labels", report.labels},
+                                 {"labels_contradicted", report.labels_contradicted},
+                                 {"broad_phase_ns", report.broad_phase_ns},
+                                 {"methods", methods},
+                                 {"ratio_to_textbook", ratio}};
+  if (report.guest) json[kGuestRow] = to_json(*report.guest);
   return json.dump(2) + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include "bench/textbook.h"
 #include "kernel/ccd_batch.h"
+#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 namespace {
@@ -57,6 +58,10 @@ CcdAnswers ask_textbook(const MeshMotion& motion, const Pairs& pairs, TextbookQu
   });
 }
 
+/// The same as the checker takes it.
+struct ExactQuery {
+  std::array<verify::Point, 4> x_t0, x_t1;
+};
 ExactQuery exact_query(const MeshMotion& motion, const std::array<VertexId, 4>& vertices) {
   ExactQuery query;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -112,9 +117,11 @@ constexpr std::array<CcdMethod, 4> kCcdMethods{{{"kernel", kernel, true, true},
 
 std::span<const CcdMethod> ccd_methods() { return kCcdMethods; }
 
-ExactQuery exact_query(PairKind kind, const MeshMotion& motion, const Candidates& candidates, std::size_t pair) {
-  return exact_query(motion, kind == PairKind::kVf ? pair_vertices(motion.mesh, candidates.vf[pair])
-                                                   : pair_vertices(motion.mesh, candidates.ee[pair]));
+MethodQuery query_of(PairKind kind, const MeshMotion& motion, const Candidates& candidates, std::size_t pair) {
+  const KernelQuery query =
+      kernel_query(motion, kind == PairKind::kVf ? pair_vertices(motion.mesh, candidates.vf[pair])
+                                                 : pair_vertices(motion.mesh, candidates.ee[pair]));
+  return method_query(kind, query.x_t0, query.x_t1);
 }
 
 }  // namespace selvage::bench

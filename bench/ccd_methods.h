@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/mesh_motion.h"
+#include "bench/query_methods.h"
 #include "kernel/ccd.h"
-#include "verify/decision/exact_motion.h"
 
 namespace selvage::bench {
 
@@ -36,11 +36,8 @@ struct CcdMethod {
 /// exact: the checker's bare decision.
 [[nodiscard]] std::span<const CcdMethod> ccd_methods();
 
-/// Both ends of a candidate's motion as the checker takes them.
-struct ExactQuery {
-  std::array<verify::Point, 4> x_t0, x_t1;
-};
-[[nodiscard]] ExactQuery exact_query(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
-                                     std::size_t pair);
+/// A candidate as the methods that answer one query take it.
+[[nodiscard]] MethodQuery query_of(PairKind kind, const MeshMotion& motion, const Candidates& candidates,
+                                   std::size_t pair);
 
 }  // namespace selvage::bench

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "bench/query_methods.h"
-#include "bench/query_times.h"
 
 namespace selvage::bench {
+
+/// Name of a guest's row, whatever it calls itself: it may say "kernel".
+inline constexpr const char* kGuestRow = "plugin";
 
 /// By what it is known again, and what it says of itself.
 struct GuestFacts {
@@ -19,11 +23,15 @@ struct GuestFacts {
   double relative_tolerance = 0;  ///< this part of the query's size
   bool has_toi = false;
 };
+/// As every report that has a guest names it, under kGuestRow.
+[[nodiscard]] nlohmann::ordered_json to_json(const GuestFacts& facts);
 
+/// `Times` is what the benchmark measures: QueryTimes, or KindTimes.
+template <typename Times>
 struct GuestMethod {
   GuestFacts facts;
   std::vector<MethodAnswer> answers;  ///< to all queries, in their order
-  QueryTimes ns;
+  Times ns;
   /// Of an alarm without a touch: whether the features stay farther apart than both tolerances together.
   std::function<bool(const MethodQuery&, const MethodAnswer&)> is_beyond_gap;
 };

@@ -90,7 +90,8 @@ MethodReport judge(const std::string& name, const Answered& answered, bool gives
   return report;
 }
 
-std::int64_t count_beyond_gap(const GuestMethod& guest, const std::vector<FileQuery>& queries, const Truth& truth) {
+std::int64_t count_beyond_gap(const GuestMethod<QueryTimes>& guest, const std::vector<FileQuery>& queries,
+                              const Truth& truth) {
   std::int64_t count = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const bool is_false = guest.answers[i].alarm && !truth.touches[i] && !truth.exact[i].touches;
@@ -102,7 +103,7 @@ std::int64_t count_beyond_gap(const GuestMethod& guest, const std::vector<FileQu
 }  // namespace
 
 QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBenchOptions& options,
-                                 const std::optional<GuestMethod>& guest) {
+                                 const std::optional<GuestMethod<QueryTimes>>& guest) {
   QueryBenchReport report;
   for (const QueryFile& file : files) report.files.push_back(file.file.string());
   const std::vector<FileQuery> queries = all_queries(files);
@@ -158,15 +159,7 @@ std::string to_json(const QueryBenchReport& report) {
                                  {"contradicted", report.contradicted},
                                  {"clock_ns", report.clock_ns},
                                  {"methods", methods}};
-  if (report.guest) {
-    const GuestFacts& guest = *report.guest;
-    json[kGuestRow] = {{"file", guest.file},
-                       {"name", guest.name},
-                       {"crc32", guest.crc32},
-                       {"tolerance", guest.tolerance},
-                       {"relative_tolerance", guest.relative_tolerance},
-                       {"has_toi", guest.has_toi}};
-  }
+  if (report.guest) json[kGuestRow] = to_json(*report.guest);
   return json.dump(2) + "\n";
 }
 

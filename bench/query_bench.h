@@ -33,9 +33,6 @@ struct MethodReport {
   [[nodiscard]] bool is_unsafe() const { return false_negatives > 0 || toi.late > 0; }
 };
 
-/// Name of a guest's row, whatever it calls itself: it may say "kernel".
-inline constexpr const char* kGuestRow = "plugin";
-
 struct QueryBenchReport {
   std::vector<std::string> files;
   std::int64_t queries = 0, positives = 0;
@@ -49,7 +46,7 @@ struct QueryBenchReport {
 /// One thread; every pass visits the queries in a new order that depends on the pass alone, after one untimed pass.
 /// `guest` was measured before. REQUIRES at least one query.
 [[nodiscard]] QueryBenchReport run_query_bench(std::span<const QueryFile> files, const QueryBenchOptions& options,
-                                               const std::optional<GuestMethod>& guest = std::nullopt);
+                                               const std::optional<GuestMethod<QueryTimes>>& guest = std::nullopt);
 
 /// Schema selvage.bench.queries/1.
 [[nodiscard]] std::string to_json(const QueryBenchReport& report);

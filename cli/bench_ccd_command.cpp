@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,7 +13,10 @@
 #include "cli/answer/result.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
+#include "cli/arguments/thread_limit.h"
 #include "cli/command.h"
+#include "cli/plugin_method.h"
+#include "cli/process/terminal.h"
 
 namespace selvage::cli {
 namespace {
@@ -20,6 +25,7 @@ struct CcdArguments {
   std::string frame_t0, frame_t1, json;
   std::vector<std::vector<std::string>> truth;
   int sheet = 160;
+  PluginArguments plugin;
   bench::CcdBenchOptions options;
 };
 
@@ -32,20 +38,23 @@ std::string table(const bench::CcdBenchReport& report) {
     text += fmt::format("{} published verdicts, {} of them contradicted by the exact checker\n", report.labels,
                         report.labels_contradicted);
   }
-  text += fmt::format("{:<13} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n", "method", "alarms",
-                      "missed", "false", "beyond gap", "unresolved", "late toi", "mean ns", "vf ns", "ee ns",
+  const std::string guest = report.guest ? fmt::format("{} {}", bench::kGuestRow, report.guest->name) : "";
+  const std::size_t width = std::max<std::size_t>(13, guest.size());
+  text += fmt::format("{:<{}} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n", "method", width,
+                      "alarms", "missed", "false", "beyond gap", "unresolved", "late toi", "mean ns", "vf ns", "ee ns",
                       "/textbook", "toi early: median, p99, max");
   for (const bench::CcdMethodReport& method : report.methods) {
-    text +=
-        fmt::format("{:<13} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8.1f} {:>8.1f} {:>8.1f} {:>9.3f}", method.name,
-                    method.alarms, method.false_negatives, method.false_positives, method.false_positives_beyond_gap,
-                    method.unresolved, method.toi.late, method.ns_mean, method.ns_vf, method.ns_ee, method.ratio);
+    text += fmt::format("{:<{}} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8.1f} {:>8.1f} {:>8.1f} {:>9.3f}",
+                        method.name == bench::kGuestRow ? guest : method.name, width, method.alarms,
+                        method.false_negatives, method.false_positives, method.false_positives_beyond_gap,
+                        method.unresolved, method.toi.late, method.ns_mean, method.ns_vf, method.ns_ee, method.ratio);
     if (method.toi_examined > 0) {
       text +=
           fmt::format("  {:.1e}, {:.1e}, {:.1e}", method.toi.early_median, method.toi.early_p99, method.toi.early_max);
     }
     text += '\n';
   }
+  if (report.guest) text += words_of(*report.guest) + "\n";
   const bench::CcdMethodReport& kernel = report.methods.front();
   text += fmt::format("the kernel's lanes left {} pairs to single queries: {:.2f} %\n", kernel.searched,
                       100 * static_cast<double>(kernel.searched) /
@@ -60,6 +69,8 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   if (!from_files && !arguments.truth.empty()) throw UsageError("--truth belongs to frames from files: name two");
   std::vector<std::filesystem::path> inputs = {arguments.frame_t0, arguments.frame_t1};
   for (const std::vector<std::string>& files : arguments.truth) inputs.insert(inputs.end(), files.begin(), files.end());
+  const bool has_plugin = !arguments.plugin.library.empty();
+  if (has_plugin) inputs.emplace_back(arguments.plugin.library);
   require_outputs(inputs, {arguments.json});
   const bench::MeshMotion motion = from_files ? bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1)
                                               : bench::crumpled_sheet(arguments.sheet);
@@ -68,12 +79,26 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
     const auto read = bench::read_pair_labels(files.at(0), files.at(1), motion.mesh);
     labels.insert(labels.end(), read.begin(), read.end());
   }
-  bench::CcdBenchReport report = bench::run_ccd_bench(motion, labels, arguments.options);
+  bench::TimedCandidates candidates = [&] {
+    const auto limit = ThreadLimit{has_plugin ? 1 : 0}.hold();  // no thread may stand beside a plugin's process
+    return bench::time_candidates(motion, arguments.options.tolerance);
+  }();
+  std::optional<bench::GuestMethod<bench::KindTimes>> guest;
+  if (has_plugin) {
+    auto measured = measure_plugin(arguments.plugin, motion, candidates.pairs, arguments.options.repeat);
+    if (!measured.misbehaviour.empty()) {
+      say("selvage: {}\n", measured.misbehaviour);
+      return ExitCode::kViolation;
+    }
+    guest = std::move(measured.method);
+  }
+  bench::CcdBenchReport report = bench::run_ccd_bench(motion, std::move(candidates), labels, arguments.options, guest);
   report.motion = from_files ? arguments.frame_t0 + " -> " + arguments.frame_t1 : "crumpled sheet";
   print_result(table(report), {arguments.json});
   if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
   const auto is_wrong = [](const bench::CcdMethodReport& method) {
-    return method.name.starts_with("kernel") && (method.false_negatives > 0 || method.toi.late > 0);
+    const bool must_be_safe = method.name.starts_with("kernel") || method.name == bench::kGuestRow;
+    return must_be_safe && (method.false_negatives > 0 || method.toi.late > 0);
   };
   const bool wrong = std::any_of(report.methods.begin(), report.methods.end(), is_wrong);
   return wrong || report.labels_contradicted > 0 ? ExitCode::kViolation : ExitCode::kClean;
@@ -85,8 +110,9 @@ void add_bench_ccd_command(CLI::App& bench, Job& job) {
   CLI::App& ccd =
       add_command(bench, "ccd",
                   "The kernel, the textbook method and the exact checker on all candidate pairs of a motion: of a mesh "
-                  "between two files, or of a crumpled sheet. Exit code 1 if the kernel missed a contact or answered "
-                  "late, or if published verdicts are contradicted.",
+                  "between two files, or of a crumpled sheet; and with --plugin somebody's own kernel. Exit code 1 if "
+                  "the kernel or the plugin missed a contact or answered late, if the plugin misbehaves (then nothing "
+                  "is measured), or if published verdicts are contradicted.",
                   "selvage bench ccd cloth_ball92.ply cloth_ball93.ply --json out.json");
   const auto arguments = std::make_shared<CcdArguments>();
   ccd.add_option("FRAME_T0", arguments->frame_t0, "Mesh at t = 0 (.obj, .ply)");
@@ -98,6 +124,7 @@ void add_bench_ccd_command(CLI::App& bench, Job& job) {
   ccd.add_option("--sheet", arguments->sheet, "Vertices along one side of the crumpled sheet")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
+  add_plugin(ccd, arguments->plugin);
   ccd.add_option("--json", arguments->json, "Also write the report to this file");
   ccd.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))

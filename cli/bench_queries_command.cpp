@@ -18,15 +18,14 @@
 #include "cli/command.h"
 #include "cli/plugin_method.h"
 #include "cli/process/terminal.h"
-#include "fuzz/run/worker.h"
 
 namespace selvage::cli {
 namespace {
 
 struct QueriesArguments {
   std::vector<std::string> files;
-  std::string kind, json, plugin;
-  double case_time_s = fuzz::kCaseSeconds;
+  std::string kind, json;
+  PluginArguments plugin;
   bench::QueryBenchOptions options;
 };
 
@@ -36,14 +35,6 @@ PairKind kind_of(const std::string& file, const std::string& named) {
   if (const auto kind = bench::kind_of_path(file)) return *kind;
   throw UsageError(file + ": vertex-face or edge-edge queries? No name says it: " +
                    "FILE_vf.csv, FILE_ee.csv, or a folder vertex-face or edge-edge; use --kind");
-}
-
-/// A line on what a plugin is and declares, without which its false alarms say little.
-std::string words_of(const std::string& row, const bench::GuestFacts& facts, const bench::MethodReport& report) {
-  return fmt::format(
-      "{}: {}, CRC-32 {:08x}, alarms within {:.3g} + {:.3g} of the size{}; {} of its false alarms beyond that\n", row,
-      facts.file, facts.crc32, facts.tolerance, facts.relative_tolerance, facts.has_toi ? "" : ", no times of impact",
-      report.false_positives_beyond_gap.value());
 }
 
 std::string table(const bench::QueryBenchReport& report) {
@@ -67,7 +58,10 @@ std::string table(const bench::QueryBenchReport& report) {
     }
     text += '\n';
   }
-  if (report.guest) text += words_of(guest, *report.guest, report.methods.back());
+  if (report.guest) {
+    text += fmt::format("{}; {} of its false alarms beyond that\n", words_of(*report.guest),
+                        report.methods.back().false_positives_beyond_gap.value());
+  }
   return text + fmt::format(
                     "one thread; mean: processor time of the best whole pass; the others: wall time of single queries, "
                     "best of the "
@@ -86,7 +80,7 @@ void print_contradicted(const std::vector<std::string>& places) {
 
 ExitCode bench_queries(const QueriesArguments& arguments) {
   std::vector<std::filesystem::path> inputs = {arguments.files.begin(), arguments.files.end()};
-  if (!arguments.plugin.empty()) inputs.emplace_back(arguments.plugin);
+  if (!arguments.plugin.library.empty()) inputs.emplace_back(arguments.plugin.library);
   require_outputs(inputs, {arguments.json});
   std::vector<bench::QueryFile> files;
   std::size_t count = 0;
@@ -95,11 +89,9 @@ ExitCode bench_queries(const QueriesArguments& arguments) {
     count += files.back().queries.size();
   }
   if (count == 0) throw io::Error(io::ErrorKind::kBadInput, arguments.files.front() + ": no queries to measure");
-  std::optional<bench::GuestMethod> guest;
-  if (!arguments.plugin.empty()) {
-    // Before there are threads, which its process could not take along, and before the others have taken their time.
-    PluginMeasurement measured =
-        measure_plugin(arguments.plugin, files, arguments.options.repeat, arguments.case_time_s);
+  std::optional<bench::GuestMethod<bench::QueryTimes>> guest;
+  if (!arguments.plugin.library.empty()) {  // before there are threads, and before the others have taken their time
+    auto measured = measure_plugin(arguments.plugin, files, arguments.options.repeat);
     if (!measured.misbehaviour.empty()) {
       say("selvage: {}\n", measured.misbehaviour);
       return ExitCode::kViolation;
@@ -134,18 +126,7 @@ void add_bench_queries_command(CLI::App& bench, Job& job) {
       ->required();
   queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")
       ->check(CLI::IsMember({"vf", "ee"}));
-  CLI::Option* const plugin =
-      queries
-          .add_option("--plugin", arguments->plugin,
-                      "Measure this collision code as well: a library with the interface fuzz/selvage-plugin.h, in a "
-                      "process of its own")
-          ->type_name("LIB.so");
-  queries
-      .add_option("--case-time", arguments->case_time_s,
-                  "Seconds that the plugin may compute and sleep over a query, or being loaded, before that is a hang")
-      ->check(number_above(0))
-      ->capture_default_str()
-      ->needs(plugin);
+  add_plugin(queries, arguments->plugin);
   queries.add_option("--json", arguments->json, "Also write the report to this file");
   queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))

@@ -24,7 +24,7 @@ MeshMotion falling_corner(double end_z) {
 }
 
 CcdBenchReport run(const MeshMotion& motion, std::span<const LabelledPair> labels = {}, double tolerance = 0) {
-  return run_ccd_bench(motion, labels, {.tolerance = tolerance, .repeat = 1});
+  return run_ccd_bench(motion, time_candidates(motion, tolerance), labels, {.tolerance = tolerance, .repeat = 1});
 }
 
 const CcdMethodReport& method(const CcdBenchReport& report, const std::string& name) {

@@ -61,7 +61,7 @@ TEST(QueryBench, AGuestIsJudgedLikeTheOthersUnderANameThatNoneOfThemHas) {
                        PairKind::kVf,
                        {falling_point(0.25, 0.25, -1, true), falling_point(0.25, 0.25, -1, true),
                         falling_point(0.25, 0.25, 0.5, false), falling_point(0.25, 0.25, -1, false)}};
-  GuestMethod guest;
+  GuestMethod<QueryTimes> guest;
   guest.facts.name = "kernel";
   guest.facts.has_toi = true;
   guest.answers = {{}, {true, false, 0.75}, {true}, {true, false, 0.25}};

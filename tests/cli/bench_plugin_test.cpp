@@ -1,8 +1,12 @@
-// `selvage bench queries --plugin`: somebody's kernel on query files, beside Selvage's and judged alike.
+// `selvage bench queries --plugin` and `bench ccd --plugin`: somebody's kernel beside Selvage's, and judged alike.
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
+#include "tests/cli/two_faces.h"
 
 namespace selvage {
 namespace {
@@ -12,6 +16,7 @@ using testing::run_program;
 using testing::slurp;
 using testing::spit;
 using testing::TemporaryFolder;
+using testing::two_faces;
 
 std::string bad_plugin(const std::string& misdeed) {
   return std::string(SELVAGE_BAD_PLUGINS) + "/plugin_" + misdeed + ".so";
@@ -44,15 +49,29 @@ struct Measured {
   nlohmann::json report;  ///< null where none was written
 };
 
-Measured measure(const TemporaryFolder& folder, const std::string& library, const std::string& queries) {
-  const auto file = folder.path() / "a_vf.csv", json = folder.path() / "report.json";
-  spit(file, queries);
+Measured measure(const TemporaryFolder& folder, const std::string& library, std::vector<std::string> bench) {
+  const auto json = folder.path() / "report.json";
   std::filesystem::remove(json);
-  Measured measured{run_program(folder, {"bench", "queries", file, "--plugin", library, "--repeat", "30", "--case-time",
-                                         "0.3", "--json", json}),
-                    {}};
+  bench.insert(bench.begin(), "bench");
+  bench.insert(bench.end(), {"--plugin", library, "--repeat", "30", "--case-time", "0.3", "--json", json});
+  Measured measured{run_program(folder, bench), {}};
   if (std::filesystem::exists(json)) measured.report = nlohmann::json::parse(slurp(json));
   return measured;
+}
+
+Measured measure(const TemporaryFolder& folder, const std::string& library, const std::string& queries) {
+  const auto file = folder.path() / "a_vf.csv";
+  spit(file, queries);
+  return measure(folder, library, {"queries", file});
+}
+
+/// The motion of a mesh from `t0` to `t1`, as OBJ. What comes within `tolerance` is a candidate as well.
+Measured measure_motion(const TemporaryFolder& folder, const std::string& library, const std::string& t0,
+                        const std::string& t1, const std::string& tolerance = "0") {
+  const auto file_t0 = folder.path() / "a.obj", file_t1 = folder.path() / "b.obj";
+  spit(file_t0, t0);
+  spit(file_t1, t1);
+  return measure(folder, library, {"ccd", file_t0, file_t1, "--tolerance", tolerance});
 }
 
 }  // namespace
@@ -187,6 +206,69 @@ TEST(BenchPlugin, ItsFileIsNoPlaceForTheReport) {
   spit(file, kThrough);
   std::filesystem::copy_file(SELVAGE_KERNEL_PLUGIN, library);
   EXPECT_EQ(run_program(folder, {"bench", "queries", file, "--plugin", library, "--json", library}).exit_code, 2);
+}
+
+TEST(BenchPlugin, OnAMotionItHasTheRowOfAMethod) {
+  const TemporaryFolder folder;
+  const auto [program, report] = measure_motion(folder, SELVAGE_KERNEL_PLUGIN, two_faces(1), two_faces(-1));
+  EXPECT_EQ(program.exit_code, 0) << program.err;
+  expect_text(program.out, "\nplugin selvage kernel ");
+  expect_text(program.out, std::string("plugin selvage kernel: ") + SELVAGE_KERNEL_PLUGIN + ", CRC-32 ");
+  auto row = report.at("methods").at("plugin"), ours = report.at("methods").at("kernel_scalar");
+  for (const char* time : {"mean", "vf", "ee"}) EXPECT_GT(row.at("ns").at(time), 0) << time;
+  row.erase("ns"), ours.erase("ns");
+  EXPECT_GT(row.at("toi_examined"), 0);
+  EXPECT_EQ(row, ours) << "the same method";
+  EXPECT_GT(report.at("ratio_to_textbook").at("plugin"), 0);
+  EXPECT_EQ(report.at("plugin").at("name"), "selvage kernel");
+}
+
+TEST(BenchPlugin, OnAMotionAMissAndALateTimeAreViolations) {
+  const TemporaryFolder folder;
+  const auto missed = measure_motion(folder, SELVAGE_TEXTBOOK_PLUGIN, two_faces(1, kHuge), two_faces(-1, kHuge));
+  EXPECT_EQ(missed.program.exit_code, 1) << missed.program.err;
+  const auto& contacts = missed.report.at("contacts");
+  EXPECT_EQ(missed.report.at("methods").at("plugin").at("false_negatives"),
+            contacts.at("vf").get<int>() + contacts.at("ee").get<int>());
+  const auto late = measure_motion(folder, bad_plugin("answers_late"), two_faces(1), two_faces(-1));
+  EXPECT_EQ(late.program.exit_code, 1) << late.program.err;
+  EXPECT_EQ(late.report.at("methods").at("plugin").at("false_negatives"), 0);
+  EXPECT_GT(late.report.at("methods").at("plugin").at("late_toi"), 0);
+}
+
+TEST(BenchPlugin, OnAMotionFalseAlarmsBeyondTheDeclaredGapAreToldFromThoseWithin) {
+  const TemporaryFolder folder;
+  for (const auto& [gap, beyond] : {std::pair{0x1p-17, false}, std::pair{3 * 0x1p-18, true}}) {  // of 1e-5
+    const auto [program, report] =
+        measure_motion(folder, bad_plugin("alarms_a_quarter_too_far"), two_faces(1), two_faces(gap), "1e-4");
+    EXPECT_EQ(program.exit_code, 0) << program.err;
+    const auto& row = report.at("methods").at("plugin");
+    EXPECT_GT(row.at("false_positives"), 0);
+    EXPECT_EQ(row.at("false_positives_beyond_gap"), beyond ? row.at("false_positives").get<int>() : 0);
+  }
+}
+
+TEST(BenchPlugin, OnAMotionOneThatMisbehavesIsNamedWithThePairAndHasNoFigures) {
+  const TemporaryFolder folder;
+  // Of the second face one edge rests, across the first face, and no vertex of either rests on the other.
+  const std::string across = "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv 2 -1 0\nv 2 5 0\nf 4 5 6\n";
+  const struct {
+    const char* misdeed;
+    std::string t0, t1, words;
+  } kCases[] = {{"crashes", two_faces(1), two_faces(-1), "crashed-SIGSEGV at the query of vertex 3 and face 0; "},
+                {"crashes_at_rest", across + "v 8 2 9\n", across + "v 8 2 8\n",
+                 "crashed-SIGSEGV at the query of edges 0-1 and 3-4; "},
+                {"remembers", two_faces(1), two_faces(-1), "unsteady at the query of "},
+                {"forks", two_faces(1), two_faces(-1), "forked while it was timed; "}};
+  for (const auto& c : kCases) {
+    SCOPED_TRACE(c.misdeed);
+    const std::string library = bad_plugin(c.misdeed);
+    const auto [program, report] = measure_motion(folder, library, c.t0, c.t1);
+    EXPECT_EQ(program.exit_code, 1) << program.out;
+    EXPECT_EQ(program.out, "");
+    EXPECT_TRUE(report.is_null());
+    expect_text(program.err, "selvage: " + library + ": " + c.words);
+  }
 }
 
 }  // namespace selvage

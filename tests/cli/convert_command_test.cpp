@@ -14,7 +14,7 @@ using testing::spit;
 using testing::TemporaryFolder;
 
 /// A large face, and a small one at a distance of `gap` above it, both `lift` above the ground.
-io::Points two_faces(double gap, double lift) {
+io::Points face_pair_points(double gap, double lift) {
   const double z = lift + gap;
   return {{0, 0, lift}, {4, 0, lift}, {0, 4, lift}, {1, 1, z}, {2, 1, z}, {1, 2, z}};
 }
@@ -27,7 +27,7 @@ void record(const fs::path& folder, const std::vector<io::Points>& frames,
   for (std::size_t i = 0; i < frames.size(); ++i) writer.append(0.04 * static_cast<double>(i), frames[i]);
 }
 
-const std::vector<io::Points> kApart = {two_faces(1, 0), two_faces(0.1, 0), two_faces(0.3, 1)};
+const std::vector<io::Points> kApart = {face_pair_points(1, 0), face_pair_points(0.1, 0), face_pair_points(0.3, 1)};
 
 }  // namespace
 
@@ -67,7 +67,8 @@ TEST(ConvertCommand, EveryFormatKeepsTheVerdictAndSaysWhatItDoesNotKeep) {
 
 TEST(ConvertCommand, RoundingThatMakesAnIntersectionIsFound) {
   const TemporaryFolder folder;
-  record(folder.path() / "run", {two_faces(1e-6, 10), two_faces(1e-6, 100)});  // a float at 100 is 7.6e-6 wide
+  record(folder.path() / "run",
+         {face_pair_points(1e-6, 10), face_pair_points(1e-6, 100)});  // a float at 100 is 7.6e-6 wide
   EXPECT_EQ(run_program(folder, {"verify", folder.path() / "run"}).exit_code, 0);
   const auto result =
       run_program(folder, {"convert", folder.path() / "run", "-o", folder.path() / "a.pc2", "--recheck"});
@@ -105,8 +106,8 @@ TEST(ConvertCommand, BodiesStayBodiesInTheRecheck) {
                                          {"box", io::Group::Role::kBody, 1, 2}};
   std::vector<io::Group> one_cloth = bodies;
   one_cloth[1].role = io::Group::Role::kCloth;
-  record(folder.path() / "bodies", {two_faces(0, 0)}, io::SequenceKind::kFrames, bodies);
-  record(folder.path() / "cloth", {two_faces(0, 0)}, io::SequenceKind::kFrames, one_cloth);
+  record(folder.path() / "bodies", {face_pair_points(0, 0)}, io::SequenceKind::kFrames, bodies);
+  record(folder.path() / "cloth", {face_pair_points(0, 0)}, io::SequenceKind::kFrames, one_cloth);
   const auto unknown =
       run_program(folder, {"convert", folder.path() / "bodies", "-o", folder.path() / "bodies.obj", "--recheck"});
   EXPECT_EQ(unknown.exit_code, 5) << unknown.out;  // nothing but bodies, which are not checked: as verify says it
@@ -122,8 +123,8 @@ TEST(ConvertCommand, BodiesStayBodiesInTheRecheck) {
 TEST(ConvertCommand, WhatItSaysOfBodiesMakesVerifyKnowThem) {
   const TemporaryFolder folder;
   // Two bodies that overlap, one with a name for which a shell wants quotes, beside cloth.
-  io::Points points = two_faces(0, 0);
-  for (const auto& point : two_faces(0, 9)) points.push_back(point);
+  io::Points points = face_pair_points(0, 0);
+  for (const auto& point : face_pair_points(0, 9)) points.push_back(point);
   const io::Triangles faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   const std::vector<io::Group> groups = {{"floor", io::Group::Role::kBody, 0, 1},
                                          {"a \"box", io::Group::Role::kBody, 1, 2},

@@ -1,5 +1,7 @@
 // docs/formats.md lists every key of the JSON reports, and no other.
 #include <set>
+#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -102,7 +104,18 @@ TEST(ReportKeys, OfReplayAreDocumented) {
   EXPECT_EQ(keys, documented("The report of `selvage replay --json`"));
 }
 
-// Its tables name the last part of a key: most are of many methods.
+/// The tables of the benches name the last part of a key: most are of many methods.
+void expect_in_tables(const Keys& keys, std::string_view from, std::string_view to) {
+  const std::string page = slurp(SELVAGE_SOURCE_DIR "/docs/formats.md");
+  const std::size_t begin = page.find(from), end = page.find(to);
+  ASSERT_TRUE(begin < end && end != page.npos);
+  const std::string tables = page.substr(begin, end - begin);
+  for (const std::string& key : keys) {
+    const std::string word = key.substr(key.rfind('.') + 1);
+    EXPECT_TRUE(word == "schema" || tables.find("`" + word + "`") != tables.npos) << key;
+  }
+}
+
 TEST(ReportKeys, OfBenchQueriesAreDocumented) {
   const TemporaryFolder folder;
   const auto queries = folder.path() / "a_vf.csv", json = folder.path() / "report.json";
@@ -115,14 +128,20 @@ TEST(ReportKeys, OfBenchQueriesAreDocumented) {
   Keys keys;
   collect(nlohmann::json::parse(slurp(json)), "", keys);
   EXPECT_TRUE(keys.contains("methods.plugin.false_positives_beyond_gap"));
-  const std::string page = slurp(SELVAGE_SOURCE_DIR "/docs/formats.md");
-  const std::size_t begin = page.find("| keys of `bench queries` |");
-  ASSERT_NE(begin, page.npos);
-  const std::string tables = page.substr(begin, page.find("| keys of `bench ccd` |") - begin);
-  for (const std::string& key : keys) {
-    const std::string word = key.substr(key.rfind('.') + 1);
-    EXPECT_TRUE(word == "schema" || tables.find("`" + word + "`") != tables.npos) << key;
-  }
+  expect_in_tables(keys, "| keys of `bench queries` |", "| keys of `bench ccd` |");
+}
+
+TEST(ReportKeys, OfBenchCcdAreDocumented) {
+  const TemporaryFolder folder;
+  const auto json = folder.path() / "report.json";
+  ASSERT_EQ(run_program(folder, {"bench", "ccd", "--sheet", "10", "--repeat", "1", "--json", json, "--plugin",
+                                 SELVAGE_KERNEL_PLUGIN})
+                .exit_code,
+            0);
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  EXPECT_TRUE(keys.contains("methods.plugin.toi_examined"));
+  expect_in_tables(keys, "| keys of `bench queries` |", "The others hold lists of the rows that they print");
 }
 
 TEST(ReportKeys, OfDoctorAreDocumented) {
