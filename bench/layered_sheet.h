@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "verify/decision/exact_motion.h"
+#include "verify/arithmetic/point.h"
 
 namespace selvage::bench {
 

@@ -46,8 +46,7 @@ MethodAnswer textbook_within(const MethodQuery& query, double tolerance) {
 MethodAnswer kernel_within(const MethodQuery& query, double tolerance) {
   CcdOptions options;
   options.tolerance = tolerance;
-  const auto ask = query.kind == PairKind::kVf ? vf_ccd : ee_ccd;
-  const CcdResult result = ask(query.x_t0, query.x_t1, options);
+  const CcdResult result = pair_ccd(query.kind, query.x_t0, query.x_t1, options);
   return {result.verdict != CcdVerdict::kSeparated, result.verdict == CcdVerdict::kUnresolved, result.toi_lower};
 }
 

@@ -101,7 +101,7 @@ SimRun run_simulation(const sim::Scene& scene, const SimRunOptions& options) {
   SimRun run;
   run.vertices = world.cloth_vertex_count;
   Drifts drifts(simulation);
-  while (simulation.clock().state().frame < scene.time.frame_count && run.steps < options.most_steps) {
+  while (simulation.clock().frame() < scene.time.frame_count && run.steps < options.most_steps) {
     sim::StepResult step;
     BestTime taken;
     time(taken, [&] {
@@ -120,7 +120,7 @@ SimRun run_simulation(const sim::Scene& scene, const SimRunOptions& options) {
     ++run.steps;
     if (simulation.clock().at_frame()) drifts.look(simulation);
   }
-  run.frames = simulation.clock().state().frame;
+  run.frames = simulation.clock().frame();
   drifts.fill(run);
   run.x = simulation.x().topRows(world.cloth_vertex_count);
   return run;

@@ -15,7 +15,6 @@
 #include "cli/answer/read_back.h"
 #include "cli/answer/verdict.h"
 #include "cli/arguments/frame_range.h"
-#include "cli/arguments/group_names.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/sequence_argument.h"
 #include "cli/process/interrupt.h"
@@ -23,6 +22,7 @@
 #include "io/points.h"
 #include "io/sequence_output.h"
 #include "io/text.h"
+#include "kernel/version.h"
 #include "verify/check.h"
 #include "verify/report/report.h"
 

@@ -26,6 +26,7 @@
 #include "fuzz/run/campaign_stats.h"
 #include "fuzz/run/driver.h"
 #include "io/atomic_file.h"
+#include "kernel/version.h"
 
 namespace selvage::cli {
 namespace {

@@ -20,6 +20,7 @@
 #include "cli/process/terminal.h"
 #include "cli/start/start_check.h"
 #include "io/text.h"
+#include "kernel/version.h"
 #include "sim/base/points.h"
 #include "sim/description.h"
 #include "sim/record/recorder.h"
@@ -135,8 +136,8 @@ void print_waits(const sim::BodyWaits& waits, const sim::World& world) {
 sim::RunEnd run(sim::Simulation& simulation, sim::Recorder& recorder) {
   const std::int64_t frame_count = simulation.scene().time.frame_count;
   ProgressBar bar("simulating");
-  while (simulation.clock().state().frame < frame_count) {
-    bar.update(static_cast<std::size_t>(simulation.clock().state().frame), static_cast<std::size_t>(frame_count));
+  while (simulation.clock().frame() < frame_count) {
+    bar.update(static_cast<std::size_t>(simulation.clock().frame()), static_cast<std::size_t>(frame_count));
     if (interrupted()) return sim::RunEnd::kInterrupted;
     const sim::StepResult step = simulation.step();
     if (step.report.status == sim::StepStatus::kInvalidInput) {
@@ -205,7 +206,7 @@ ExitCode simulate(const SimArguments& arguments) {
   sim::Recorder recorder(arguments.output, simulation, arguments.record, arguments.resume, "selvage " SELVAGE_VERSION,
                          repair);
   if (recorder.resumed()) say("resumed    at {:.6f} s\n", simulation.clock().time_s());
-  if (const std::int64_t there = simulation.clock().state().frame; there > scene.time.frame_count) {
+  if (const std::int64_t there = simulation.clock().frame(); there > scene.time.frame_count) {
     say("note       it was simulated to frame {} already; --frames {} takes nothing away\n", there,
         scene.time.frame_count);
   }

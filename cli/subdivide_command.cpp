@@ -24,6 +24,7 @@
 #include "io/sequence_outputs.h"
 #include "io/text.h"
 #include "kernel/types.h"
+#include "kernel/version.h"
 #include "sim/base/points.h"
 #include "sim/subdivision/subdivision.h"
 #include "verify/check.h"

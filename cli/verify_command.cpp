@@ -18,6 +18,7 @@
 #include "cli/page/report_page.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
+#include "kernel/version.h"
 #include "verify/report/report.h"
 
 namespace selvage::cli {

@@ -1,5 +1,5 @@
-/* How someone else's collision code is put under `selvage fuzz --plugin LIB.so`, and measured by `selvage bench queries
- * --plugin LIB.so`: a shared library that exports
+/* How someone else's collision code is put under `selvage fuzz --plugin LIB.so`, and measured by `selvage bench
+ * queries` and `bench ccd` with --plugin LIB.so: a shared library that exports
  *
  *     const selvage_plugin* selvage_plugin_entry(void);
  *
@@ -51,7 +51,8 @@ typedef const selvage_plugin* (*selvage_plugin_entry_function)(void);
 #if defined(__GNUC__)
 __attribute__((visibility("default")))
 #endif
-const selvage_plugin* selvage_plugin_entry(void);
+const selvage_plugin*
+selvage_plugin_entry(void);
 
 #ifdef __cplusplus
 }

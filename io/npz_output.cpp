@@ -1,7 +1,6 @@
 // Writes .npz as numpy.savez does: members stored, always with the 64-bit sizes of ZIP64, so that one layout serves
 // files of any size. The checksum of a member is known behind its data and is put into the header before them then.
 // Source: PKWARE, APPNOTE, sections 4.3.7 (local header), 4.3.12 (directory), 4.3.14 to 4.3.16 (its ends), 4.5.3.
-#include <limits>
 #include <utility>
 
 #include "io/atomic_file.h"

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "kernel/mesh.h"
+#include "kernel/input_error.h"
 #include "kernel/types.h"
 
 namespace selvage {
@@ -58,6 +58,9 @@ struct CcdResult {
                                const CcdOptions& options);
 /// x = {p, a, b}: a vertex against the opposite edge (a, b) of its own face: the third kind of event.
 [[nodiscard]] CcdResult self_ccd(const std::array<Vec3, 3>& x_t0, const std::array<Vec3, 3>& x_t1,
+                                 const CcdOptions& options);
+/// The query of that kind. kSelf: x = {p, a, b, anything}.
+[[nodiscard]] CcdResult pair_ccd(PairKind kind, const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
                                  const CcdOptions& options);
 
 }  // namespace selvage

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/input_error.h"
 #include "kernel/types.h"
 
 namespace selvage {
@@ -26,30 +27,6 @@ struct Mesh {
   std::vector<FaceId> vertex_owner;
   std::vector<FaceId> edge_owner;  ///< likewise; every edge has one
 };
-
-/// What can be wrong with what the caller passed; describe() says it in words.
-enum class InputError : std::uint8_t {
-  kNone,
-  kSizeMismatch,
-  kNotFinite,
-  kTooLarge,
-  kIndexOutOfRange,
-  kRepeatedVertex,
-  kTooManyFaces,
-  kBadTolerance,
-  // of a collision step:
-  kBadOption,
-  kBadMass,
-  kBadTimeStep,
-  kOffLattice,
-  kBadSurfaces,
-  kBadContact,
-  kBadBodies,
-  kInUse
-};
-
-/// One sentence for a person, with the remedy.
-[[nodiscard]] const char* describe(InputError error);
 
 /// Whether F (#F by 3) indexes vertices 0 .. vertex_count-1, no face repeats a vertex, and edge numbers fit. O(#F). A
 /// negative vertex_count has no vertices to index: kIndexOutOfRange.

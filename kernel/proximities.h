@@ -1,6 +1,8 @@
 // Proximities of a whole mesh: broad phase, then the queries, in parallel, in a fixed order (K7).
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "kernel/box_hierarchy.h"

@@ -35,5 +35,7 @@ struct Proximity {
 }
 /// x = {a, b, c, d}: edge (a, b) against edge (c, d), parallel and zero-length ones included.
 [[nodiscard]] Proximity ee_proximity(const std::array<Vec3, 4>& x);
+/// The query of that kind. kSelf: x = {p, a, b, anything}.
+[[nodiscard]] Proximity pair_proximity(PairKind kind, const std::array<Vec3, 4>& x);
 
 }  // namespace selvage

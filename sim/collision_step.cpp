@@ -236,7 +236,7 @@ void Attempt::meet_collisions() {
 
 /// Section 7.4: impulses in parallel until nothing collides, for a few rounds.
 void Attempt::apply_impulses() {
-  const std::int64_t most_rounds = std::min<std::int64_t>(step_.options.impulse_iterations, patience_.impulse_rounds);
+  const std::int64_t most_rounds = std::min<std::int64_t>(step_.options.max_impulse_rounds, patience_.impulse_rounds);
   while (report_.impulse_rounds < most_rounds && !tracker_.collisions().empty()) {
     ++report_.impulse_rounds;
     std::vector<PairChange> changes;
@@ -260,15 +260,7 @@ bool Attempt::zone_can_help(const Collision& collision) const {
   const Positions& V = motion_.V_t0();
   const std::array<Vec3, 4> x{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
   const double tolerance = step_.contacts.of(collision.kind, collision.first, collision.second).tolerance_m;
-  switch (collision.kind) {
-    case PairKind::kVf:
-      return vf_proximity(x).distance_lower > tolerance;
-    case PairKind::kEe:
-      return ee_proximity(x).distance_lower > tolerance;
-    case PairKind::kSelf:
-      break;
-  }
-  return self_proximity({x[0], x[1], x[2]}).distance_lower > tolerance;
+  return pair_proximity(collision.kind, x).distance_lower > tolerance;
 }
 
 /// Section 7.5: merge what collides into rigid zones, and grow them until nothing collides.
@@ -276,7 +268,7 @@ void Attempt::move_impact_zones() {
   if (tracker_.collisions().empty()) return;
   const Positions displacement = motion_.displacement();  // zones keep the momentum that the impulses left
   ImpactZones zones(step_.mesh.vertex_count, groups_);
-  while (report_.zone_rounds < step_.options.zone_iterations && !tracker_.collisions().empty()) {
+  while (report_.zone_rounds < step_.options.max_zone_rounds && !tracker_.collisions().empty()) {
     bool merged = false;
     for (const Collision& collision : tracker_.collisions()) {
       if (zone_can_help(collision)) merged = zones.merge(tracker_.vertices(collision)) || merged;

@@ -23,16 +23,16 @@ class ContactTable;
 /// When to give a step up, because the caller tries a shorter one then (paper, section 5). By default never.
 struct Patience {
   static constexpr std::int64_t kEndless = std::numeric_limits<std::int64_t>::max();
-  std::int64_t collisions = kEndless;      ///< where the repulsions leave more than so many
-  std::int64_t impulse_rounds = kEndless;  ///< where impulses leave one after so many rounds, or after all they have
+  std::int64_t collisions = kEndless;      ///< give up where the repulsions leave more of them than this
+  std::int64_t impulse_rounds = kEndless;  ///< give up where one is left after so many rounds, or the last there may be
 };
 
 enum class StepStatus : std::uint8_t {
   kSafe,         ///< S1 holds for the returned positions
   kStopped,      ///< no safe positions were found under the policy; the returned positions are V_t0
   kAbandoned,    ///< the caller's Patience ended; the returned positions are V_t0
-  kInvalidInput  ///< NaN, sizes, domain (input_error says which; first_bad_option(), step_input.h, where it is one of
-                 ///< the options, which): nothing was done; the returned positions are V_t0
+  kInvalidInput  ///< NaN, sizes, domain: nothing was done; the returned positions are V_t0. input_error says what is
+                 ///< wrong, and of kBadOption first_bad_option() (step_input.h) which one
 };
 [[nodiscard]] std::string_view name_of(StepStatus status);
 
@@ -102,16 +102,17 @@ class CollisionStep {
   CollisionStep(CollisionStep&&) noexcept;
   CollisionStep& operator=(CollisionStep&&) noexcept;
 
-  /// PRE: V_t0 is free of intersections (exactly), bodies among themselves excepted: two features of bodies are not
-  /// looked at (a part of the mesh in which every vertex has a body that is no pin is one). The step does not check
-  /// that: of a V_t0 that intersects nothing is promised, and what is through stays through (verify::check_frame is for
-  /// the first; each kSafe x is free again). V_candidate: any finite
-  /// positions; scripted vertices' are their script. With kFloat32 V_t0 lies on the lattice, and the candidates, the
-  /// scripts' too, are rounded to it; a script beyond the largest float32 is invalid (kTooLarge). POST (kSafe): the
-  /// straight motion V_t0 -> x is exactly free of touching; what is nearer than its tolerance is named; scripted
-  /// vertices are at their (rounded) candidates, or at V_t0 where they wait; all others are within
-  /// kMaxCoordinate, or the largest float32. Ends after at most (bodies + vertices of those that deform + 2)
-  /// (impulse_iterations + zone_iterations + 3 #V + 16) searches for collisions. Deterministic for any thread count.
+  /// From V_t0 towards V_candidate, both #V by 3; dt_s: finite, > 0. Scripted vertices' candidates are their script.
+  /// PRE: V_t0 is exactly free of intersections. Two features of bodies are not looked at and may intersect; a body is
+  ///   a part of the mesh in which every vertex has a body that is no pin. The step does not check this: of a V_t0 that
+  ///   intersects nothing is promised, and what is through stays through (verify::check_frame is for the first; each
+  ///   kSafe x is free again). With kFloat32 V_t0 lies on the lattice.
+  /// POST (kSafe): the straight motion V_t0 -> x is exactly free of touching. What is nearer than its tolerance is
+  ///   named. Scripted vertices are at their candidates, or at V_t0 where they wait. All are within kMaxCoordinate.
+  ///   With kFloat32 x lies on the lattice, within the largest float32, and scripted vertices are at their candidates
+  ///   rounded to it; of a script beyond that the input is invalid (kTooLarge).
+  /// COST: at most (bodies + vertices of those that deform + 2) (max_impulse_rounds + max_zone_rounds + 3 #V + 16)
+  ///   searches for collisions, of which an ordinary step needs a few. The same bits for any number of threads.
   [[nodiscard]] CollisionStepResult operator()(const PositionsRef& V_t0, const PositionsRef& V_candidate,
                                                const CollisionBodies& bodies, double dt_s,
                                                const Patience& patience = {},
@@ -129,8 +130,9 @@ class CollisionStep {
                                                             const Vec3& fall = Vec3::Zero(),
                                                             const Candidates& pressed = {});
 
-  /// Of the mesh and its surfaces.
+  /// Thickness, tolerance and friction of every pair.
   [[nodiscard]] const ContactTable& contact_table() const;
+  /// The faces around every vertex.
   [[nodiscard]] const VertexFaces& vertex_faces() const;
 
  private:

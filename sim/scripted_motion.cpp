@@ -97,12 +97,12 @@ Positions ScriptedMotion::follow(const Positions& x, const StepClock& clock) {
 }
 
 void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x) {
-  const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
+  const Precision precision = scene_.collision.precision;
   const std::vector<VertexId>& vertices = collider.vertices();
-  Positions script_t1 = collider.placed_at(clock.end_s(), float32, x);
+  Positions script_t1 = collider.placed_at(clock.end_s(), precision, x);
   bool is_on_script = true;
   if (scene_.squeeze == SqueezePolicy::kYield) {  // else none has ever waited
-    const Positions now = x_t0(vertices, Eigen::all), script_t0 = collider.placed_at(clock.time_s(), float32, x_t0);
+    const Positions now = x_t0(vertices, Eigen::all), script_t0 = collider.placed_at(clock.time_s(), precision, x_t0);
     is_on_script = now == script_t0;
     if (!is_on_script) {
       const double least_speed_m_s = scene_.collision.thickness_m / kCatchUpTime_s;

@@ -66,32 +66,17 @@ StepResult Simulation::step() {
   const FpEnvGuard guard;
   StepResult result;
   result.is_bent = !shorten_for_scripts();
-  const StepClock::State start = clock_.state();
   shortest_s_ = lengths_.shortest_s(0);
   script_.start_step();
-  std::vector<VertexId> without_room;  // before bodies stood still
-  Try tried = try_step(result);
-  while (tried.failed || !tried.safe.report.waiting_vertices.empty()) {
-    if (tried.failed) {
-      clock_.halve();
-      ++result.halvings;
-    } else {
-      std::ranges::copy(tried.safe.report.without_room, std::back_inserter(without_room));
-      script_.stand_still(tried.safe.report.waiting_vertices);
-      clock_.restore(start);  // who cannot move in the shortest step stands still in the one that was meant
-    }
-    tried = try_step(result);
-  }
+  Try tried = find_good_try(result);
   result.dt_s = clock_.dt_s();
   result.end_s = clock_.end_s();
-  std::tie(tried.safe.report.waiting_bodies, tried.safe.report.waiting_vertices) = script_.waiting();
-  std::ranges::copy(without_room, std::back_inserter(tried.safe.report.without_room));
-  keep_sorted_once(tried.safe.report.without_room);
   if (tried.safe.report.status == StepStatus::kSafe) {
     const PhaseTimer timer(result.phases.velocity);
     commit(tried);
     result.most_strained = most_strained(world_.springs, x_);
-    const bool is_too_short = 2 * clock_.dt_s() <= shortest_s_;  // for what meets now: it was faster
+    // What meets has slowed down since it asked for so short a step.
+    const bool is_too_short = 2 * clock_.dt_s() <= shortest_s_;
     clock_.advance((allowance_.is_good(tried.safe.report) || is_too_short) && result.dynamics.unconverged == 0);
   }
   result.report = std::move(tried.safe.report);
@@ -111,6 +96,30 @@ bool Simulation::shorten_for_scripts() {
   return way != ScriptedMotion::Way::kBent;
 }
 
+// With half the step where a try failed; with those at rest that had to wait, then in the step that was meant, since
+// who cannot move in the shortest step stands still in that.
+Simulation::Try Simulation::find_good_try(StepResult& result) {
+  const StepClock::State meant = clock_.state();
+  std::vector<VertexId> without_room;  // before bodies stood still
+  for (;;) {
+    Try tried = try_step(result);
+    CollisionStepReport& report = tried.safe.report;
+    if (tried.failed) {
+      clock_.halve();
+      ++result.halvings;
+    } else if (!report.waiting_vertices.empty()) {
+      std::ranges::copy(report.without_room, std::back_inserter(without_room));
+      script_.stand_still(report.waiting_vertices);
+      clock_.restore(meant);
+    } else {
+      std::tie(report.waiting_bodies, report.waiting_vertices) = script_.waiting();
+      std::ranges::copy(without_room, std::back_inserter(report.without_room));
+      keep_sorted_once(report.without_room);
+      return tried;
+    }
+  }
+}
+
 // The dynamics, with the contacts that it can hold, then the collision step. Where that leaves more collisions than are
 // borne, or strains springs, or puts energy into them, the dynamics runs again and holds what it met as well.
 Simulation::Try Simulation::try_step(StepResult& result) {
@@ -128,16 +137,22 @@ Simulation::Try Simulation::try_step(StepResult& result) {
     // Cut back by the collision step (travel_limit.h), which a shorter one need not do.
     tried.failed = can_halve() && tried.safe.report.cut_candidates > 0;
     if (tried.failed) return tried;
-    tried.failed = tried.safe.report.status == StepStatus::kAbandoned || (can_halve() && overstrains(tried));
-    const bool is_all_held = tried.safe.met.empty();  // another round would do the same
-    const bool is_new = round == 0 && !is_all_held;   // the first time that more was met than was held
-    const bool gains = !tried.failed && (is_new || can_halve()) && energizes(held_to_the_end, is_new, tried);
-    tried.failed = tried.failed || (gains && !is_new);
-    const bool runs_again = tried.failed || gains;
-    if (is_last || !runs_again) return tried;
-    if (is_all_held) round = kHoldingRounds - 1;
+    const Verdict verdict = judge(held_to_the_end, round == 0, tried);
+    tried.failed = verdict == Verdict::kFailed;
+    if (is_last || verdict == Verdict::kGood) return tried;
+    if (tried.safe.met.empty()) round = kHoldingRounds - 1;  // all is held: what is left to try is the last round
     held.insert(held.end(), tried.safe.met.begin(), tried.safe.met.end());
   }
+}
+
+Simulation::Verdict Simulation::judge(const std::vector<RepulsionContact>& held, bool is_first,
+                                      const Try& tried) const {
+  if (tried.safe.report.status == StepStatus::kAbandoned) return Verdict::kFailed;
+  if (can_halve() && overstrains(tried)) return Verdict::kFailed;
+  const bool is_new = is_first && !tried.safe.met.empty();  // the first time that more was met than was held
+  if (!is_new && !can_halve()) return Verdict::kGood;
+  if (!energizes(held, is_new, tried)) return Verdict::kGood;
+  return is_new ? Verdict::kHoldMore : Verdict::kFailed;
 }
 
 // The contacts that free flight, without springs, would press. Gravity moves the candidate by g dt^2, twice the fall,
@@ -183,7 +198,7 @@ const std::vector<RepulsionContact>& Simulation::run_dynamics(const std::vector<
   return held_to_the_end_;
 }
 
-// Given up early where a shorter step may be tried. How short it may be, what meets says.
+// Stops early where a shorter step may be tried. How short that may be, the fastest of the contacts found here says.
 void Simulation::resolve_collisions(const std::vector<RepulsionContact>& held, bool is_last, Try& tried,
                                     StepPhases& phases) {
   const PhaseTimer timer(phases.collision);
@@ -198,7 +213,7 @@ void Simulation::resolve_collisions(const std::vector<RepulsionContact>& held, b
   if (is_last && tried.safe.report.status == StepStatus::kAbandoned && !can_halve()) resolve(Patience{});
 }
 
-// At the start of the step.
+// By velocities at the start of the step; scripted vertices by their mean over it.
 double Simulation::fastest_contact(const std::vector<RepulsionContact>& contacts, const Positions& candidate) const {
   double fastest_m_s = 0;
   for (const RepulsionContact& contact : contacts) {
@@ -223,8 +238,7 @@ bool Simulation::energizes(const std::vector<RepulsionContact>& held, bool is_ne
   const CollisionStepReport& report = tried.safe.report;
   if (report.status != StepStatus::kSafe || !report.touched()) return false;
   // Rounded as the collision step rounds: where coordinates are large that puts energy into stiff springs by itself.
-  const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
-  const Positions x = float32 ? Positions(tried.candidate.cast<float>().cast<double>()) : tried.candidate;
+  const Positions x = to_lattice(tried.candidate, scene_.collision.precision);
   Positions v = (tried.candidate - x_) / clock_.dt_s();
   for (Eigen::Index i = 0; i < world_.cloth_vertex_count; ++i) {
     if (!script_.is_scripted(static_cast<VertexId>(i))) v.row(i) = tried.end.v.row(i);

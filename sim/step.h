@@ -1,6 +1,6 @@
 // One time step of a scene, as section 5 of the paper lists it: a step size (step_clock.h), a candidate from the
 // dynamics (run_dynamics()), repulsions and collisions (resolve_collisions()), velocities (commit()); tried again with
-// half the step where that is asked (try_step()).
+// half the step where that is asked (find_good_try()).
 #pragma once
 
 #include <memory>
@@ -80,8 +80,17 @@ class Simulation {
   };
   /// Whether a step is short enough then for bodies that turn.
   bool shorten_for_scripts();
+  /// The first try that has not failed and in which nothing has to wait any more; in the clock's step then.
+  Try find_good_try(StepResult& result);
   /// From the state, in the clock's step; adds its phases, and the dynamics' report.
   Try try_step(StepResult& result);
+  enum class Verdict {
+    kGood,      ///< or nothing better can be had
+    kHoldMore,  ///< the dynamics should hold what was met as well
+    kFailed     ///< that, and half the step where it does not help
+  };
+  /// `held`: in the dynamics, to its end.
+  [[nodiscard]] Verdict judge(const std::vector<RepulsionContact>& held, bool is_first, const Try& tried) const;
   /// Contacts that the dynamics should hold from the beginning. `x`: scripted vertices at the end of the step.
   [[nodiscard]] std::vector<RepulsionContact> likely_contacts(Positions x, StepPhases& phases);
   /// From the state to the try's candidate. Gives back the contacts as they were held to the end.

@@ -6,7 +6,6 @@
 
 #include "sim/collision_step.h"
 #include "sim/contact/surface_parts.h"
-#include "sim/dynamics/dynamics.h"
 #include "sim/scene/scene.h"
 #include "sim/world.h"
 

@@ -34,6 +34,8 @@ class StepClock {
   [[nodiscard]] double dt_s() const;
   /// The longest step is dt_s() times two to this.
   [[nodiscard]] std::int32_t halvings() const { return state_.level - min_level_; }
+  /// Whole frames done.
+  [[nodiscard]] std::int64_t frame() const { return state_.frame; }
   [[nodiscard]] bool at_frame() const { return state_.tick == 0; }
   /// Whether half the step is no shorter than `shortest_s`, and than the constructor's.
   [[nodiscard]] bool can_halve(double shortest_s = 0) const;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "sim/response/step_motion.h"
+#include "sim/base/lattice.h"
 
 namespace selvage::sim {
 namespace {
@@ -58,9 +58,8 @@ std::string_view first_bad_option(const CollisionOptions& o) {
   if (!is_finite_nonnegative(o.repulsion_stiffness_n_m)) return "repulsion_stiffness_n_m";
   if (!(o.overlap_fraction >= 0 && o.overlap_fraction <= 1)) return "overlap_fraction";
   if (!(o.relaxation > 0 && o.relaxation <= 1)) return "relaxation";
-  if (o.impulse_iterations < 0) return "impulse_iterations";
-  if (o.zone_iterations < 0) return "zone_iterations";
-  using Precision = CollisionOptions::Precision;
+  if (o.max_impulse_rounds < 0) return "max_impulse_rounds";
+  if (o.max_zone_rounds < 0) return "max_zone_rounds";
   if (o.precision != Precision::kFloat64 && o.precision != Precision::kFloat32) return "precision";
   return o.max_intervals < 1 ? "max_intervals" : "";
 }

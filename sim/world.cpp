@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -147,10 +146,10 @@ class WorldBuilder {
     for (const Collider& collider : world.colliders) world.deforms.push_back(collider.deforms() ? 1 : 0);
     world.mesh = make_mesh(vertex_count(), world.triangles);
     world.stable_step_s = stable_step_s(world.springs, world.inverse_mass, world.stabilizers);
-    const bool float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
-    world.x_t0 = float32 ? Positions(x_.cast<float>().cast<double>()) : std::move(x_);
+    const Precision precision = scene_.collision.precision;
+    world.x_t0 = rounded(std::move(x_), precision);
     world.v_t0 = std::move(v_);
-    for (const Collider& collider : world.colliders) collider.place_at(0, float32, world.x_t0);
+    for (const Collider& collider : world.colliders) collider.place_at(0, precision, world.x_t0);
     return world;
   }
   [[nodiscard]] VertexId vertex_count() const { return static_cast<VertexId>(v_.rows()); }
@@ -248,7 +247,7 @@ class WorldBuilder {
     std::iota(vertices.begin(), vertices.end(), vertex_count());
     bodies_.emplace_back(spec.name, std::move(vertices), std::move(motion), Collider::kNeverReleased_s,
                          rows_in_faces(shape));
-    add_part(spec.name, io::Group::Role::kBody, shape, bodies_.back().placed_at(0, false, x_));
+    add_part(spec.name, io::Group::Role::kBody, shape, bodies_.back().placed_at(0, Precision::kFloat64, x_));
     add_contact(spec.contact);
     inverse_mass_.resize(static_cast<std::size_t>(x_.rows()), 0);
   }
@@ -273,10 +272,9 @@ class WorldBuilder {
     const Collider& carrier = bodies_[body];
     // Where the bodies will stand. How a face of 3 mm has turned is known to 1 in 50 by float32 at a kilometre, and
     // what hung 0.3 m from one that had not moved began 9 mm away from where it was put.
-    const bool is_float32 = scene_.collision.precision == CollisionOptions::Precision::kFloat32;
-    Positions points = x_(vertices, Eigen::all);
-    if (is_float32) points = points.cast<float>().cast<double>().eval();
-    Attachment attachment(std::move(points), faces_of(body), carrier.placed_at(0, is_float32, x_));
+    const Precision precision = scene_.collision.precision;
+    Attachment attachment(rounded(x_(vertices, Eigen::all), precision), faces_of(body),
+                          carrier.placed_at(0, precision, x_));
     return Collider::Carried{std::move(attachment), body, carrier.vertices().front()};
   }
 

@@ -83,10 +83,9 @@ class FrameCheck {
     tally_in_parallel(faces.size(), options_.max_violations, tally_, [&](std::size_t i, Tally& tally) {
       ++tally.pairs.self;
       const std::array<Point, 3> x = corners(faces[i]);
-      Predicates signs(x);
-      const bool degenerate = signs.projection_axis(0, 1, 2) < 0;
-      if (signs.exact_used()) ++tally.pairs.exact;
-      if (asks_again(options_.second_opinion, !signs.exact_used(), degenerate)) {
+      const auto [degenerate, exact_used] = exact_degenerate(x);
+      if (exact_used) ++tally.pairs.exact;
+      if (asks_again(options_.second_opinion, !exact_used, degenerate)) {
         tally.add_second_opinion(EventKind::kSelf, {middle_corner(faces[i]), faces[i]}, degenerate,
                                  options_.second_deciders.degenerate(x));
       }

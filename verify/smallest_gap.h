@@ -1,7 +1,6 @@
 // How close a frame comes to touching.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>

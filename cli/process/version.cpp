@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/version.h>
 
+#include "kernel/version.h"
 #include "verify/report/library_versions.h"
 
 namespace selvage::cli {

@@ -2,7 +2,6 @@
 // vertices where it likes, through the table and through itself. CollisionStep turns what it wants into what is safe.
 //
 //   foreign_integrator [STEPS [FOLDER]]     120 steps; into FOLDER goes every step, for `selvage verify FOLDER`
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -111,7 +110,7 @@ int main(int argc, char** argv) {
 
   selvage::sim::CollisionOptions options;
   options.friction_static = options.friction_kinetic = 0.4;
-  selvage::sim::CollisionStep make_safe(mesh, options);
+  selvage::sim::CollisionStep collide(mesh, options);
   std::vector<double> inverse_mass(kClothVertices, 1 / kVertexMass);
   inverse_mass.resize(static_cast<std::size_t>(x.rows()), 0);  // the table does not move
   std::vector<int> body(kClothVertices, -1);
@@ -127,12 +126,14 @@ int main(int argc, char** argv) {
   long collisions = 0;
   for (int step = 0; step < steps; ++step) {
     integrate(edges, x, v, candidate);
-    const auto safe = make_safe(x, candidate, {inverse_mass, body}, kStep);
+    const auto safe = collide(x, candidate, {inverse_mass, body}, kStep);
     if (safe.report.status != selvage::sim::StepStatus::kSafe) {
-      std::fprintf(stderr, "step %d is not safe\n", step);
+      const auto status = selvage::sim::name_of(safe.report.status);
+      std::fprintf(stderr, "step %d: %.*s: %s\n", step, static_cast<int>(status.size()), status.data(),
+                   selvage::describe(safe.report.input_error));
       return 1;
     }
-    v = (safe.x - x) / kStep;
+    v = safe.velocity;
     x = safe.x;
     if (recorder) recorder->append(step + 1, x);
     collisions += safe.report.first_collisions;

@@ -12,8 +12,6 @@
 namespace selvage::fuzz {
 namespace {
 
-std::array<Vec3, 3> first_three(const std::array<Vec3, 4>& x) { return {x[0], x[1], x[2]}; }
-
 // Point p against the segment (a, b) is point p against the triangle (a, b, b), which is the union of its edges.
 std::array<verify::Point, 4> raw_of(PairKind kind, const std::array<Vec3, 4>& x) {
   std::array<verify::Point, 4> points = raw(x);
@@ -36,15 +34,7 @@ std::string_view name_of(PairKind kind) {
 }
 
 CcdResult selvage_kernel(const MotionQuery& query) {
-  switch (query.kind) {
-    case PairKind::kVf:
-      return vf_ccd(query.x_t0, query.x_t1, query.options);
-    case PairKind::kEe:
-      return ee_ccd(query.x_t0, query.x_t1, query.options);
-    case PairKind::kSelf:
-      break;
-  }
-  return self_ccd(first_three(query.x_t0), first_three(query.x_t1), query.options);
+  return pair_ccd(query.kind, query.x_t0, query.x_t1, query.options);
 }
 
 std::array<verify::Point, 4> raw(const std::array<Vec3, 4>& x) {

@@ -25,7 +25,7 @@ inline constexpr std::array<PairKind, 3> kPairKinds{PairKind::kVf, PairKind::kEe
 /// A collision kernel under test: ours, a baseline, one with a planted defect, or a user's own.
 using CcdKernel = CcdResult (*)(const MotionQuery& query);
 
-/// vf_ccd, ee_ccd or self_ccd.
+/// pair_ccd().
 [[nodiscard]] CcdResult selvage_kernel(const MotionQuery& query);
 
 /// Nothing but doubles crosses into the checker.

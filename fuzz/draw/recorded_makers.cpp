@@ -61,7 +61,7 @@ Recording record() {
   const sim::Scene scene = sim::parse_scene(kScene, "the recorded scene");
   sim::Simulation simulation(scene);
   Recording recording;
-  while (simulation.clock().state().frame < scene.time.frame_count) {
+  while (simulation.clock().frame() < scene.time.frame_count) {
     const Positions x_t0 = simulation.x();
     (void)simulation.step();
     const Mesh& mesh = simulation.world().mesh;

@@ -68,8 +68,8 @@ sim::CollisionOptions choose_step_options(ChoiceSource& source, double gap) {
     options.friction_kinetic = 0.5;
   }
   // Short of rounds, so that every stage gets work, the fail-safe most of all.
-  options.impulse_iterations = source.range(0, 4);
-  options.zone_iterations = source.range(0, 3);
+  options.max_impulse_rounds = source.range(0, 4);
+  options.max_zone_rounds = source.range(0, 3);
   if (source.one_in(4)) options.precision = sim::CollisionOptions::Precision::kFloat32;
   if (source.one_in(16)) options.max_intervals = source.range(1, 64);
   return options;

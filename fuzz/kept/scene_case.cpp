@@ -69,7 +69,7 @@ SceneTrial try_scene(const std::string& text, std::int64_t steps) {
     trial.retrial.unfit = "the scene begins in contact";
     return trial;
   }
-  while (trial.steps < steps && simulation.clock().state().frame < scene.time.frame_count) {
+  while (trial.steps < steps && simulation.clock().frame() < scene.time.frame_count) {
     const Positions x_t0 = simulation.x();
     const sim::CollisionStepReport report = simulation.step().report;
     if (report.status == sim::StepStatus::kInvalidInput) {

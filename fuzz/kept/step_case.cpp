@@ -26,8 +26,8 @@ StepWorld world_of(const MeshCase& kept) {
   options.relaxation = kept.setting("relaxation");
   options.friction_kinetic = kept.setting("friction_kinetic");
   options.friction_static = kept.setting("friction_static");
-  options.impulse_iterations = static_cast<std::int32_t>(kept.setting("impulse_iterations"));
-  options.zone_iterations = static_cast<std::int32_t>(kept.setting("zone_iterations"));
+  options.max_impulse_rounds = static_cast<std::int32_t>(kept.setting("impulse_iterations"));
+  options.max_zone_rounds = static_cast<std::int32_t>(kept.setting("zone_iterations"));
   options.max_intervals = static_cast<std::int32_t>(kept.setting("max_intervals"));
   options.precision = kept.setting("float32") != 0 ? Precision::kFloat32 : Precision::kFloat64;
   world.policy = kept.setting("yield") != 0 ? sim::SqueezePolicy::kYield : sim::SqueezePolicy::kStop;
@@ -98,8 +98,8 @@ MeshCase step_case(const StepWorld& world, const Positions& x_t0, const Position
                    options.relaxation,
                    options.friction_kinetic,
                    options.friction_static,
-                   static_cast<double>(options.impulse_iterations),
-                   static_cast<double>(options.zone_iterations),
+                   static_cast<double>(options.max_impulse_rounds),
+                   static_cast<double>(options.max_zone_rounds),
                    static_cast<double>(options.max_intervals),
                    options.precision == Precision::kFloat32 ? 1.0 : 0.0,
                    world.policy == sim::SqueezePolicy::kYield ? 1.0 : 0.0,

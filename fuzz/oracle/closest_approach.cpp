@@ -40,8 +40,7 @@ double rounded_distance(const MotionQuery& query, double t) {
   const Vec3 origin_t1 = is_far_out ? Vec3(Vec3::Zero()) : query.x_t1[0];
   std::array<Vec3, 4> x;
   for (std::size_t i = 0; i < 4; ++i) x[i] = (1 - t) * (query.x_t0[i] - origin_t0) + t * (query.x_t1[i] - origin_t1);
-  if (query.kind == PairKind::kSelf) x[3] = x[2];
-  return query.kind == PairKind::kEe ? ee_proximity(x).distance : vf_proximity(x).distance;
+  return pair_proximity(query.kind, x).distance;
 }
 
 double relative_speed_upper(const MotionQuery& query) {

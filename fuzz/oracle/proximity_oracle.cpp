@@ -97,7 +97,7 @@ std::string_view name_of(ProximityDefect defect) {
 }
 
 ProximityJudgement judge_proximity(PairKind kind, const std::array<Vec3, 4>& x) {
-  const Proximity proximity = kind == PairKind::kEe ? ee_proximity(x) : vf_proximity(x);
+  const Proximity proximity = pair_proximity(kind, x);
   const double size = largest_coordinate_distance(x);
   ProximityJudgement judgement;
   judgement.defect = find_defect(kind, x, proximity, size);

@@ -1,8 +1,6 @@
 // The geometric shrinker of meshes: a handful of vertices with short numbers instead of a surface.
 #pragma once
 
-#include <functional>
-
 #include "fuzz/kept/mesh_case.h"
 
 namespace selvage::fuzz {

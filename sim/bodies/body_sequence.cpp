@@ -1,7 +1,6 @@
 #include "sim/bodies/body_sequence.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/checksum.h"
 #include "io/numbered_files.h"

@@ -34,7 +34,7 @@ using Follower = std::function<Positions(const Positions& x)>;
 /// Of all followers while the script moves the body, which is placed once for each time.
 std::vector<Passage> passages(const Collider& body, double t0_s, double t1_s, const std::vector<double>& times,
                               const std::vector<Follower>& followers) {
-  const auto placed = [&](double time_s) { return body.placed_at(time_s, false, {}); };
+  const auto placed = [&](double time_s) { return body.placed_at(time_s, Precision::kFloat64, {}); };
   const Positions to = placed(t1_s);  // the first last: a sequence keeps two frames
   const Positions from = placed(t0_s), middle = placed((t0_s + t1_s) / 2);
   std::vector<Passage> passages;
@@ -76,10 +76,8 @@ const BodySequence* Collider::sequence() const {
   return animated != nullptr ? animated->local.get() : nullptr;
 }
 
-Positions Collider::placed_at(double time_s, bool round_to_float32, const Positions& x) const {
-  Positions placed = std::visit(Place{time_s, x}, motion_);
-  if (round_to_float32) placed = placed.cast<float>().cast<double>().eval();
-  return placed;
+Positions Collider::placed_at(double time_s, Precision precision, const Positions& x) const {
+  return rounded(std::visit(Place{time_s, x}, motion_), precision);
 }
 
 std::optional<std::size_t> Collider::carrier() const {
@@ -156,8 +154,8 @@ std::vector<Collider::Bend> Collider::bends(double t0_s, double t1_s, std::span<
   return bends;
 }
 
-void Collider::place_at(double time_s, bool round_to_float32, Positions& x) const {
-  const Positions placed = placed_at(time_s, round_to_float32, x);
+void Collider::place_at(double time_s, Precision precision, Positions& x) const {
+  const Positions placed = placed_at(time_s, precision, x);
   for (std::size_t i = 0; i < vertices_.size(); ++i) x.row(vertices_[i]) = placed.row(static_cast<Eigen::Index>(i));
 }
 

@@ -57,7 +57,7 @@ class Collider {
   /// Its vertices, in their order, at the time: the script exactly, rounded to the precision of the state. x: all
   /// vertices, of which what is carried looks where its body is. Throws io::Error where a frame of the sequence cannot
   /// be read any more.
-  [[nodiscard]] Positions placed_at(double time_s, bool round_to_float32, const Positions& x) const;
+  [[nodiscard]] Positions placed_at(double time_s, Precision precision, const Positions& x) const;
   /// Of its vertices that cloth can meet, between two times.
   struct Bend {
     double leaves_line_by_m = 0;  ///< how far they leave the straight lines from where they are first to where at last
@@ -74,7 +74,7 @@ class Collider {
   /// Of all its vertices in a step between (Passage). REQUIRES that nothing carries it.
   [[nodiscard]] Positions bow_m(double t0_s, double t1_s) const;
   /// Writes them to their rows.
-  void place_at(double time_s, bool round_to_float32, Positions& x) const;
+  void place_at(double time_s, Precision precision, Positions& x) const;
 
  private:
   /// Null where nothing carries it.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "sim/base/lattice.h"
 #include "sim/contact/contact_properties.h"
 
 namespace selvage::sim {
@@ -23,10 +24,11 @@ struct CollisionOptions {
   double friction_static = 0;            ///< Coulomb coefficient, dimensionless, >= friction_kinetic
   double friction_kinetic = 0;           ///< Coulomb coefficient, dimensionless, >= 0
   bool repulsion = true;                 ///< section 7.2 and 7.3 at all
-  std::int32_t impulse_iterations = 10;  ///< rounds of section 7.4 before impact zones, >= 0
-  std::int32_t zone_iterations = 20;     ///< rounds of section 7.5 before the fail-safe, >= 0
-  enum class Precision { kFloat64, kFloat32 } precision = Precision::kFloat64;  ///< lattice that the result lies on
-  std::int32_t max_intervals = 4096;                                            ///< CcdOptions::max_intervals, >= 1
+  std::int32_t max_impulse_rounds = 10;  ///< rounds of section 7.4 before impact zones, >= 0
+  std::int32_t max_zone_rounds = 20;     ///< rounds of section 7.5 before the fail-safe, >= 0
+  using Precision = sim::Precision;
+  Precision precision = Precision::kFloat64;  ///< lattice that the result lies on
+  std::int32_t max_intervals = 4096;          ///< CcdOptions::max_intervals, >= 1
 };
 
 /// The part of the options that ContactSurfaces replaces.

@@ -1,6 +1,8 @@
 // The contact properties of every pair of a mesh.
 #pragma once
 
+#include <vector>
+
 #include "kernel/mesh.h"
 #include "sim/contact/collision_options.h"
 #include "sim/contact/contact_surfaces.h"

@@ -1,7 +1,5 @@
 #include "sim/dynamics/contact_gains.h"
 
-#include <algorithm>
-
 #include "sim/base/parallel.h"
 #include "sim/contact/cloth_sets.h"
 

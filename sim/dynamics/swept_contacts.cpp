@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -130,7 +129,10 @@ void SweptContacts::set_straight() {
   for (std::size_t place = 0; place < contact_at_.size(); ++place) {
     if (contact_at_[place] == ContactGroups::kNobody || !contact_at(place).straight.is_anywhere()) continue;
     PackState& state = states_[place / kLanes];
-    if (state.straight == 0) state.straight_at = static_cast<std::uint32_t>(straight_.size()), straight_.emplace_back();
+    if (state.straight == 0) {
+      state.straight_at = static_cast<std::uint32_t>(straight_.size());
+      straight_.emplace_back();
+    }
     state.straight |= only_lane(place % kLanes);
     if (contact_at(place).is_beyond) state.beyond |= only_lane(place % kLanes);
   }

@@ -5,7 +5,7 @@
 namespace selvage::sim {
 
 void add_waits(const Simulation& simulation, const StepResult& step, BodyWaits& waits) {
-  const bool float32 = simulation.scene().collision.precision == CollisionOptions::Precision::kFloat32;
+  const Precision precision = simulation.scene().collision.precision;
   const double now_s = simulation.clock().time_s();
   for (const std::int32_t id : step.report.waiting_bodies) {
     const Collider& body = simulation.world().colliders[static_cast<std::size_t>(id)];
@@ -14,7 +14,7 @@ void add_waits(const Simulation& simulation, const StepResult& step, BodyWaits& 
     if (wait == waits.end() || wait->collider != id) wait = waits.insert(wait, {id, 0, now_s - step.dt_s, now_s, 0});
     ++wait->steps;
     wait->end_s = now_s;
-    const double lag_m = (body.placed_at(now_s, float32, simulation.x()) - placed).rowwise().norm().maxCoeff();
+    const double lag_m = (body.placed_at(now_s, precision, simulation.x()) - placed).rowwise().norm().maxCoeff();
     wait->largest_lag_m = std::max(wait->largest_lag_m, lag_m);
   }
 }

@@ -1,7 +1,6 @@
 // What the steps of a run did, summed up: the numbers of run.json.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 

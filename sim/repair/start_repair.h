@@ -2,6 +2,8 @@
 // it (relax_springs.h).
 #pragma once
 
+#include <vector>
+
 #include "sim/repair/untangle.h"
 #include "sim/step.h"
 

@@ -51,17 +51,7 @@ CcdResult CollisionTracker::ask(const Collision& pair, const StepMotion& motion,
   const auto corners = [&](const Positions& V) {
     return std::array<Vec3, 4>{V.row(v[0]), V.row(v[1]), V.row(v[2]), V.row(v[3])};
   };
-  const std::array<Vec3, 4> x_t0 = corners(motion.V_t0()), x_t1 = corners(motion.x());
-  const CcdOptions options{tolerance_m, max_intervals_};
-  switch (pair.kind) {
-    case PairKind::kVf:
-      return vf_ccd(x_t0, x_t1, options);
-    case PairKind::kEe:
-      return ee_ccd(x_t0, x_t1, options);
-    case PairKind::kSelf:
-      break;
-  }
-  return self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
+  return pair_ccd(pair.kind, corners(motion.V_t0()), corners(motion.x()), {tolerance_m, max_intervals_});
 }
 
 void CollisionTracker::hold_to_own_tolerance(const StepMotion& motion, CollisionReport& found) const {

@@ -36,7 +36,7 @@ class ParallelUpdate {
 
 /// Separation that a colliding pair is pushed to at the end of the step, in tolerances. With n pairs at a vertex one
 /// round gives 1 / n of the push, and what matters is when `tolerance` is passed: at 2 after ln 2 / ln(n / (n-1))
-/// rounds, which is 7 for n = 10, within the default impulse_iterations.
+/// rounds, which is 7 for n = 10, within the default max_impulse_rounds.
 inline constexpr double kPushTolerances = 2;
 
 /// The relative displacement that the pair must gain along a direction in which it is `gap_t0` apart at the start and

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "sim/contact/contact_reach.h"
+
 namespace selvage::sim {
 
 Repulsion repulsion(double overlap, double displacement, double inverse_mass_kg, const CollisionOptions& options,

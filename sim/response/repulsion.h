@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sim/contact/collision_options.h"
-#include "sim/contact/contact_reach.h"
 #include "sim/contact/repulsion_contact.h"
 #include "sim/response/friction.h"
 #include "sim/response/step_motion.h"

@@ -7,18 +7,12 @@
 
 namespace selvage::sim {
 
-double to_lattice(double x, CollisionOptions::Precision precision) {
-  if (precision == CollisionOptions::Precision::kFloat64) return std::clamp(x, -kMaxCoordinate, kMaxCoordinate);
-  constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
-  return static_cast<double>(static_cast<float>(std::clamp(x, -kMaxFloat, kMaxFloat)));
-}
-
 void StepMotion::start(const PositionsRef& V_t0, const PositionsRef& V_t1, Precision precision) {
   V_t0_ = V_t0;
   const double limit = to_lattice(std::numeric_limits<double>::max(), precision);
   displacement_ = V_t1.cwiseMax(-limit).cwiseMin(limit) - V_t0;
   precision_ = precision;
-  x_ = V_t1.unaryExpr([precision](double value) { return to_lattice(value, precision); });
+  x_ = to_lattice(V_t1, precision);
   changed_.assign(static_cast<std::size_t>(V_t0.rows()), 0);
   anything_changed_ = false;
 }

@@ -5,17 +5,12 @@
 #include <vector>
 
 #include "kernel/types.h"
-#include "sim/contact/collision_options.h"
+#include "sim/base/lattice.h"
 
 namespace selvage::sim {
 
-/// The nearest number of the lattice within the domain: |x| <= kMaxCoordinate, or <= the largest float32.
-[[nodiscard]] double to_lattice(double x, CollisionOptions::Precision precision);
-
 class StepMotion {
  public:
-  using Precision = CollisionOptions::Precision;
-
   void start(const PositionsRef& V_t0, const PositionsRef& V_t1, Precision precision);
 
   [[nodiscard]] const Positions& V_t0() const { return V_t0_; }

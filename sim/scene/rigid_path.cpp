@@ -1,7 +1,6 @@
 #include "sim/scene/rigid_path.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <Eigen/Geometry>

@@ -299,9 +299,9 @@ CollisionOptions read_collision(TomlTable table) {
   options.repulsion_stiffness_n_m = table.number("repulsion_stiffness_n_m", kNotNegative, 0);
   options.overlap_fraction = table.number("overlap_fraction", {0, 1}, options.overlap_fraction);
   options.relaxation = table.number("relaxation", {0, 1, true}, options.relaxation);
-  options.impulse_iterations =
-      static_cast<std::int32_t>(table.integer("impulse_rounds", 0, 1000, options.impulse_iterations));
-  options.zone_iterations = static_cast<std::int32_t>(table.integer("zone_rounds", 0, 1000, options.zone_iterations));
+  options.max_impulse_rounds =
+      static_cast<std::int32_t>(table.integer("impulse_rounds", 0, 1000, options.max_impulse_rounds));
+  options.max_zone_rounds = static_cast<std::int32_t>(table.integer("zone_rounds", 0, 1000, options.max_zone_rounds));
   options.precision = table.choice("precision", {"float64", "float32"}) == 0 ? CollisionOptions::Precision::kFloat64
                                                                              : CollisionOptions::Precision::kFloat32;
   table.finish();

@@ -1,6 +1,5 @@
 #include "sim/springs/spring_lanes.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "sim/base/parallel.h"

@@ -1,6 +1,5 @@
 #include "sim/springs/stabilizer_lanes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/kernel/ccd_of_kind.h"
+#include "tests/kernel/random_ccd_queries.h"
 
 namespace selvage {
 
-using testing::ccd;
 using testing::ConstructedContact;
 using testing::ContactGenerator;
 using testing::kKinds;
@@ -46,10 +45,10 @@ TEST(Ccd, RelabellingChangesNoBit) {
   for (int i = 0; i < 3000; ++i) {
     const PairKind kind = kKinds[i % 3];
     const ConstructedContact query = random_query(random, generator, kind);
-    const CcdResult one = ccd(kind, query.x_t0, query.x_t1, CcdOptions{});
+    const CcdResult one = pair_ccd(kind, query.x_t0, query.x_t1, CcdOptions{});
     for (const Relabelling& label : relabellings(kind)) {
       const CcdResult other =
-          ccd(kind, relabelled(query.x_t0, label.order), relabelled(query.x_t1, label.order), CcdOptions{});
+          pair_ccd(kind, relabelled(query.x_t0, label.order), relabelled(query.x_t1, label.order), CcdOptions{});
       EXPECT_EQ(other.verdict, one.verdict);
       EXPECT_EQ(other.cause, one.cause);
       EXPECT_EQ(other.toi_lower, one.toi_lower);
@@ -77,9 +76,9 @@ TEST(Ccd, ScalingByAPowerOfTwoScalesTheAnswer) {
     const ConstructedContact query = random_query(random, generator, kind);
     const int exponent = random.integer(-900, 900);
     const double scale = std::ldexp(1.0, exponent);
-    const CcdResult one = ccd(kind, query.x_t0, query.x_t1, {1e-6, 4096});
-    const CcdResult other = ccd(kind, placed(query.x_t0, scale, Vec3::Zero()), placed(query.x_t1, scale, Vec3::Zero()),
-                                {std::ldexp(1e-6, exponent), 4096});
+    const CcdResult one = pair_ccd(kind, query.x_t0, query.x_t1, {1e-6, 4096});
+    const CcdResult other = pair_ccd(kind, placed(query.x_t0, scale, Vec3::Zero()),
+                                     placed(query.x_t1, scale, Vec3::Zero()), {std::ldexp(1e-6, exponent), 4096});
     EXPECT_EQ(other.verdict, one.verdict);
     EXPECT_EQ(other.toi_lower, one.toi_lower);
     EXPECT_EQ(other.gap_bound, std::ldexp(one.gap_bound, exponent));

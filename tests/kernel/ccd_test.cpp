@@ -6,14 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/kernel/ccd_of_kind.h"
 #include "tests/kernel/constructed_contact.h"
 #include "tests/kernel/exact_proximity.h"
+#include "tests/kernel/random_ccd_queries.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage {
 
-using testing::ccd;
 using testing::ConstructedContact;
 using testing::contact_of;
 using testing::ContactGenerator;
@@ -53,7 +52,7 @@ double size_of(const Points& x_t0, const Points& x_t1) {
 
 /// K1, K2 and K3 for a pair that is known to touch at `contact_time`.
 void expect_contact(PairKind kind, const Points& x_t0, const Points& x_t1, double contact_time) {
-  const CcdResult result = ccd(kind, x_t0, x_t1, kNoTolerance);
+  const CcdResult result = pair_ccd(kind, x_t0, x_t1, kNoTolerance);
   EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
   EXPECT_EQ(result.cause, CcdCause::kMotion);
   EXPECT_LE(result.toi_lower, contact_time);
@@ -155,7 +154,7 @@ TEST(Ccd, ContactsWithoutRelativeMotionAreFound) {
       contact.x_t0[k] = meeting;
       contact.x_t1[k] = meeting + velocity;
     }
-    const CcdResult result = ccd(kind, contact.x_t0, contact.x_t1, kNoTolerance);
+    const CcdResult result = pair_ccd(kind, contact.x_t0, contact.x_t1, kNoTolerance);
     EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
     EXPECT_EQ(result.toi_lower, 0);
   }
@@ -186,7 +185,7 @@ TEST(Ccd, TimesOfSimpleContactsAreTight) {
 // The features have no distance there that could tell a direction.
 TEST(Ccd, AContactOnABorderHasANormal) {
   const auto normal = [](PairKind kind, const Points& x_t0, const Points& x_t1) {
-    const CcdResult result = ccd(kind, x_t0, x_t1, kNoTolerance);
+    const CcdResult result = pair_ccd(kind, x_t0, x_t1, kNoTolerance);
     EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
     EXPECT_NEAR(result.normal.norm(), 1, 1e-15);
     return result.normal;
@@ -212,7 +211,7 @@ TEST(Ccd, AlarmsAreNearContacts) {
   for (int i = 0; i < 4000; ++i) {
     const PairKind kind = kKinds[i % 3];
     const ConstructedContact query = random_query(random, generator, kind);
-    const CcdResult result = ccd(kind, query.x_t0, query.x_t1, kNoTolerance);
+    const CcdResult result = pair_ccd(kind, query.x_t0, query.x_t1, kNoTolerance);
     EXPECT_NE(result.verdict, CcdVerdict::kUnresolved);
     if (result.verdict != CcdVerdict::kCollides) continue;
     ++alarms;
@@ -241,7 +240,7 @@ TEST(Ccd, SeparatedMotionsRaiseNoAlarm) {
         (*x)[k][2] = (*x)[k][0] + (k < first_feature ? side : -side);
       }
     }
-    EXPECT_EQ(ccd(kind, x_t0, x_t1, kNoTolerance).verdict, CcdVerdict::kSeparated);
+    EXPECT_EQ(pair_ccd(kind, x_t0, x_t1, kNoTolerance).verdict, CcdVerdict::kSeparated);
   }
 }
 
@@ -286,7 +285,7 @@ TEST(Ccd, CornersThatPassThroughOnePointAreDecided) {
       double& coordinate = x[static_cast<std::size_t>(random.integer(0, 3))][random.integer(0, 2)];
       coordinate = std::nextafter(coordinate, random.chance(2) ? 100.0 : -100.0);
     }
-    const CcdResult result = ccd(kind, x_t0, x_t1, kNoTolerance);
+    const CcdResult result = pair_ccd(kind, x_t0, x_t1, kNoTolerance);
     EXPECT_NE(result.verdict, CcdVerdict::kUnresolved) << i << " stops at " << result.toi_lower;
     separated += result.verdict == CcdVerdict::kSeparated;
     if (result.verdict == CcdVerdict::kCollides) expect_gap(kind, x_t0, x_t1, result);
@@ -365,7 +364,7 @@ TEST(Ccd, TheEndIsJudgedByTheTolerance) {
       }
     }
     const double tolerance = std::ldexp(1 + std::fabs(random.uniform()), -random.integer(0, 12));
-    const CcdResult result = ccd(kind, x_t0, x_t1, {tolerance, 4096});
+    const CcdResult result = pair_ccd(kind, x_t0, x_t1, {tolerance, 4096});
     const Rational end_squared = distance_squared_at(kind, x_t0, x_t1, 1);
     if (result.verdict == CcdVerdict::kSeparated) {
       EXPECT_TRUE(end_squared > squared(exact(tolerance)));
@@ -387,9 +386,9 @@ TEST(Ccd, AReachedLimitIsUnresolvedAndItsTimeIsSafe) {
   for (int i = 0; i < 3000; ++i) {
     const PairKind kind = kKinds[i % 3];
     const ConstructedContact query = random_query(random, generator, kind);
-    const CcdResult full = ccd(kind, query.x_t0, query.x_t1, kNoTolerance);
+    const CcdResult full = pair_ccd(kind, query.x_t0, query.x_t1, kNoTolerance);
     const int limit = random.integer(1, 40);
-    const CcdResult result = ccd(kind, query.x_t0, query.x_t1, {0, limit});
+    const CcdResult result = pair_ccd(kind, query.x_t0, query.x_t1, {0, limit});
     EXPECT_LE(result.intervals, limit);
     EXPECT_LE(full.intervals, 4096);
     if (result.verdict != CcdVerdict::kSeparated) expect_convex(kind, result.weights);
@@ -423,12 +422,12 @@ TEST(Ccd, OutsideTheDomainIsUnresolved) {
       for (std::size_t i = 0; i < (kind == PairKind::kSelf ? 3U : 4U); ++i) {
         Points x = contact.x_t0;
         x[i][static_cast<int>(i) % 3] = bad;
-        expect_unresolved(ccd(kind, x, contact.x_t1, kNoTolerance));
-        expect_unresolved(ccd(kind, contact.x_t0, x, kNoTolerance));
+        expect_unresolved(pair_ccd(kind, x, contact.x_t1, kNoTolerance));
+        expect_unresolved(pair_ccd(kind, contact.x_t0, x, kNoTolerance));
       }
     }
     for (const double bad : {nan, infinity, -1.0}) {
-      expect_unresolved(ccd(kind, contact.x_t0, contact.x_t1, {bad, 4096}));
+      expect_unresolved(pair_ccd(kind, contact.x_t0, contact.x_t1, {bad, 4096}));
     }
   }
 }

@@ -48,7 +48,7 @@ sim::Simulation make_simulation(std::uint64_t seed) {
 }
 
 bool runs(const sim::Simulation& simulation) {
-  return simulation.clock().state().frame < simulation.scene().time.frame_count;
+  return simulation.clock().frame() < simulation.scene().time.frame_count;
 }
 
 verify::Surface surface_of(const sim::World& world, std::vector<std::uint8_t>& is_body) {
@@ -76,9 +76,9 @@ std::string judge_step(const sim::Simulation& simulation, const sim::SimulationS
       verify::check_frame(surface, points, {}).violations_total.total() != 0) {
     return "a step touches";
   }
-  const bool float32 = simulation.scene().collision.precision == sim::CollisionOptions::Precision::kFloat32;
+  const sim::Precision precision = simulation.scene().collision.precision;
   Positions scripted = simulation.x();
-  for (const sim::Collider& body : world.colliders) body.place_at(simulation.clock().time_s(), float32, scripted);
+  for (const sim::Collider& body : world.colliders) body.place_at(simulation.clock().time_s(), precision, scripted);
   if (scripted != simulation.x()) return "off script";
   // Springs keep the cloth's momentum: but for contacts that act within the dynamics, the end of the step is half a
   // step of gravity faster than its mean (7.6).
@@ -87,7 +87,7 @@ std::string judge_step(const sim::Simulation& simulation, const sim::SimulationS
   const Vec3 mean = weighed(world, moved) / step.dt_s;
   const Vec3 half_gravity(0, 0, -kGravity * step.dt_s / 2 * mass);
   const Vec3 off = weighed(world, simulation.state().v) - mean - half_gravity;
-  const double rounding = float32 ? 1e-6 * mass / step.dt_s : 1e-6 * half_gravity.norm();
+  const double rounding = precision == sim::Precision::kFloat32 ? 1e-6 * mass / step.dt_s : 1e-6 * half_gravity.norm();
   if (step.held_repulsions == 0 && off.norm() > rounding) return "velocities are not those of the motion";
   return simulation.state().clock.frame == 0 && simulation.state().clock.tick == 0 ? "the clock stands" : "";
 }
@@ -134,7 +134,7 @@ std::string judge_recording(std::uint64_t seed) {
     sim::Recorder recorder(folder.path() / "run", part, io::SequenceKind::kSteps, resume, "selvage");
     recorder.begin();
     const auto stop = resume ? scene.time.frame_count : scene.time.frame_count / 2 + 1;
-    while (part.clock().state().frame < stop) recorder.record(part.step());
+    while (part.clock().frame() < stop) recorder.record(part.step());
   }
   const auto sequence = io::open_sequence({folder.path() / "run"}, {});
   if (sequence->frame_count() != states.size()) return "steps were lost or repeated";

@@ -82,8 +82,8 @@ void attack(StepScene& scene, Attack kind, Noise& noise) {
 }
 
 void random_options(StepScene& scene) {
-  scene.options.impulse_iterations = integer_in(0, 3) == 0 ? 0 : integer_in(0, 11);
-  scene.options.zone_iterations = integer_in(0, 3) == 0 ? 0 : integer_in(0, 21);
+  scene.options.max_impulse_rounds = integer_in(0, 3) == 0 ? 0 : integer_in(0, 11);
+  scene.options.max_zone_rounds = integer_in(0, 3) == 0 ? 0 : integer_in(0, 21);
   scene.options.repulsion = integer_in(0, 3) != 0;
   scene.options.repulsion_stiffness_n_m = integer_in(0, 2) == 0 ? 0 : magnitude(0, 20);
   scene.options.friction_static = integer_in(0, 2) == 0 ? 0 : number_between(0, 1);
@@ -235,7 +235,7 @@ TEST(CollisionStepProperties, ImpulsesAndFrictionKeepMomentumAndAddNoEnergy) {
     random_options(scene);
     scene.options.repulsion_stiffness_n_m = 0;
     scene.options.tolerance_m = 0;  // the push to the tolerance is the one thing that adds energy
-    scene.options.impulse_iterations = 10;
+    scene.options.max_impulse_rounds = 10;
     add_layers(scene, 3, noise);
     for (double& inverse_mass : scene.inverse_mass) inverse_mass = inverse_mass > 0 ? inverse_mass : 1;
     attack(scene, static_cast<Attack>(integer_in(1, 4)), noise);

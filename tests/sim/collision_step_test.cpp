@@ -184,8 +184,8 @@ TEST(CollisionStep, FailSafeAloneKeepsAnyCandidateFree) {
     std::uniform_real_distribution<double> unit(-1, 1);
     for (int layer = 0; layer < 3; ++layer) scene.add(sheet(5), Vec3(0, 0, 1e-3 * layer));
     scene.V_candidate = scene.V_t0.unaryExpr([&](double x) { return x + scale * unit(engine); });
-    scene.options.impulse_iterations = 0;
-    scene.options.zone_iterations = 0;
+    scene.options.max_impulse_rounds = 0;
+    scene.options.max_zone_rounds = 0;
     scene.options.repulsion = false;
     const CollisionStepResult result = scene.step();
     SCOPED_TRACE(scale);
@@ -201,7 +201,7 @@ TEST(CollisionStep, ImpactZonesAloneResolveACrumple) {
   for (int layer = 0; layer < 4; ++layer) scene.add(sheet(6), Vec3(1e-3 * layer, 0, 2e-3 * layer));
   const StepScene::Part beside = scene.add(sheet(2), Vec3(1, 0, 0));
   for (VertexId v = 0; v < beside.begin; ++v) scene.V_candidate(v, 2) = 4e-3 - scene.V_t0(v, 2);
-  scene.options.impulse_iterations = 0;
+  scene.options.max_impulse_rounds = 0;
   scene.options.repulsion = false;
   const Positions v_before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
   const CollisionStepResult result = scene.step();
@@ -294,13 +294,13 @@ TEST(CollisionStep, NamesPairsBelowToleranceAndPushesThemApart) {
   StepScene scene;
   const auto lower = scene.add(triangle(0.1), Vec3::Zero());
   scene.add(triangle(0.01), Vec3(0, 0, 2e-7));
-  scene.options.impulse_iterations = 0;
-  scene.options.zone_iterations = 0;
+  scene.options.max_impulse_rounds = 0;
+  scene.options.max_zone_rounds = 0;
   const CollisionStepResult unpushed = scene.step();  // nothing moves
   EXPECT_EQ(exact_defect(scene, unpushed), "");
   EXPECT_EQ(unpushed.x, scene.V_t0);
   EXPECT_GE(unpushed.report.below_tolerance.size(), 3U);
-  scene.options.impulse_iterations = 10;
+  scene.options.max_impulse_rounds = 10;
   const CollisionStepResult pushed = scene.step();
   EXPECT_EQ(exact_defect(scene, pushed), "");
   EXPECT_TRUE(pushed.report.below_tolerance.empty());
@@ -313,8 +313,8 @@ TEST(CollisionStep, CountsPairsThatItTakesOnTrust) {
   StepScene apart;
   apart.add(triangle(0.1), Vec3::Zero());
   apart.add(triangle(0.01), Vec3(0, 0, 2e-7));
-  apart.options.impulse_iterations = 0;
-  apart.options.zone_iterations = 0;
+  apart.options.max_impulse_rounds = 0;
+  apart.options.max_zone_rounds = 0;
   const CollisionStepResult near = apart.step();
   EXPECT_FALSE(near.report.below_tolerance.empty());
   EXPECT_EQ(near.report.trusted_pairs, 0);
@@ -336,10 +336,10 @@ TEST(CollisionStep, AZoneRestoresTheToleranceWithinAFace) {
   const Vec3 across = Vec3::UnitZ().cross(b - a).normalized();
   scene.V_t0.row(face.begin + 2) = (a + b) / 2 + 2e-4 * across;
   scene.V_candidate.row(face.begin + 2) = (a + b) / 2 + 5e-5 * across;
-  scene.options.impulse_iterations = 0;
-  scene.options.zone_iterations = 0;
+  scene.options.max_impulse_rounds = 0;
+  scene.options.max_zone_rounds = 0;
   EXPECT_EQ(scene.step().report.below_tolerance.size(), 1U);
-  scene.options.zone_iterations = 10;
+  scene.options.max_zone_rounds = 10;
   const CollisionStepResult result = scene.step();
   EXPECT_EQ(exact_defect(scene, result), "");
   EXPECT_TRUE(result.report.below_tolerance.empty());

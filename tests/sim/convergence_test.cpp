@@ -24,7 +24,7 @@ Positions fall(const std::string& solver, int n, int steps, double time_s, doubl
       ", width_m = 0.4, height_m = 0.4}\ndensity_kg_m2 = 0.2\nmasses = \"area\"\nstretch_n_m = 40\nshear_n_m = 20\n"
       "[[cloth.pin]]\nedge = \"top\"\n";
   Simulation simulation(parse_scene(text, "fall.toml"));
-  while (simulation.clock().state().frame < 1) {
+  while (simulation.clock().frame() < 1) {
     const StepResult step = simulation.step();
     EXPECT_EQ(step.report.status, StepStatus::kSafe);
     EXPECT_EQ(step.report.repulsions, 0);

@@ -150,7 +150,7 @@ void expect_no_gain(const std::string& text, std::int64_t least_contacts, Vertex
   Simulation simulation(parse_scene(text, "gain.toml"));
   const double start_j = energy_j(simulation, count);
   std::int64_t contacts = 0;
-  while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
+  while (simulation.clock().frame() < simulation.scene().time.frame_count) {
     const StepResult step = simulation.step();
     contacts += step.report.repulsions;
     EXPECT_LT(energy_j(simulation, count), 1.01 * start_j) << simulation.clock().time_s() << " s\n" << text;
@@ -308,7 +308,7 @@ double most_energy_beside(double speed_m_s) {
   const double start_j = beside_j();
   double most_j = start_j;
   std::int64_t contacts = 0;
-  while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
+  while (simulation.clock().frame() < simulation.scene().time.frame_count) {
     contacts += simulation.step().report.repulsions;
     most_j = std::max(most_j, beside_j());
   }
@@ -364,7 +364,7 @@ TEST(Energy, RoundingToFloat32IsNoGain) {
             "[[body.key]]\ntime_s = 1\n" + at(c.far_m + c.speed_m_s, "0"),
         "rounding.toml"));
     std::int64_t contacts = 0;
-    while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
+    while (simulation.clock().frame() < simulation.scene().time.frame_count) {
       const StepResult step = simulation.step();
       contacts += step.report.repulsions;
       ASSERT_EQ(step.halvings, 0) << c.far_m << " " << simulation.clock().time_s() << " s";

@@ -23,7 +23,7 @@ inline std::int64_t violations(const sim::World& world, const Positions& x_t0, c
 /// Goes to frame `end`; every step is safe and exactly free, or fails the test, and look(step) follows it.
 template <class Look>
 void run_exactly_free(sim::Simulation& simulation, std::int64_t end, const Look& look) {
-  while (simulation.clock().state().frame < end) {
+  while (simulation.clock().frame() < end) {
     const Positions before = simulation.x();
     const sim::StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, sim::StepStatus::kSafe);

@@ -16,7 +16,7 @@ std::string solved_by(const std::string& solver) { return "solver = \"" + solver
 /// The first `rows` vertices after `frames`.
 Positions first_rows_after(const std::string& scene, std::int64_t frames, Eigen::Index rows) {
   Simulation simulation(parse_scene(scene, "far.toml"));
-  while (simulation.clock().state().frame < frames) EXPECT_EQ(simulation.step().report.status, StepStatus::kSafe);
+  while (simulation.clock().frame() < frames) EXPECT_EQ(simulation.step().report.status, StepStatus::kSafe);
   return simulation.x().topRows(rows);
 }
 

@@ -170,7 +170,7 @@ TEST(Physics, SheetSticksWhereStaticFrictionHoldsItAndKineticWouldNot) {
                       solver, kDown, -kInto, frames_per_s, margin * kDown / kInto, cells, cells),
           "slope.toml"));
       const double start = mean(simulation.x(), 0, 144).x();
-      while (simulation.clock().state().frame < simulation.scene().time.frame_count) simulation.step();
+      while (simulation.clock().frame() < simulation.scene().time.frame_count) simulation.step();
       EXPECT_NEAR(mean(simulation.x(), 0, 144).x(), start, 1e-8)
           << solver << ", " << cells << " vertices a side, " << frames_per_s << " frames a second";
     }
@@ -307,7 +307,7 @@ TEST(Physics, ClothThatHangsByTwoCornersIsHeldByItsLimit) {
                   "[[cloth.pin]]\nvertices = [0, 39]\n",
                   "hang.toml"));
   double largest = 0;
-  while (simulation.clock().state().frame < simulation.scene().time.frame_count) {
+  while (simulation.clock().frame() < simulation.scene().time.frame_count) {
     // 0.2. By two rounds of Jacobi, which pass a load on by two springs a step, 0.93.
     const double strain = simulation.step().most_strained.strain;
     EXPECT_LT(strain, 0.25) << simulation.clock().time_s() << " s";

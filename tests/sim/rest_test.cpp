@@ -58,7 +58,7 @@ double most_in_a_frame_m(const Drape& drape, std::int64_t seconds) {
   double result = 0;
   for (std::int64_t frame = 0; frame < 30 * seconds; ++frame) {
     const Positions x = simulation.x();
-    while (simulation.clock().state().frame == frame) simulation.step();
+    while (simulation.clock().frame() == frame) simulation.step();
     if (frame >= 30 * (seconds - 1)) result = std::max(result, (simulation.x() - x).rowwise().norm().maxCoeff());
   }
   return result;

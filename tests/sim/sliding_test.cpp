@@ -219,7 +219,7 @@ TEST(Sliding, SameBitsForAnyThreadCount) {
     selvage::testing::with_threads(threads, [&] {
       Simulation simulation(parse_scene(scene, "slide.toml"));
       std::int64_t repulsions = 0;
-      while (simulation.clock().state().frame < 3) repulsions = simulation.step().report.repulsions;
+      while (simulation.clock().frame() < 3) repulsions = simulation.step().report.repulsions;
       EXPECT_GT(repulsions, 1024);
       if (threads == 1) reference = simulation.x();
       EXPECT_EQ(simulation.x(), reference) << threads << " threads";

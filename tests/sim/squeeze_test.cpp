@@ -32,7 +32,7 @@ TEST(Squeeze, StopsWithAWitnessWhereBodiesSqueeze) {
   do {
     before = simulation.x();
     step = simulation.step();
-  } while (step.report.status == StepStatus::kSafe && simulation.clock().state().frame < 10);
+  } while (step.report.status == StepStatus::kSafe && simulation.clock().frame() < 10);
   ASSERT_EQ(step.report.status, StepStatus::kStopped);
   EXPECT_TRUE(step.report.witness.has_value());
   EXPECT_EQ(simulation.x(), before) << "nothing is advanced";
@@ -42,7 +42,7 @@ TEST(Squeeze, BodiesWaitUnderYieldAndTheClothStaysFree) {
   Simulation simulation(squeeze_scene("yield"));
   RunTotals totals;
   EXPECT_EQ(totals.shortfalls(), "");
-  while (simulation.clock().state().frame < 10) {
+  while (simulation.clock().frame() < 10) {
     const Positions before = simulation.x();
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
@@ -104,7 +104,7 @@ stretch_n_m = 60
   const VertexId first = 14 * 14, end = first + 3 * 25;
   std::int64_t waits = 0;
   double fastest_m_s = 0;
-  while (simulation.clock().state().frame < 40) {
+  while (simulation.clock().frame() < 40) {
     const Positions before = simulation.x();
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
@@ -128,14 +128,14 @@ TEST(Squeeze, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
   const Collider& ball = simulation.world().colliders.front();
   double fastest_m_s = 0, fastest_ball_m_s = 0, pressed_m_s = 0;
   std::int64_t waits = 0, steps = 0;
-  while (simulation.clock().state().frame < 70) {
+  while (simulation.clock().frame() < 70) {
     const Positions before = simulation.x();
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     const auto speed_m_s = ((simulation.x() - before) / step.dt_s).rowwise().norm().eval();
     fastest_m_s = std::max(fastest_m_s, speed_m_s.head(cloth).maxCoeff());
     for (const VertexId v : ball.vertices()) fastest_ball_m_s = std::max(fastest_ball_m_s, speed_m_s[v]);
-    if (simulation.clock().state().frame == 40) pressed_m_s = speed_m_s.head(cloth).maxCoeff();
+    if (simulation.clock().frame() == 40) pressed_m_s = speed_m_s.head(cloth).maxCoeff();
     waits += static_cast<std::int64_t>(step.report.waiting_bodies.size());
     ++steps;
   }
@@ -144,7 +144,7 @@ TEST(Squeeze, WhatWaitsStandsStillForTheClothAndComesBackSlowly) {
   EXPECT_LT(fastest_ball_m_s, 1.6) << "its script goes at 0.9 m/s";
   EXPECT_LT(fastest_m_s, 5);
   EXPECT_LT(steps, 300);
-  const Positions end = ball.placed_at(simulation.clock().time_s(), false, simulation.x());
+  const Positions end = ball.placed_at(simulation.clock().time_s(), sim::Precision::kFloat64, simulation.x());
   EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)), end) << "to the bit";
 }
 
@@ -155,7 +155,7 @@ TEST(Squeeze, AFastBodyFarAwayMakesNoStepShorter) {
   const auto steps = [](const std::string& scene) {
     Simulation simulation(parse_scene(scene, "pressed.toml"));
     std::int64_t count = 0;
-    for (; simulation.clock().state().frame < 15; ++count) simulation.step();
+    for (; simulation.clock().frame() < 15; ++count) simulation.step();
     return count;
   };
   EXPECT_EQ(steps(kPressed + fan), steps(kPressed));
@@ -170,19 +170,19 @@ TEST(Squeeze, WhatHasWaitedFarFromItsScriptDoesNotJump) {
   Simulation simulation(parse_scene(text, "dragged.toml"));
   const Collider& ball = simulation.world().colliders.front();
   double fastest_m_s = 0, farthest_behind_m = 0;
-  while (simulation.clock().state().frame < 70) {
+  while (simulation.clock().frame() < 70) {
     const Positions before = simulation.x()(ball.vertices(), Eigen::all);
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     const Positions now = simulation.x()(ball.vertices(), Eigen::all);
     fastest_m_s = std::max(fastest_m_s, (now - before).row(0).norm() / step.dt_s);
-    const Positions script = ball.placed_at(simulation.clock().time_s(), false, simulation.x());
+    const Positions script = ball.placed_at(simulation.clock().time_s(), sim::Precision::kFloat64, simulation.x());
     farthest_behind_m = std::max(farthest_behind_m, (script - now).row(0).norm());
   }
   EXPECT_GT(farthest_behind_m, 0.1);
   EXPECT_LT(fastest_m_s, 1.1 * (farthest_behind_m / kCatchUpTime_s + 0.6)) << "its script goes at 0.5 m/s";
   EXPECT_EQ(Positions(simulation.x()(ball.vertices(), Eigen::all)),
-            ball.placed_at(simulation.clock().time_s(), false, simulation.x()));
+            ball.placed_at(simulation.clock().time_s(), sim::Precision::kFloat64, simulation.x()));
 }
 
 TEST(Squeeze, ABodyOfTheLargestNumberIsNoPin) {

@@ -99,8 +99,8 @@ TEST(StepInput, OptionsOutsideTheirRangesAreRefusedByName) {
   }
   EXPECT_EQ(bad_after([](Options& o) { o.relaxation = 0; }), "relaxation");
   EXPECT_EQ(bad_after([](Options& o) { o.friction_kinetic = 0.1; }), "friction_kinetic") << "above the static one";
-  EXPECT_EQ(bad_after([](Options& o) { o.impulse_iterations = -1; }), "impulse_iterations");
-  EXPECT_EQ(bad_after([](Options& o) { o.zone_iterations = -1; }), "zone_iterations");
+  EXPECT_EQ(bad_after([](Options& o) { o.max_impulse_rounds = -1; }), "max_impulse_rounds");
+  EXPECT_EQ(bad_after([](Options& o) { o.max_zone_rounds = -1; }), "max_zone_rounds");
   EXPECT_EQ(bad_after([](Options& o) { o.max_intervals = 0; }), "max_intervals");
   Input input;
   input.options.relaxation = 2;

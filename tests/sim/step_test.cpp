@@ -33,7 +33,7 @@ TEST(Simulation, EveryStepOfADrapeIsExactlyFreeAndBodiesFollowTheirScripts) {
   Simulation simulation(small_scene(14));
   const World& world = simulation.world();
   std::int64_t repulsions = 0, fail_safe_vertices = 0;
-  while (simulation.clock().state().frame < 14) {
+  while (simulation.clock().frame() < 14) {
     const Positions before = simulation.x();
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
@@ -41,7 +41,8 @@ TEST(Simulation, EveryStepOfADrapeIsExactlyFreeAndBodiesFollowTheirScripts) {
     repulsions += step.report.repulsions;
     fail_safe_vertices += step.report.fail_safe_vertices;
     Positions scripted = simulation.x();
-    for (const Collider& body : world.colliders) body.place_at(simulation.clock().time_s(), false, scripted);
+    for (const Collider& body : world.colliders)
+      body.place_at(simulation.clock().time_s(), sim::Precision::kFloat64, scripted);
     EXPECT_EQ(scripted, simulation.x()) << "S4";
   }
   EXPECT_GT(repulsions, 100) << "the cloth has met the ball";
@@ -53,7 +54,7 @@ TEST(Simulation, FreeFallIsExactInPositionAndVelocity) {
   Simulation simulation(small_scene(3));
   const Eigen::Index cloth = simulation.world().cloth_vertex_count;
   const double height_m = simulation.x()(0, 2);
-  while (simulation.clock().state().frame < 3) {
+  while (simulation.clock().frame() < 3) {
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.repulsions, 0);
     const double t_s = simulation.clock().time_s();
@@ -74,7 +75,7 @@ TEST(Simulation, AStepThatGoesTooFarIsShortenedOrSaysThatItWasCut) {
         "[time]\nframes = 1\n" + std::string(can_halve ? "" : "min_step_s = 0.0333333\n") + sheet, "fast.toml"));
     const double start_m = simulation.x()(0, 0);
     RunTotals totals;
-    while (simulation.clock().state().frame < 1) totals.add(simulation.step());
+    while (simulation.clock().frame() < 1) totals.add(simulation.step());
     const double way_m = simulation.x()(0, 0) - start_m;
     if (can_halve) {
       EXPECT_NEAR(way_m, 6e4 / 30, 1e-6);
@@ -177,7 +178,7 @@ TEST(Simulation, AfterContactGravityActsForTheSecondHalfOfTheStep) {
     mass_kg[v] = 1 / simulation.world().inverse_mass[static_cast<std::size_t>(v)];
   }
   int in_contact = 0;
-  while (simulation.clock().state().frame < 9) {
+  while (simulation.clock().frame() < 9) {
     const Positions before = simulation.x();
     const StepResult step = simulation.step();
     if (step.report.repulsions == 0) continue;
@@ -218,7 +219,7 @@ TEST(Simulation, SameBitsForAnyThreadCount) {
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     Simulation simulation(small_scene(9));
-    while (simulation.clock().state().frame < 9) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+    while (simulation.clock().frame() < 9) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
     if (threads == 1) reference = simulation.x();
     EXPECT_EQ(simulation.x(), reference) << threads << " threads";
   }
@@ -228,7 +229,7 @@ TEST(Simulation, Float32StatesLieOnTheLattice) {
   Simulation simulation(small_scene(8, "", "precision = \"float32\"\n"));
   const auto on_lattice = [&] { return simulation.x() == Positions(simulation.x().cast<float>().cast<double>()); };
   EXPECT_TRUE(on_lattice());
-  while (simulation.clock().state().frame < 8) {
+  while (simulation.clock().frame() < 8) {
     ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
     ASSERT_TRUE(on_lattice());
   }
@@ -260,7 +261,7 @@ sheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}
 )",
                                     "edge-on.toml"));
   int borne = 0, refused = 0;
-  while (simulation.clock().state().frame < 12) {
+  while (simulation.clock().frame() < 12) {
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     refused += step.halvings;
@@ -309,7 +310,7 @@ TEST(Simulation, WithoutRepulsionsTheShortestStepResolvesWhatItMustNotHold) {
   scene.collision.repulsion = false;
   Simulation simulation(scene);
   std::int64_t collisions = 0;
-  while (simulation.clock().state().frame < 8) {
+  while (simulation.clock().frame() < 8) {
     const Positions before = simulation.x();
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
@@ -346,7 +347,7 @@ sheet = {nx = 2, ny = 2, width_m = 8, height_m = 8}
 )",
                                     "edge-on.toml"));
   double largest = 0;
-  while (simulation.clock().state().frame < 15) {
+  while (simulation.clock().frame() < 15) {
     const StepResult step = simulation.step();
     double now = 0;
     for (const Spring& spring : simulation.world().springs.springs()) {
@@ -387,7 +388,7 @@ sheet = {nx = 2, ny = 2, width_m = 6, height_m = 6}
   EXPECT_LT(first.dt_s, 0.1);
   EXPECT_EQ(first.report.first_collisions, 0) << "half steps until the cloth has not reached the floor";
   double shortest = 1;
-  while (simulation.clock().state().frame < 3) {
+  while (simulation.clock().frame() < 3) {
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     shortest = std::min(shortest, step.dt_s);
@@ -417,7 +418,7 @@ release_s = 0.4
   while (simulation.clock().time_s() < 0.4) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
   EXPECT_EQ(Positions(simulation.x().middleRows(20, 5)), Positions(start.middleRows(20, 5)));
   EXPECT_LT(simulation.x()(2, 2), -0.05) << "the free edge has swung down";
-  while (simulation.clock().state().frame < 20) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
+  while (simulation.clock().frame() < 20) ASSERT_EQ(simulation.step().report.status, StepStatus::kSafe);
   EXPECT_LT(simulation.x()(22, 2), start(22, 2) - 0.1) << "free fall since the release";
 }
 

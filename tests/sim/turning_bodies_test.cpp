@@ -187,7 +187,7 @@ TEST(TurningBodies, ABallThatGoesRoundFourTimesAFrameMeetsTheCloth) {
                "[[body]]\nname = \"ball\"\nparent = \"hub\"\nsphere = {radius_m = 0.05, subdivisions = 1}\n"
                "position_m = [0.5, 0, 0]\n");
   bool has_met = false;
-  while (!has_met && simulation.clock().state().frame < 1) has_met = meets(simulation.step());
+  while (!has_met && simulation.clock().frame() < 1) has_met = meets(simulation.step());
   EXPECT_TRUE(has_met);
 }
 
@@ -200,7 +200,7 @@ double thrown_m_s(double start_s, double end_s) {
           std::string(kMaterial) +
           "[[body]]\nbox = {size_m = [0.6, 0.6, 0.05], cells = 3}\nkey = [{time_s = " + std::to_string(start_s) +
           ", position_m = [0, 0, -0.025]}, {time_s = " + std::to_string(end_s) + ", position_m = [0, 0, 0.075]}]\n");
-  while (simulation.clock().state().frame < 6) simulation.step();
+  while (simulation.clock().frame() < 6) simulation.step();
   return simulation.state().v.topRows(36).col(2).mean();
 }
 

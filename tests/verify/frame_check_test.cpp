@@ -120,7 +120,7 @@ TEST(FrameCheck, IsEveryPairOfATangledSoup) {
     };
     std::int64_t overlaps = 0, degenerate = 0;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-      degenerate += exact_degenerate(corners(f)) ? 1 : 0;
+      degenerate += exact_degenerate(corners(f)).is_degenerate ? 1 : 0;
       for (std::size_t g = f + 1; g < mesh.triangles.size(); ++g) {
         const auto answer = exact_overlap(mesh.triangles[f], corners(f), mesh.triangles[g], corners(g));
         overlaps += answer.kind != OverlapKind::kNone ? 1 : 0;

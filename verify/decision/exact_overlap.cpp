@@ -93,10 +93,12 @@ OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std
   return {kind, signs.exact_used()};
 }
 
-bool exact_degenerate(const std::array<Point, 3>& a) {
+DegenerateAnswer exact_degenerate(const std::array<Point, 3>& a) {
   require_finite(a, "exact overlap");
   const FpGuard guard;
-  return Predicates(a).projection_axis(0, 1, 2) < 0;
+  Predicates signs(a);
+  const bool is_degenerate = signs.projection_axis(0, 1, 2) < 0;
+  return {is_degenerate, signs.exact_used()};
 }
 
 }  // namespace selvage::verify

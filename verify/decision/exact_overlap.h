@@ -30,8 +30,12 @@ struct OverlapAnswer {
 [[nodiscard]] OverlapAnswer exact_overlap(const std::array<std::int32_t, 3>& face_a, const std::array<Point, 3>& a,
                                           const std::array<std::int32_t, 3>& face_b, const std::array<Point, 3>& b);
 
+struct DegenerateAnswer {
+  bool is_degenerate = false;
+  bool exact_used = false;  ///< whether a sign needed exact arithmetic
+};
 /// Whether the corners are exactly collinear (or coincide): the face is not embedded, kind `degenerate`. Throws
 /// likewise.
-[[nodiscard]] bool exact_degenerate(const std::array<Point, 3>& a);
+[[nodiscard]] DegenerateAnswer exact_degenerate(const std::array<Point, 3>& a);
 
 }  // namespace selvage::verify

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <set>
 #include <span>
-#include <string_view>
 
 #include "io/text.h"
 

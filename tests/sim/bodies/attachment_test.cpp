@@ -146,10 +146,10 @@ key = [{time_s = 0}, {time_s = 0.6, rotation_deg = [0, 30, 0]}]
 /// After `simulation` has gone to frame `end`: how far vertices of its pin were from where the body carries them, m.
 double run_carried(Simulation& simulation, std::int64_t end) {
   const Collider& pin = simulation.world().colliders.back();
-  const bool float32 = simulation.scene().collision.precision == CollisionOptions::Precision::kFloat32;
+  const Precision precision = simulation.scene().collision.precision;
   double farthest_m = 0;
   testing::run_exactly_free(simulation, end, [&](const StepResult&) {
-    const Positions carried = pin.placed_at(simulation.clock().time_s(), float32, simulation.x());
+    const Positions carried = pin.placed_at(simulation.clock().time_s(), precision, simulation.x());
     farthest_m = std::max(farthest_m, (simulation.x()(pin.vertices(), Eigen::all) - carried).cwiseAbs().maxCoeff());
   });
   return farthest_m;
@@ -254,7 +254,7 @@ sheet = {nx = 2, ny = 2, width_m = 20, height_m = 20}
   Simulation simulation(parse_scene(text, "flag.toml"));
   EXPECT_EQ(run_carried(simulation, 30), 0);
   const Collider& ball = simulation.world().colliders.front();
-  const Positions script = ball.placed_at(simulation.clock().time_s(), false, simulation.x());
+  const Positions script = ball.placed_at(simulation.clock().time_s(), Precision::kFloat64, simulation.x());
   EXPECT_GT((simulation.x()(ball.vertices(), Eigen::all) - script).cwiseAbs().maxCoeff(), 0.01) << "it waits";
 }
 

@@ -171,7 +171,8 @@ TEST_F(BodySequenceTest, CarriesWhatIsPinnedToIt) {
   const World& world = simulation.world();
   const Positions x_t0 = simulation.x();
   testing::run_exactly_free(simulation, 30, [&](const StepResult&) {
-    const Positions carried = world.colliders.back().placed_at(simulation.clock().time_s(), false, simulation.x());
+    const Positions carried =
+        world.colliders.back().placed_at(simulation.clock().time_s(), Precision::kFloat64, simulation.x());
     ASSERT_EQ(Positions(simulation.x()(pin.vertices, Eigen::all)), carried);
   });
   const auto above = [](const Positions& x) {
@@ -217,7 +218,7 @@ sequence = {file = "jaws_*.obj", frames_per_s = 30}
   Eigen::Index lag = 0;
   testing::run_exactly_free(simulation, 40, [&](const StepResult& step) {
     waits += std::ssize(step.report.waiting_bodies);
-    const Positions script = body.placed_at(simulation.clock().time_s(), false, simulation.x());
+    const Positions script = body.placed_at(simulation.clock().time_s(), Precision::kFloat64, simulation.x());
     lag = (simulation.x()(body.vertices(), Eigen::all) - script).rowwise().any().count();
     most_lag = std::max(most_lag, std::int64_t{lag});
   });
@@ -259,7 +260,8 @@ TEST_F(BodySequenceTest, HangsOnAParentAndFollowsKeys) {
   write_frames();
   const Scene moved = scene("name = \"ball\"\nposition_m = [1, 0, 0]\nrotation_deg = [0, 0, 90]\n");
   const World world = build_world(moved);
-  const Positions placed = world.colliders.front().placed_at(7 / 12.0, false, world.x_t0), own = ball(7 * kFrame_s);
+  const Positions placed = world.colliders.front().placed_at(7 / 12.0, Precision::kFloat64, world.x_t0),
+                  own = ball(7 * kFrame_s);
   EXPECT_LT((placed.col(0).array() - (1 - own.col(1).array())).abs().maxCoeff(), 1e-15);
   EXPECT_LT((placed.col(1) - own.col(0)).cwiseAbs().maxCoeff(), 1e-15);
 }

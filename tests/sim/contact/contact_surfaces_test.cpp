@@ -40,7 +40,7 @@ class Dice {
 StepScene random_stack(std::uint32_t seed) {
   Dice dice(seed);
   StepScene scene;
-  scene.options.impulse_iterations = static_cast<std::int32_t>(dice.between(0, 8));
+  scene.options.max_impulse_rounds = static_cast<std::int32_t>(dice.between(0, 8));
   const double gap_m = std::exp2(dice.between(-14, -8));
   const auto properties = [&] {
     ContactProperties p;

@@ -31,7 +31,7 @@ bool same_bits(const io::Points& points, const Positions& x) {
 
 // Steps until `frames` whole frames are done, or `step_limit` steps; finishes the recording only if asked to.
 void run(Simulation& simulation, Recorder& recorder, std::int64_t frames, int step_limit = 1 << 20) {
-  while (simulation.clock().state().frame < frames && step_limit-- > 0) {
+  while (simulation.clock().frame() < frames && step_limit-- > 0) {
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     recorder.record(step);
@@ -66,7 +66,7 @@ TEST_F(RecorderTest, KeepsTheWholeClockInCheckpoints) {
 TEST_F(RecorderTest, KeepsTheStateInCheckpoints) {
   Simulation simulation(scene_);
   while (simulation.state().loads.vf.empty() || simulation.state().pressed.ee.empty()) {
-    ASSERT_LT(simulation.clock().state().frame, 30);
+    ASSERT_LT(simulation.clock().frame(), 30);
     (void)simulation.step();
   }
   Checkpoint written;
@@ -132,7 +132,7 @@ TEST_F(RecorderTest, AFailedRunSaysWhyAndGoesOnFromTheLastWholeFrame) {
     recorder.begin();
     run(simulation, recorder, 2);
     // Advanced, and not recorded: as where the disk is full.
-    while (simulation.clock().state().frame < 3) (void)simulation.step();
+    while (simulation.clock().frame() < 3) (void)simulation.step();
     recorder.finish({RunEnd::kFailed, 4, "C:\\run: cannot \"write\"\nit"});
   }
   const std::string json = slurp(output / "run.json");
@@ -145,7 +145,7 @@ TEST_F(RecorderTest, AFailedRunSaysWhyAndGoesOnFromTheLastWholeFrame) {
   Recorder recorder(output, again, io::SequenceKind::kFrames, true, kProducer);
   recorder.begin();
   EXPECT_FALSE(std::filesystem::exists(output / "run.json"));
-  EXPECT_EQ(again.clock().state().frame, 2);
+  EXPECT_EQ(again.clock().frame(), 2);
   run(again, recorder, 3);
   EXPECT_EQ(again.x(), simulation.x());
   EXPECT_EQ(io::open_sequence({output})->frame_count(), 4U);
@@ -170,7 +170,7 @@ TEST_F(RecorderTest, WritesTheBitsThatWereSimulated) {
   {
     Recorder recorder(folder_.path() / "steps", simulation, io::SequenceKind::kSteps, false, kProducer);
     recorder.begin();
-    while (simulation.clock().state().frame < kFrames) {
+    while (simulation.clock().frame() < kFrames) {
       recorder.record(simulation.step());
       states.push_back(simulation.x());
       times.push_back(simulation.clock().time_s());
@@ -195,7 +195,7 @@ TEST_F(RecorderTest, FramesAreTheStepsThatEndAFrame) {
   {
     Recorder recorder(folder_.path() / "frames", simulation, io::SequenceKind::kFrames, false, kProducer);
     recorder.begin();
-    while (simulation.clock().state().frame < kFrames) {
+    while (simulation.clock().frame() < kFrames) {
       recorder.record(simulation.step());
       if (!simulation.clock().at_frame()) continue;
       states.push_back(simulation.x());
@@ -268,7 +268,7 @@ TEST_F(RecorderTest, AKilledRunResumesWithTheSameBits) {
 TEST_F(RecorderTest, AnInterruptedRunResumesInTheMiddleOfAFrame) {
   const auto torn = folder_.path() / "torn";
   Simulation whole(scene_);
-  while (whole.clock().state().frame < kFrames) (void)whole.step();
+  while (whole.clock().frame() < kFrames) (void)whole.step();
   {
     Simulation simulation(scene_);
     Recorder recorder(torn, simulation, io::SequenceKind::kFrames, false, kProducer);

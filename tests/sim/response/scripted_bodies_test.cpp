@@ -30,8 +30,8 @@ TEST(ScriptedBodies, TurningBodyCarriesWhatItCannotAvoid) {
   for (VertexId v = box.begin; v < box.end; ++v) {
     scene.V_candidate.row(v) = (turn * scene.V_t0.row(v).transpose()).transpose();
   }
-  scene.options.impulse_iterations = 0;
-  scene.options.zone_iterations = 0;
+  scene.options.max_impulse_rounds = 0;
+  scene.options.max_zone_rounds = 0;
   scene.options.repulsion = false;
   const CollisionStepResult result = scene.step();
   EXPECT_EQ(exact_defect(scene, result), "");
@@ -73,7 +73,7 @@ TEST(ScriptedBodies, NobodyWaitsForWhatEndsTooNearElsewhere) {
   scene.push(press, Vec3(0, 0, -0.01));
   scene.policy = SqueezePolicy::kYield;
   scene.options.repulsion = false;
-  scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+  scene.options.max_impulse_rounds = scene.options.max_zone_rounds = 0;
   const CollisionStepResult result = scene.step();
   EXPECT_EQ(result.report.waiting_bodies, (std::vector<std::int32_t>{1}));
   EXPECT_FALSE(result.report.below_tolerance.empty());
@@ -159,7 +159,7 @@ TEST(ScriptedBodies, ABodyThatDeformsCarriesAHeapByTheFailSafeAlone) {
     StepScene scene;
     scene.policy = policy;
     scene.options.repulsion = false;
-    scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+    scene.options.max_impulse_rounds = scene.options.max_zone_rounds = 0;
     scene.deforms = {1};
     const auto floor = scene.add(sheet(7), Vec3::Zero(), 0);
     for (int n = 1; n <= 4; ++n) scene.add(sheet(5, 0.06), Vec3(1e-3 * n, 2e-3 * n, 2e-3 * n));

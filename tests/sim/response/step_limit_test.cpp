@@ -138,8 +138,8 @@ TEST(FailSafe, LimitsOnlyWhatCollides) {
   scene.add(make_sheet(9, 9, 0.1, 0.1), Vec3(0.001, 0.002, 0.01));
   scene.V_candidate(40, 2) += 0.02;
   scene.options.repulsion = false;
-  scene.options.impulse_iterations = 0;
-  scene.options.zone_iterations = 0;
+  scene.options.max_impulse_rounds = 0;
+  scene.options.max_zone_rounds = 0;
   const CollisionStepResult result = scene.step();
   EXPECT_EQ(exact_defect(scene, result), "");
   EXPECT_GT(result.report.fail_safe_vertices, 0);

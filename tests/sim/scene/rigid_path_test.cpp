@@ -171,11 +171,11 @@ TEST(Collider, FollowsItsScriptExactlyAndLiesOnTheLattice) {
   const Collider collider("ball", vertices,
                           Collider::Rigid{sphere.x, Linkage({}, RigidPath(kKeys, Interpolation::kLinear))}, 1.5);
   Positions x = Positions::Constant(sphere.x.rows() + 3, 3, 7);
-  collider.place_at(0.7, false, x);
+  collider.place_at(0.7, sim::Precision::kFloat64, x);
   EXPECT_EQ(Positions(x.middleRows(2, sphere.x.rows())), place(kKeys[1].pose, sphere.x));
   EXPECT_EQ(Positions(x.topRows(2)), Positions::Constant(2, 3, 7));
   EXPECT_EQ(Positions(x.bottomRows(1)), Positions::Constant(1, 3, 7));
-  collider.place_at(0.7, true, x);
+  collider.place_at(0.7, sim::Precision::kFloat32, x);
   EXPECT_EQ(x, Positions(x.cast<float>().cast<double>()));
   EXPECT_NE(Positions(x.middleRows(2, sphere.x.rows())), place(kKeys[1].pose, sphere.x));
   EXPECT_TRUE(collider.holds(1.4999));

@@ -31,7 +31,7 @@ TEST(Robe, EveryStepIsExactlyFreeAlthoughThePartsOfTheFigureIntersect) {
   EXPECT_GT(verify::check_frame(topology, points_of(simulation.x()), with_bodies).violations_total.total(), 1000);
   ASSERT_EQ(verify::check_frame(topology, points_of(simulation.x()), {}).violations_total.total(), 0);
   std::int64_t repulsions = 0, fail_safe_vertices = 0;
-  while (simulation.clock().state().frame < 8) {
+  while (simulation.clock().frame() < 8) {
     const std::vector<verify::Point> before = points_of(simulation.x());
     const StepResult step = simulation.step();
     ASSERT_EQ(step.report.status, StepStatus::kSafe);

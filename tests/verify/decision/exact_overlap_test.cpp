@@ -115,12 +115,12 @@ TEST(ExactOverlap, TwoTriangleCasesOfTheLiterature) {
 }
 
 TEST(ExactOverlap, DegenerateIsExactlyCollinear) {
-  EXPECT_TRUE(exact_degenerate({{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}}));  // case 16
-  EXPECT_TRUE(exact_degenerate({{{5, 5, 5}, {5, 5, 5}, {1, 2, 3}}}));
-  EXPECT_TRUE(exact_degenerate({{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}}));
-  EXPECT_FALSE(exact_degenerate({{{0, 0, 0}, {1, 1, 1}, {3, 3, std::nextafter(3.0, 4.0)}}}));
-  EXPECT_FALSE(exact_degenerate({{{0, 0, 0}, {0x1p-1074, 0, 0}, {0, 0x1p-1074, 0}}}));
-  EXPECT_FALSE(exact_degenerate({{{-1e308, 0, 0}, {1e308, 0, 0}, {0, 0x1p-1074, 0}}}));
+  EXPECT_TRUE(exact_degenerate({{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}}).is_degenerate);  // case 16
+  EXPECT_TRUE(exact_degenerate({{{5, 5, 5}, {5, 5, 5}, {1, 2, 3}}}).is_degenerate);
+  EXPECT_TRUE(exact_degenerate({{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}}).is_degenerate);
+  EXPECT_FALSE(exact_degenerate({{{0, 0, 0}, {1, 1, 1}, {3, 3, std::nextafter(3.0, 4.0)}}}).is_degenerate);
+  EXPECT_FALSE(exact_degenerate({{{0, 0, 0}, {0x1p-1074, 0, 0}, {0, 0x1p-1074, 0}}}).is_degenerate);
+  EXPECT_FALSE(exact_degenerate({{{-1e308, 0, 0}, {1e308, 0, 0}, {0, 0x1p-1074, 0}}}).is_degenerate);
 }
 
 TEST(ExactOverlap, RefusesWhatIsNotFinite) {

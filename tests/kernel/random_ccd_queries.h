@@ -1,4 +1,4 @@
-// Queries of every kind by one name, and random ones that take the search through all its branches.
+// Queries of every kind, constructed and random, which take the search through all its branches.
 #pragma once
 
 #include <array>
@@ -13,18 +13,6 @@ namespace selvage::testing {
 using Points = std::array<Vec3, 4>;
 
 inline constexpr CcdOptions kNoTolerance{0, 4096};
-
-inline CcdResult ccd(PairKind kind, const Points& x_t0, const Points& x_t1, const CcdOptions& options) {
-  switch (kind) {
-    case PairKind::kVf:
-      return vf_ccd(x_t0, x_t1, options);
-    case PairKind::kEe:
-      return ee_ccd(x_t0, x_t1, options);
-    case PairKind::kSelf:
-      break;
-  }
-  return self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
-}
 
 inline ConstructedContact contact_of(PairKind kind, ContactGenerator& generator, int bits) {
   return kind == PairKind::kVf ? generator.vf(bits) : kind == PairKind::kEe ? generator.ee(bits) : generator.self(bits);
