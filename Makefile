@@ -58,7 +58,7 @@ clang: setup  ## build and test with clang++: the same bits are asserted
 	cmake --build --preset clang
 	ctest --preset clang
 
-coverage: setup  ## every line and branch of the kernel is tested, but for those that docs/coverage.md excuses
+coverage: setup  ## every line and branch of the kernel is tested, but for those that docs/measurements/coverage.md excuses
 	@cmake/setup packages-clang.txt
 	cmake --preset coverage --log-level=WARNING
 	cmake --build --preset coverage --target kernel_tests
@@ -83,7 +83,7 @@ afl: setup  ## the same with AFL++
 	cmake --build --preset afl
 	fuzz/harness/campaign afl $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
-mutants: build  ## plant a hundred defects, one at a time: a property must find each of them (docs/mutants.md)
+mutants: build  ## plant a hundred defects, one at a time: a property must find each of them (docs/measurements/mutants.md)
 	cmake --build --preset release --target selvage_mutants
 	build/release/tests/mutants/selvage_mutants tests/mutants/lists --classes 1000 \
 	  --json build/mutants.json --markdown build/mutants.md
@@ -113,8 +113,8 @@ cluster: build  ## the manual's Slurm script on a Slurm of this machine, with a 
 	cd build/cluster && ../../tests/cluster/slurm_kill ../../$(SELVAGE) run --second-opinion-all
 
 BENCH_RESULTS := $(if $(QUICK),build/bench,bench/results)
-BENCH_PAGE    := $(if $(QUICK),build/bench/speed-against-error.md,docs/speed-against-error.md)
-bench: build  ## speed against error: bench/results and docs/speed-against-error.md; QUICK=1: two minutes, into build/bench
+BENCH_PAGE    := $(if $(QUICK),build/bench/speed-against-error.md,docs/measurements/speed-against-error.md)
+bench: build  ## speed against error: bench/results and docs/measurements/speed-against-error.md; QUICK=1: two minutes, into build/bench
 	@cmake/setup packages-bench.txt
 	cmake --preset release --log-level=WARNING
 	cmake --build --preset release --target selvage_micro selvage_instructions

@@ -1,7 +1,7 @@
 // The baseline: continuous collision detection as the paper's section 6 describes it, in plain double precision.
 //   Roots of the coplanarity cubic in [0,1], in increasing order, each followed by a proximity test within a fixed
-//   tolerance, and the same test at t = 1. No error bound anywhere: it misses contacts (docs/guarantee.md says why),
-//   and the benchmarks show how many, and what the proof costs beside it.
+//   tolerance, and the same test at t = 1. No error bound anywhere: it misses contacts (docs/guarantee-kernel.md says
+//   why), and the benchmarks show how many, and what the proof costs beside it.
 #pragma once
 
 #include <array>

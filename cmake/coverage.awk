@@ -1,4 +1,4 @@
-# awk -v root=<source tree>/ -f coverage.awk docs/coverage.md coverage.txt
+# awk -v root=<source tree>/ -f coverage.awk docs/measurements/coverage.md coverage.txt
 # Compares what llvm-cov shows as not reached with the excuses in the fenced blocks of the first file: a line "FILE: source
 # text", then indented lines that say why. Text, not numbers, so that excuses survive edits elsewhere in the file.
 
@@ -50,8 +50,8 @@ function flush_line() {
 END {
   flush_line()
   for (key in excused) {
-    if (!excused[key]) { print "docs/coverage.md excuses what was reached, or what is not there: " key; ++fault_count }
-    if (reason[key] == "") { print "docs/coverage.md gives no reason: " key; ++fault_count }
+    if (!excused[key]) { print "docs/measurements/coverage.md excuses what was reached, or what is not there: " key; ++fault_count }
+    if (reason[key] == "") { print "docs/measurements/coverage.md gives no reason: " key; ++fault_count }
   }
   if (line_count == 0 || branch_count == 0) { print "coverage: llvm-cov showed nothing"; ++fault_count }
   printf "coverage: %d files, %d lines, %d branches; %d lines not reached in whole, all but %d of them excused\n",

@@ -1,5 +1,5 @@
 # cmake -DSOURCE=<source tree> -DBUILD=<coverage build> -P coverage.cmake: runs the kernel's tests and fails if a line or a branch of
-# kernel/ was not reached that docs/coverage.md does not excuse, or if it excuses one that was. The annotated sources are in
+# kernel/ was not reached that docs/measurements/coverage.md does not excuse, or if it excuses one that was. The annotated sources are in
 # BUILD/coverage.txt.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(ABSOLUTE_PATH SOURCE NORMALIZE)
@@ -19,7 +19,7 @@ execute_process(COMMAND llvm-cov-14 show -show-branches=count -show-instantiatio
   OUTPUT_FILE ${BUILD}/coverage.txt COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND llvm-cov-14 report ${sources} OUTPUT_VARIABLE report COMMAND_ERROR_IS_FATAL ANY)
 message("${report}")
-execute_process(COMMAND awk -v root=${SOURCE}/ -f ${SOURCE}/cmake/coverage.awk ${SOURCE}/docs/coverage.md ${BUILD}/coverage.txt
+execute_process(COMMAND awk -v root=${SOURCE}/ -f ${SOURCE}/cmake/coverage.awk ${SOURCE}/docs/measurements/coverage.md ${BUILD}/coverage.txt
   RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "coverage: see above; the annotated sources are in ${BUILD}/coverage.txt")

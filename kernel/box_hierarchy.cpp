@@ -19,7 +19,7 @@ namespace selvage {
 namespace {
 
 /// The tree is chosen again when its boxes have this times the surface they had: queries then take about that much
-/// longer (docs/broad-phase.md), while making and choosing costs a third of a query once.
+/// longer (docs/measurements/broad-phase.md), while making and choosing costs a third of a query once.
 constexpr double kGrowthMax = 1.5;
 
 /// What a query will cost with these clusters, up to a factor: the sum of the surfaces of their boxes (the chance that

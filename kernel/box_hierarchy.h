@@ -9,7 +9,8 @@
 
 namespace selvage {
 
-/// How the tree over the faces is made. The candidates are the same; docs/broad-phase.md says what each costs.
+/// How the tree over the faces is made. The candidates are the same; docs/measurements/broad-phase.md says what each
+/// costs.
 enum class HierarchyKind : std::uint8_t {
   kAutomatic,  ///< whichever of the two below has the smaller boxes: chosen at the first refit, and again as they grow
   kSpatial,    ///< by position: made at the first refit, and again as its boxes grow

@@ -174,7 +174,7 @@ class CollisionFinder {
 }  // namespace
 
 // A list of 32 for each vertex and edge takes a few times as long as the search in a step in which little moves. Moving
-// boxes take 1.5 times as long there, and are as fast where there are 10 (docs/broad-phase.md).
+// boxes take 1.5 times as long there, and are as fast where there are 10 (docs/measurements/broad-phase.md).
 std::size_t few_candidates(const Mesh& mesh) {
   return 32 * (static_cast<std::size_t>(mesh.vertex_count) + mesh.edges.size());
 }

@@ -7,7 +7,7 @@
 
 namespace selvage {
 
-/// The bracket is proved a posteriori, so it holds however the weights were found (docs/guarantee.md):
+/// The bracket is proved a posteriori, so it holds however the weights were found (docs/guarantee-kernel.md):
 ///   distance_upper  evaluates the witness point of `weights`, rounding included;
 ///   distance_lower  comes from a separating direction, rounding included; 0 when none was found.
 struct Proximity {

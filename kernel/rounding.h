@@ -1,5 +1,6 @@
 // Every error bound of the kernel, with its derivation. Proofs of the straight-line pieces: kernel/proofs/*.gappa;
-// the arguments that join them: docs/guarantee.md; exact rationals against each bound: tests/kernel/rounding_test.cpp.
+// the arguments that join them: docs/guarantee-kernel.md; exact rationals against each bound:
+// tests/kernel/rounding_test.cpp.
 //
 // Model (IEEE 754 binary64, to nearest, gradual underflow; FpEnvGuard establishes it), u = 2^-53:
 //   fl(a + b) = (a + b)(1 + d), |d| <= u: sums have no underflow error;

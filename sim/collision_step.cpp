@@ -33,7 +33,7 @@ namespace {
 constexpr int kFirstSweeps = 2;
 
 /// What persists between steps. Of the room only the memory: pages that are new to a process take time
-/// (docs/simulator-speed.md).
+/// (docs/measurements/simulator-speed.md).
 struct Persistent {
   Persistent(const Mesh& step_mesh, const CollisionOptions& step_options, ContactSurfaces surfaces)
       : mesh(step_mesh),

@@ -33,7 +33,7 @@ constexpr int kHoldingRounds = 3;
 
 // Sweeps over the contacts in the last of these runs, at least: where heavy cloth lies on light cloth one sweep leaves
 // collisions however short the step is. A carpet of 2 kg/m^2 on three veils of 20 g/m^2, 1.5 s: 102 steps in place of
-// 1,005; docs/simulator-speed.md has more.
+// 1,005; docs/measurements/simulator-speed.md has more.
 constexpr std::int32_t kLastSweeps = 4;
 
 /// #V: 1 where the collision step has changed the motion of the vertex' part. The dynamics' own velocity holds for the
@@ -161,7 +161,7 @@ Simulation::Verdict Simulation::judge(const std::vector<RepulsionContact>& held,
 // (sim/scenes/curtain.toml at full quality, 2.3 to 2.8 s). And those that pressed in the last step, in the dynamics or
 // behind it, whatever pressed them: what springs press, such as the hem of draped cloth, was pulled in by the dynamics
 // and thrown out by the collision step, in every step or in every other one, and moved for ever
-// (docs/simulator-speed.md, *What pressed is held*).
+// (docs/measurements/simulator-speed.md, *What pressed is held*).
 std::vector<RepulsionContact> Simulation::likely_contacts(Positions x, StepPhases& phases) {
   const PhaseTimer timer(phases.collision), within(phases.within.proximity);
   const double dt_s = clock_.dt_s();

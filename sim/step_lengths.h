@@ -21,8 +21,8 @@ class StepLengths {
   /// s; of the collision step where no contact meets at more than this, m/s >= 0: what the scene says, else the
   /// dynamics' step (paper, section 5), or a part of the longest where the dynamics are implicit. But where the scene
   /// does not say, no longer than it takes for a sixteenth of a spring, down to a 64th of that: what meets at 100 m/s
-  /// goes six edges in a step of the dynamics, which no response resolves (docs/stability.md). A step is halved where
-  /// half of it is no shorter than this, so it can be up to twice as long.
+  /// goes six edges in a step of the dynamics, which no response resolves (docs/measurements/stability.md). A step is
+  /// halved where half of it is no shorter than this, so it can be up to twice as long.
   [[nodiscard]] double shortest_s(double fastest_m_s) const;
   /// With room for the shortest of all.
   [[nodiscard]] StepClock clock() const;

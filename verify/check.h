@@ -89,8 +89,8 @@ struct CheckOptions {
 [[nodiscard]] CheckResult check_frame(const Topology& topology, std::span<const Point> V, const CheckOptions& options);
 [[nodiscard]] CheckResult check_frame(const Surface& surface, std::span<const Point> V, const CheckOptions& options);
 /// The straight motion over closed [0,1]: vertex-face, edge-edge, and each vertex against its own opposite edge. From a
-/// frame without violations, no event means no intersection at any time (docs/guarantee.md); the motion alone does
-/// not see what crosses already at t = 0 and keeps crossing.
+/// frame without violations, no event means no intersection at any time (docs/guarantee-checker.md); the motion alone
+/// does not see what crosses already at t = 0 and keeps crossing.
 [[nodiscard]] CheckResult check_motion(const Topology& topology, std::span<const Point> V_t0,
                                        std::span<const Point> V_t1, const CheckOptions& options);
 [[nodiscard]] CheckResult check_motion(const Surface& surface, std::span<const Point> V_t0, std::span<const Point> V_t1,

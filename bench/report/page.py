@@ -87,9 +87,49 @@ def circumstances(machine):
             + f"; load {start[0]} at the start and {end[0]} at the end of {machine['minutes']:.0f} minutes.")
 
 
+def take_home(methods, verify, sim):
+    """What a reader takes home, in at most ten lines: from the measurements, so that it is of the same run as all below."""
+    frames = next(of for of in methods["sets"] if len(of["name"]) > 1)
+    hard = [of for of in methods["sets"] if len(of["name"]) == 1]
+
+    def setting(of, method, name):
+        return next(row for row in of["settings"] if row["method"] == method and row["setting"] == name)
+
+    def hard_sum(method, name, key):
+        return f"{sum(setting(of, method, name)[key] for of in hard):,}"
+
+    kernel, batches = setting(frames, "kernel", "0 m"), setting(frames, "kernel in batches", "0 m")
+    hard_ratios = [setting(of, "kernel", "0 m")["ratio"] for of in hard]
+    sheet = max((sheet for sheet in verify["sheets"] if not sheet["planted"]), key=lambda sheet: sheet["faces"])
+    one = {method["name"]: method for method in sheet["methods"] if method["threads"] == 1}
+    explicit = min((row for row in sim["time_steps"] if row["solver"] == "explicit"), key=lambda row: row["substeps"])
+    implicit = sorted((row for row in sim["time_steps"] if row["solver"] == "implicit"), key=lambda row: row["substeps"])
+    lines = [
+        f"- On {frames['vf'] + frames['ee']:,} candidate pairs ({frames['name']}), {frames['touching']} of which touch, the kernel misses"
+        f" {kernel['misses']}, raises {kernel['false_alarms']} false alarms and is late {kernel['late_toi']}",
+        f"  times. In batches it takes {ratio(batches['ratio'])} of the time of the textbook method, one by one {ratio(kernel['ratio'])}.",
+        f"- On {sum(of['vf'] + of['ee'] for of in hard):,} hard queries, {sum(of['touching'] for of in hard):,} of which touch, the textbook"
+        f" method misses {hard_sum('textbook', '1e-06 m', 'misses')}, the kernel {hard_sum('kernel', '0 m', 'misses')}; false alarms",
+        f"  are {hard_sum('textbook', '1e-06 m', 'false_alarms')} and {hard_sum('kernel', '0 m', 'false_alarms')}. By class the kernel"
+        f" takes {ratio(min(hard_ratios))} to {ratio(max(hard_ratios))} times as long as the textbook method there.",
+    ]
+    if "cgal" in one:
+        longer = ratio(one["cgal"]["check_ns"]["cpu"] / one["frame"]["check_ns"]["cpu"])
+        lines.append(f"- On a clean frame of {sheet['faces']:,} faces CGAL takes {longer} times as long as the exact checker.")
+    for row in implicit:
+        if row["substeps"] == explicit["substeps"]:
+            lines += [
+                f"- With {explicit['substeps']} steps a frame the explicit solver is {number(explicit['distance'])} of the sheet's side from a refined"
+                f" run, the implicit one {number(row['distance'])} at {ratio(row['ratio'] / explicit['ratio'])}",
+                f"  times the time; with {implicit[0]['substeps']} a frame the implicit one is {number(implicit[0]['distance'])} from it, at"
+                f" {ratio(implicit[0]['ratio'] / explicit['ratio'])} times the time."]
+    return "\n".join(lines)
+
+
 def write(template, reports, machine, results, page):
     text = string.Template(template.read_text()).substitute(
-        machine=circumstances(machine), cloth_table=cloth_table(reports["methods"]), hard_table=hard_table(reports["methods"]),
+        machine=circumstances(machine), take_home=take_home(reports["methods"], reports["verify"], reports["sim"]),
+        cloth_table=cloth_table(reports["methods"]), hard_table=hard_table(reports["methods"]),
         checker_table=checker_table(reports["verify"]), accuracy_table=accuracy_table(reports["sim"]),
         conservation_table=conservation_table(reports["sim"]), micro_table=micro_table(reports["micro"]), results=results)
     page.write_text(text)

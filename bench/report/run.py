@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """One run of all benchmarks: JSON, CSV and SVG files in one folder, and the page that shows them.
 
-    bench/report/run.py --build build/release --results bench/results --page docs/speed-against-error.md [--quick]
+    bench/report/run.py --build build/release --results bench/results --page docs/measurements/speed-against-error.md [--quick]
 
 Exit code 1 if a benchmark found something wrong: a miss of a method that promises none, two methods that differ.
 """

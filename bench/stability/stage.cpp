@@ -172,7 +172,7 @@ void Stage::weigh(const Positions& candidate, const sim::CollisionStepResult& re
   }
   if (size == 0) return;
   momentum_error_ = std::max(momentum_error_, change.norm() / size);
-  // A zone's chord keeps sin(angle) / angle of the angular momentum: docs/guarantee.md, S3.
+  // A zone's chord keeps sin(angle) / angle of the angular momentum: docs/guarantee-step.md, S3.
   if (result.report.zone_rounds == 0) {
     angular_momentum_error_ = std::max(angular_momentum_error_, turn.norm() / turn_size);
   }

@@ -24,8 +24,8 @@ void answer_batch(int32_t kind, size_t count, const selvage_query* queries, selv
 }  // namespace
 
 extern "C" const selvage_plugin* selvage_plugin_entry(void) {
-  // An alarm of the kernel is within 2^-39 of the largest distance between corners (docs/guarantee.md, K3), which is at
-  // most sqrt(3) sides of the box; below 2^-1071 distances are rounded out.
+  // An alarm of the kernel is within 2^-39 of the largest distance between corners (docs/guarantee-kernel.md, K3),
+  // which is at most sqrt(3) sides of the box; below 2^-1071 distances are rounded out.
   static const selvage_plugin plugin = {
       SELVAGE_PLUGIN_VERSION, "selvage kernel", 0x1p-1071, 0x1p-38, 1, answer, answer_batch};
   return &plugin;

@@ -20,7 +20,8 @@ namespace {
 constexpr double kRounding = 1 + 1e-6;
 
 /// Of the thickness: as far as a fall counts. Cloth that rests on cloth is nearer than that. Without a limit stretches
-/// of sim/scenes/curtain.toml take up to 1.25 times the time, with it up to 1.13 (docs/simulator-speed.md).
+/// of sim/scenes/curtain.toml take up to 1.25 times the time, with it up to 1.13
+/// (docs/measurements/simulator-speed.md).
 constexpr double kMaxFallShare = 1.0 / 8;
 
 /// Candidates of one task. The tasks are the same for any number of threads, and so is the order of what they find.

@@ -29,7 +29,7 @@ struct QuickProximities {
 };
 
 /// The same bits as one by one, with whatever vectors the machine has (SIMD, chosen at run time); what that saves is in
-/// docs/simulator-speed.md. `V` has their vertices.
+/// docs/measurements/simulator-speed.md. `V` has their vertices.
 void quick_proximities(const detail::LanePairs& pairs, const Positions& V, QuickProximities& result);
 
 }  // namespace selvage::sim

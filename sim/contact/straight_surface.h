@@ -3,7 +3,7 @@
 // vertices and edges are points of cloth to which they are not nearest, as the surface beside them is nearer still, and
 // the direction between the two has a part along the surface. Repelled along it, cloth without friction that slid down
 // a ridge with rows of vertices kept 1.58 of 2.66 m/s, and a rod that moved along its own axis took cloth along
-// (docs/stability.md).
+// (docs/measurements/stability.md).
 //
 // It is straight as far as the line, or the faces around the feature, go. Cloth beyond that is nearer to another
 // feature and not repelled by this one: behind the plane of a box's side lies what slides on its top.

@@ -22,8 +22,8 @@ namespace {
 // energy by up to 1 / (1 - share^2): 5.3 times at 0.9, twice at 0.7, 1.1 times at 0.35. Where cloth is hardly stretched
 // this was not seen to matter: the limit counts every spring in all directions, which only stretched ones resist. The
 // more they are stretched, the shorter steps are. That changes from step to step, which conserves nothing either: in
-// springs without damping, contact or limits on strain energy can rise by it. docs/stability.md (*Energy in contact of
-// stretched cloth*) says what was measured.
+// springs without damping, contact or limits on strain energy can rise by it. docs/measurements/stability.md (*Energy
+// in contact of stretched cloth*) says what was measured.
 constexpr double kStretchedShare = 0.9;  // over the longest spring in units of its length at rest
 constexpr double kLeastShare = 0.35;
 

@@ -47,9 +47,9 @@ class CentralDifferences : public Dynamics {
   /// That may be longer than what is stable for explicit springs, so here they act where the velocity carries the ends
   /// in half a step: (h/2)^2 k n n^T is added to the matrix. For h within the stable step this is a correction of
   /// second order in the step; over time it damps cloth in contact, the more the shorter collision steps are
-  /// (docs/numerics.md, *After contact*). For longer ones it is what keeps it bounded. Forces stay along the springs,
-  /// so angular momentum is kept. (A part across springs in tension did not keep it, by 6e-8 of it a step, and
-  /// table-legs was as calm without.)
+  /// (docs/measurements/numerics.md, *After contact*). For longer ones it is what keeps it bounded. Forces stay along
+  /// the springs, so angular momentum is kept. (A part across springs in tension did not keep it, by 6e-8 of it a step,
+  /// and table-legs was as calm without.)
   void final_velocity(Motion& motion, std::span<const double> inverse_mass, double dt_s) override;
 
  private:

@@ -13,14 +13,14 @@ namespace selvage::sim {
 namespace {
 
 /// Contacts of a group. Fewer leave more contacts between groups, more leave cores without work; 512 and 1,024 take as
-/// long (docs/simulator-speed.md).
+/// long (docs/measurements/simulator-speed.md).
 constexpr std::size_t kGroupSize = 256;
 
 /// Fewer contacts are on one thread, and act in the order in which they are given.
 constexpr std::size_t kLeastParallel = 2 * kGroupSize;
 
 /// A round is not made where more than this many contacts wait for one that acts in it: as in a fan most share
-/// vertices, and act alone. Where layers are pressed about one waits for each (docs/simulator-speed.md).
+/// vertices, and act alone. Where layers are pressed about one waits for each (docs/measurements/simulator-speed.md).
 constexpr std::size_t kMaxWaiting = 4;
 
 constexpr LaneMask kAllLanes = 0xff;
@@ -74,8 +74,8 @@ ContactGroups::ContactGroups(std::span<const Member> members, Eigen::Index verte
       members.size() < kLeastParallel ? order_as_given(members.size()) : order_by_place(members);
   std::vector<std::uint64_t> packs_of(static_cast<std::size_t>(vertex_count), 0);  // as add_group() leaves it
   // Runs of the curve are groups. A contact that shares a vertex with a group before its own waits for another round.
-  // In a group contacts keep the order in which they are given (docs/simulator-speed.md says what another order costs);
-  // what is left over acts run by run.
+  // In a group contacts keep the order in which they are given (docs/measurements/simulator-speed.md says what another
+  // order costs); what is left over acts run by run.
   while (left.size() >= kLeastParallel) {
     Round round{{}, std::vector<std::int32_t>(static_cast<std::size_t>(vertex_count), -1)};
     std::vector<std::vector<std::size_t>> groups;

@@ -22,11 +22,12 @@ struct ContactLoad {
 /// Vertices on faces: one sweep passes a weight on by one contact only, so that ten sheets that lay on one another,
 /// held as if the stack were new in every step, lost a third of their height within a second, in five times as many
 /// steps. Without their friction eight sheets walked sideways by 0.6 mm a second, by 0.02 with it
-/// (docs/simulator-speed.md). Edges: under dynamics that sweep only where all four vertices can move, as cloth over the
-/// edge of a box, where such edges remembered as well, crept by 0.7 mm a second (0.02 without; SweptContacts::hold()
-/// says why vertices go first). While those of cloth on cloth remembered nothing either, a sheet on another on a slope
-/// well within the cone of friction crept by 54 mm in a minute. Those that solve for what contacts bear begin nearer to
-/// the solution with them: cloth at rest on cloth takes a quarter to a tenth of the Newton rounds (docs/numerics.md).
+/// (docs/measurements/simulator-speed.md). Edges: under dynamics that sweep only where all four vertices can move, as
+/// cloth over the edge of a box, where such edges remembered as well, crept by 0.7 mm a second (0.02 without;
+/// SweptContacts::hold() says why vertices go first). While those of cloth on cloth remembered nothing either, a sheet
+/// on another on a slope well within the cone of friction crept by 54 mm in a minute. Those that solve for what
+/// contacts bear begin nearer to the solution with them: cloth at rest on cloth takes a quarter to a tenth of the
+/// Newton rounds (docs/measurements/numerics.md).
 struct ContactLoads {
   std::vector<ContactLoad> vf, ee;
 

@@ -262,8 +262,8 @@ void Press(const PackMotion& read, LaneMask asked, double relaxation, bool is_la
 }
 
 /// Friction is learnt where the vertex can move: cloth that the edge of a box carried by a vertex of its own swung
-/// about that by 0.7 mm for ever, and rests since the vertices of bodies do not remember (docs/simulator-speed.md).
-/// Edges learn where all four of their vertices can.
+/// about that by 0.7 mm for ever, and rests since the vertices of bodies do not remember
+/// (docs/measurements/simulator-speed.md). Edges learn where all four of their vertices can.
 void LearnLoads(PairKind kind, double learnt, double h, ContactPack& pack) {
   const Value zero = hn::Zero(Real()), one = Number(1), learning = Number(learnt);
   const Value squared_s2 = Number(h * h), largest = Number(std::numeric_limits<double>::max());

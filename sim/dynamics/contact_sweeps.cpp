@@ -15,7 +15,7 @@ constexpr double kAlike = 4;
 /// is missing, so r sweeps would leave a third of what nothing else bears. Measured: less is enough, as a vertex lies
 /// on several, and contacts begin with their loads. A square of 0.2 m on a veil of 0.3 m, 100 times as heavy, both of
 /// 12 x 12 vertices, 4 mm thick, was at least 7.2 mm above the ground with one and at least 7.7 with two, of 8
-/// (docs/stability.md).
+/// (docs/measurements/stability.md).
 constexpr double kSweepsOfRoot = 2;
 
 /// Mean inverse mass of vertices, over the largest of the contact: as it is, and over their share of a cloth whose mass

@@ -37,9 +37,10 @@ constexpr double kSlideResidual_m = 1e-5, kSlideResidual = 1e-2;
 // Contacts begin to slide in an earlier solution than this, after which as many as above may follow, and a last one.
 constexpr int kLastSlide = 3 * kForceRounds;
 // The stage is solved to the first, then to a part of how far what the contacts bear has last changed, and to the last
-// in the end. docs/numerics.md has what other ways take. Closer than without contact: cloth at rest goes by what is
-// left wherever that points, since what it bears is remembered. To 1e-9 m the energy of a sheet at rest on a plane rose
-// by 3e-9 of that of its fall in 50 steps (Energy.NeverRisesInContactWithAPlane), for 0.95 of the iterations.
+// in the end. docs/measurements/numerics.md has what other ways take. Closer than without contact: cloth at rest goes
+// by what is left wherever that points, since what it bears is remembered. To 1e-9 m the energy of a sheet at rest on a
+// plane rose by 3e-9 of that of its fall in 50 steps (Energy.NeverRisesInContactWithAPlane), for 0.95 of the
+// iterations.
 constexpr double kFirstResidual_m = 1e-3, kShareOfChange = 0.1, kLastResidual_m = 1e-10;
 
 /// What hangs together with contacts, and what does not: it takes two stages, whatever others meet (drag that brakes

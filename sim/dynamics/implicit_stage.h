@@ -55,7 +55,7 @@ class ImplicitStage {
   /// Takes x, as solve() does, to where cloth that meets nothing comes to, if less is missing there. From rest the
   /// first solutions of a stage, which are rough, distort what flies; pairs that are at their limit at rest are pressed
   /// by that, with friction, and thick cloth lost a tenth of its velocity to it. From free flight always, stiff cloth
-  /// that meets something takes longer (docs/numerics.md).
+  /// that meets something takes longer (docs/measurements/numerics.md).
   void fly_free(const StageEquations& equations, Positions& x);
   [[nodiscard]] const FieldForces& fields() const { return fields_; }
   /// #V: a bound of the matrix's diagonal at each vertex without contacts and drag, kg.

@@ -21,21 +21,23 @@ constexpr double kLearning = 0.5;
 
 /// Factor on what is missing, in all sweeps but the last (successive over-relaxation); what was too much is taken back
 /// as it is. Measured: 25 sheets that are laid over a ball keep 2.5 to 3 mm of 3 under four sweeps with it, 1.3 to 3
-/// without, 0.8 to 3 under one (docs/simulator-speed.md). Not in those that unlike masses take more, under which it has
-/// heavy cloth bounce on light cloth: a veil under cloth 100 times as heavy went on at 79 mm/s with it, at 12 without.
+/// without, 0.8 to 3 under one (docs/measurements/simulator-speed.md). Not in those that unlike masses take more, under
+/// which it has heavy cloth bounce on light cloth: a veil under cloth 100 times as heavy went on at 79 mm/s with it, at
+/// 12 without.
 constexpr double kOverRelaxation = 1.7;
 
 /// Slower than what falls for so many steps of the dynamics, what slips counts as sticking still, with the static cone.
 /// In a step gravity and neighbours move a contact by as much, edges of bodies more, as they remember no load; and
 /// where kinetic friction is below the slope, what begins to slide by that would never stop. Measured on planes of 8 to
-/// 40 faces a side, slope 0.47 (docs/stability.md): 2 hold what has a fifth of static friction to spare, so do 4; 6 and
-/// 8 hold a thirtieth, but what should slide begins to a tenth of a second late.
+/// 40 faces a side, slope 0.47 (docs/measurements/stability.md): 2 hold what has a fifth of static friction to spare,
+/// so do 4; 6 and 8 hold a thirtieth, but what should slide begins to a tenth of a second late.
 constexpr double kCreepSteps = 4;
 
 /// Contact may add the energy of a fall of so many steps of the dynamics in one: columns of 12, 50 and 100 vertices
 /// that settle on their loads add that of a fall of 4, 11 and 27 steps (tests/sim/dynamics/swept_contacts_test.cpp),
 /// stacks of 60 and 150 sheets that of 57 and 95. Refused that, columns swing for ever, and the stack of 150 sinks to a
-/// third of its height. In the discs of docs/stability.md it was 0.1 to 87,000 J/kg, where this is 0.005 to 0.09.
+/// third of its height. In the discs of docs/measurements/stability.md it was 0.1 to 87,000 J/kg, where this is 0.005
+/// to 0.09.
 constexpr double kSettlingSteps = 100;
 
 /// In parallel.
@@ -75,7 +77,7 @@ SweptContacts::SweptContacts(HeldContacts& held)
 
 /// In the order in which they act. Groups are columns along gravity, in which a sweep passes a weight on through all
 /// layers: as cubes the fifty of sim/scenes/stack.toml as a draft came as near as 0.6 mm of 3, as columns 1.7
-/// (docs/simulator-speed.md).
+/// (docs/measurements/simulator-speed.md).
 void SweptContacts::group(Kind& kind) {
   const std::span<const RepulsionContact> contacts = held_.contacts();
   const HeldSurface& surface = held_.surface();

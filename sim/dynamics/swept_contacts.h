@@ -32,7 +32,7 @@ class SweptContacts {
   /// In this order, each where the contacts are now:
   ///   1. the loads, with their friction;
   ///   2. `limit`, the limits on strain, which else see cloth fall that is borne, and have it pull on what bears it
-  ///      (docs/numerics.md);
+  ///      (docs/measurements/numerics.md);
   ///   3. sweeps of inelastic impulses, with friction in the last (paper, 7.2 and 7.3). Contacts of unlike masses, and
   ///      those beside them, take more sweeps than others, the first ones (contact_sweeps.h). In turn back and forth,
   ///      but vertices before edges always: in cloth at rest on a plane they leave nothing for the edges between them
@@ -41,7 +41,7 @@ class SweptContacts {
   ///      bodies bring by their motion, all of it once more, without the loads of that cloth. `limit` may begin with
   ///      what it found before: limits pass on what loads pushed too far, and leave it where the sweeps take that back.
   ///      Loads grew by it, and a disc of 150 faces around one vertex, folded over a needle, flew off at 1,136 m/s
-  ///      (docs/stability.md).
+  ///      (docs/measurements/stability.md).
   ///
   /// A contact alone, but for one beyond what is straight in it, ends no nearer than its thickness, or than it was
   /// before the step, after any number of sweeps, and adds no energy: it takes back what its load or an earlier sweep,

@@ -30,8 +30,8 @@ inline constexpr std::size_t kMeetingsOfAnyMesh = std::size_t{1} << 14;
 inline constexpr std::size_t kMeetingsPerNearAtStart = 16;
 /// How often the motion of cloth is cut back for that, each time by the square of what it was before: to a half, an
 /// eighth, 2^-7, 2^-15. So one that meets a little too much keeps half, and one of a million edges, in which pairs of
-/// all of the mesh meet until it is about as long as an edge, takes six searches (docs/guarantee.md). After the last,
-/// nothing is left of any motion within the domain: then all is tested, and what meets is met by bodies.
+/// all of the mesh meet until it is about as long as an edge, takes six searches (docs/guarantee-step.md). After the
+/// last, nothing is left of any motion within the domain: then all is tested, and what meets is met by bodies.
 inline constexpr int kMaxCuts = 12;
 
 /// Halves the displacements of all cloth vertices so many times; how many moved.

@@ -21,7 +21,7 @@ inline constexpr Range kLength{1e-30, 1e9};
 inline constexpr double kLeastStepShare = 1e-6;
 /// The longest collision step of the implicit solver where the scene gives none. Where contacts are that solver is of
 /// first order, and what is pressed anew costs it solutions: in steps of 1/24 s a shirt on a figure that turns and
-/// leans hung 17 cm too high after half a second, for 2.5 times the time (docs/numerics.md).
+/// leans hung 17 cm too high after half a second, for 2.5 times the time (docs/measurements/numerics.md).
 inline constexpr double kLongestImplicit_s = 1.0 / 192;
 
 [[nodiscard]] inline bool inside(double value, const Range& range) {

@@ -106,8 +106,8 @@ HWY_AFTER_NAMESPACE();
 namespace selvage::sim {
 namespace {
 
-/// Of what is left to improve, over that without any impulse. docs/numerics.md (*Limits on strain*) says what it
-/// leaves.
+/// Of what is left to improve, over that without any impulse. docs/measurements/numerics.md (*Limits on strain*) says
+/// what it leaves.
 constexpr double kTolerance = 0.02;
 
 /// Added to the scaled system's diagonal: where bounds cannot all be kept, as between two pins that part, impulses

@@ -11,7 +11,8 @@ namespace selvage::sim {
 namespace {
 
 /// Over the fastest that is moved. Chosen, not derived: a chain that is pushed together bends at 0.7 to 5 times that
-/// without limits (docs/numerics.md, *Limits on strain*), and the less, the less a limit makes of a toggle.
+/// without limits (docs/measurements/numerics.md, *Limits on strain*), and the less, the less a limit makes of a
+/// toggle.
 constexpr double kDriven = 2;
 
 bool is_moved(double inverse_mass) { return inverse_mass == 0; }

@@ -8,7 +8,8 @@
 namespace selvage::sim {
 namespace {
 
-// The dynamics itself ends a little beyond the limit, which its iterations only approach (docs/numerics.md).
+// The dynamics itself ends a little beyond the limit, which its iterations only approach
+// (docs/measurements/numerics.md).
 constexpr double kLimitsBorne = 1.5;
 // Where a body pulls at cloth, all of it is strained for a while, and shorter steps do not help: at most 0.27 in
 // sim/scenes/curtain.toml at full quality, 2.3 s, in steps of 1/1920 s, 4,000 springs beyond 0.15.

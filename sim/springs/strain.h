@@ -41,8 +41,9 @@ class StrainLimiter {
   /// the springs that were too long or too short, then once more with those that these make so; apart for what hangs
   /// together by springs, as what is found is of a sum: while another cloth was pulled in two, a sheet that hung was
   /// 0.41 longer in place of 0.23. Two rounds of Jacobi, as in section 4, pass a load on by two springs a step: a sheet
-  /// that hung by two corners was stretched there to twice its length, and is by a fifth (docs/numerics.md). Begins
-  /// with what springs bore in the step before. O(springs) to find them, O(those found) an iteration.
+  /// that hung by two corners was stretched there to twice its length, and is by a fifth
+  /// (docs/measurements/numerics.md). Begins with what springs bore in the step before. O(springs) to find them,
+  /// O(those found) an iteration.
   std::int64_t limit_strain(std::span<const double> inverse_mass, const LimitedMotion& motion);
   /// Forgets what springs bore: before steps of another length, or from another state.
   void forget();
@@ -50,9 +51,9 @@ class StrainLimiter {
   /// Gauss-Seidel in the order of the springs: no spring changes its length by more than strain_rate within the step,
   /// but back to its length at rest. Springs that were held back there worked against their own forces, and explicit
   /// steps made energy of it where forces ask for far more than the limit: a sheet that fell on a ball came to 12 times
-  /// its length at a limit of 0.001, to 1.2 times as it is (docs/numerics.md, *Limits on strain*). Stops early when a
-  /// sweep finds nothing. Springs that no impulse can have pushed over their limit are passed over, so a sweep costs
-  /// what it changes.
+  /// its length at a limit of 0.001, to 1.2 times as it is (docs/measurements/numerics.md, *Limits on strain*). Stops
+  /// early when a sweep finds nothing. Springs that no impulse can have pushed over their limit are passed over, so a
+  /// sweep costs what it changes.
   std::int64_t limit_strain_rate(std::span<const double> inverse_mass, const LimitedMotion& motion);
 
  private:

@@ -1,4 +1,4 @@
-"""docs/speed-against-error.md is what bench/report/page.md and the measurements of bench/results make.
+"""docs/measurements/speed-against-error.md is what bench/report/page.md and the measurements of bench/results make.
 
     tests/bench/page_test.py SOURCE
 
@@ -20,9 +20,9 @@ reports = {name: json.loads((results / f"{name}.json").read_text()) for name in 
 with tempfile.TemporaryDirectory() as folder:
     made = pathlib.Path(folder) / "page.md"
     page.write(source / "bench" / "report" / "page.md", reports, json.loads((results / "machine.json").read_text()),
-               "../bench/results", made)
-    kept = source / "docs" / "speed-against-error.md"
+               "../../bench/results", made)
+    kept = source / "docs" / "measurements" / "speed-against-error.md"
     difference = list(difflib.unified_diff(made.read_text().splitlines(), kept.read_text().splitlines(),
-                                           "bench/report/page.md, filled in", "docs/speed-against-error.md", lineterm="", n=0))
+                                           "bench/report/page.md, filled in", "docs/measurements/speed-against-error.md", lineterm="", n=0))
 print("\n".join(difference))
 sys.exit(1 if difference else 0)

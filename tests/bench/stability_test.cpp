@@ -31,7 +31,7 @@ struct TwoTriangles {
 
 TEST(StabilitySuite, EveryCasePassesInItsShortForm) {
   const std::vector<StabilityCase> cases = stability_cases();
-  ASSERT_GE(cases.size(), 77U) << "as many as docs/stability.md lists";
+  ASSERT_GE(cases.size(), 77U) << "as many as docs/measurements/stability.md lists";
   StabilityOptions options;
   options.quick = true;
   const auto reports = run_stability(cases, options);

@@ -1,5 +1,5 @@
-// Held against itself: distances to a refined reference shrink at the order of the method; docs/numerics.md has the
-// long form of these figures.
+// Held against itself: distances to a refined reference shrink at the order of the method;
+// docs/measurements/numerics.md has the long form of these figures.
 #include <gtest/gtest.h>
 
 #include "sim/scene/scene_reader.h"

@@ -1,5 +1,5 @@
 // Contact of two moving features in binary forms: which polynomials to look at, and the exact decision from their
-// signs. Formulation and proof of completeness: docs/guarantee.md, "Checker: motion".
+// signs. Formulation and proof of completeness: docs/guarantee-checker.md, "Checker: motion".
 #pragma once
 
 #include <array>

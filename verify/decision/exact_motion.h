@@ -1,4 +1,4 @@
-// Exact decision whether two features touch while their vertices move on straight lines (docs/guarantee.md).
+// Exact decision whether two features touch while their vertices move on straight lines (docs/guarantee-checker.md).
 // Every finite double is in the domain; no tolerance anywhere.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Exact decisions about two closed triangles whose corners are named points; zero-area triangles are the union of their
-// edges. Proofs are in docs/guarantee.md, "Checker: frames".
+// edges. Proofs are in docs/guarantee-checker.md, "Checker: frames".
 #pragma once
 
 #include "verify/arithmetic/predicates.h"

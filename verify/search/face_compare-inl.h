@@ -119,8 +119,8 @@ struct Proofs {
 };
 
 /// Faces lie apart but for what they share if all corners of one that are not shared are strictly above the plane of
-/// the other, or all are below (docs/guarantee.md). A shared corner is in that plane and never counted as above or
-/// below.
+/// the other, or all are below (docs/guarantee-checker.md). A shared corner is in that plane and never counted as above
+/// or below.
 inline Proofs prove(const FaceBlock& block, const Face& face, Flags overlap) {
   std::array<Flags, 3> mine{}, theirs{};  // which corners are shared
   for (std::size_t j = 0; j < 3; ++j) {

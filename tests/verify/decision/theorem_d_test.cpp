@@ -1,5 +1,5 @@
-// Theorem D of docs/guarantee.md on small meshes: a mesh that is embedded at t = 0 stays embedded iff there is no
-// vertex-face, edge-edge or self event. The left side is judged at many instants by the frame check.
+// Theorem D of docs/guarantee-checker.md on small meshes: a mesh that is embedded at t = 0 stays embedded iff there is
+// no vertex-face, edge-edge or self event. The left side is judged at many instants by the frame check.
 #include <charconv>
 #include <optional>
 #include <string>
