@@ -83,7 +83,7 @@ afl: setup  ## the same with AFL++
 	cmake --build --preset afl
 	fuzz/harness/campaign afl $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
-mutants: build  ## plant a hundred defects, one at a time: a property must find each of them (docs/measurements/mutants.md)
+mutants: build  ## plant over a hundred defects, one at a time: a property must find each of them (docs/measurements/mutants.md)
 	cmake --build --preset release --target selvage_mutants
 	build/release/tests/mutants/selvage_mutants tests/mutants/lists --classes 1000 \
 	  --json build/mutants.json --markdown build/mutants.md

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.h"
 #include "io/fail.h"
-#include "io/json_values.h"
+#include "io/file/atomic_file.h"
+#include "io/file/json_values.h"
 
 namespace selvage::bench {
 namespace {

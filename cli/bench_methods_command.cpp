@@ -11,7 +11,7 @@
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
 #include "cli/hard_queries.h"
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::cli {
 namespace {

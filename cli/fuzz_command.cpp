@@ -25,7 +25,7 @@
 #include "fuzz/plugin/conformance.h"
 #include "fuzz/run/campaign_stats.h"
 #include "fuzz/run/driver.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "kernel/version.h"
 
 namespace selvage::cli {

@@ -20,7 +20,7 @@
 #include "cli/subdivide_command.h"
 #include "cli/verify_command.h"
 #include "cli/view_command.h"
-#include "io/text.h"
+#include "io/file/text.h"
 #include "kernel/fp_env.h"
 
 int main(int argc, char** argv) {

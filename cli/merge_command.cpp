@@ -14,7 +14,7 @@
 #include "cli/page/report_page.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "verify/report/merge.h"
 
 namespace selvage::cli {

@@ -21,7 +21,7 @@
 #include "fuzz/plugin/plugin_trial.h"
 #include "fuzz/run/guarded_run.h"
 #include "io/fail.h"
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
 #include "cli/render/contact_sheet.h"
-#include "io/extension.h"
+#include "io/file/extension.h"
 
 namespace selvage::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 namespace selvage::cli {
 namespace {

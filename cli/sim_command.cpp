@@ -19,7 +19,7 @@
 #include "cli/process/interrupt.h"
 #include "cli/process/terminal.h"
 #include "cli/start/start_check.h"
-#include "io/text.h"
+#include "io/file/text.h"
 #include "kernel/version.h"
 #include "sim/base/points.h"
 #include "sim/description.h"
@@ -53,20 +53,27 @@ const char* name_of_pair(PairKind kind) {
 }
 
 void print_witness(const sim::Simulation& simulation, const sim::CollisionStepReport& report) {
-  say("stopped at {:.6f} s: no safe position of the cloth was found between its scripted bodies",
+  say("stopped at {:.6f} s: no safe position of the cloth was found between what scripts move",
       simulation.clock().time_s());
+  std::string_view movers = "bodies";
   if (report.witness) {
     const sim::World& world = simulation.world();
     const Collision& pair = *report.witness;
     std::string parts;
     const auto vertices = pair_vertices(world.mesh, pair.kind, pair.first, pair.second);
     const bool is_self = pair.kind == PairKind::kSelf;  // of three vertices, the first of them twice
+    bool has_body = false, has_pin = false;
     for (const VertexId vertex : std::span(vertices).first(is_self ? 3 : 4)) {
-      parts += fmt::format("{}{} ({})", parts.empty() ? "" : ", ", vertex, part_of_vertex(world, vertex));
+      const std::string pin = pin_of_vertex(world, vertex, simulation.clock().time_s());
+      has_body = has_body || vertex >= world.cloth_vertex_count;
+      has_pin = has_pin || !pin.empty();
+      parts += fmt::format("{}{} ({})", parts.empty() ? "" : ", ", vertex,
+                           pin.empty() ? part_of_vertex(world, vertex) : pin);
     }
+    if (has_pin) movers = has_body ? "bodies and pins" : "pins";
     say("; witness: {} at vertices {}", name_of_pair(pair.kind), parts);
   }
-  say("\nmove the bodies apart, or set squeeze = \"yield\" to let them wait\n");
+  say("\nmove the {} apart, or set squeeze = \"yield\" to let them wait\n", movers);
 }
 
 void print_phases(const sim::RunTotals& totals) {
@@ -171,10 +178,10 @@ void note_failure(sim::Recorder& recorder, const std::exception_ptr& exception) 
   }
 }
 
-/// Of cloth inside bodies.
+/// Of mesh files, and of cloth inside bodies.
 std::vector<std::string> notes_on_start(const sim::Simulation& simulation) {
-  std::vector<std::string> notes;
   const sim::World& world = simulation.world();
+  std::vector<std::string> notes = world.remarks;
   for (const auto& [cloth, body] : find_enclosed(world.mesh, world.groups, sim::points_of(simulation.x()))) {
     notes.push_back(fmt::format(
         "{} starts inside the closed body {} without meeting it, which is taken as intended: it will stay inside; move "

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "io/posix_file.h"
+#include "io/file/posix_file.h"
 
 namespace selvage::io {
 namespace {

@@ -1,8 +1,8 @@
 #include "io/mesh_reader.h"
 
-#include "io/atomic_file.h"
-#include "io/extension.h"
 #include "io/fail.h"
+#include "io/file/atomic_file.h"
+#include "io/file/extension.h"
 
 namespace selvage::io {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "io/byte_order.h"
-#include "io/extension.h"
 #include "io/fail.h"
-#include "io/fp_guard.h"
+#include "io/file/byte_order.h"
+#include "io/file/extension.h"
+#include "io/file/fp_guard.h"
 
 namespace selvage::io {
 namespace {

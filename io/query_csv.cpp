@@ -3,11 +3,11 @@
 #include <optional>
 #include <string>
 
-#include "io/atomic_file.h"
 #include "io/fail.h"
-#include "io/fp_guard.h"
-#include "io/rational.h"
-#include "io/text.h"
+#include "io/file/atomic_file.h"
+#include "io/file/fp_guard.h"
+#include "io/file/rational.h"
+#include "io/file/text.h"
 
 namespace selvage::io {
 namespace {

@@ -4,10 +4,10 @@
 #include <system_error>
 #include <utility>
 
-#include "io/extension.h"
 #include "io/fail.h"
+#include "io/file/extension.h"
 #include "io/mesh_reader.h"
-#include "io/sequence_readers.h"
+#include "io/sequence/sequence_readers.h"
 
 namespace selvage::io {
 

@@ -6,13 +6,13 @@
 #include <system_error>
 #include <utility>
 
-#include "io/atomic_file.h"
-#include "io/extension.h"
 #include "io/fail.h"
+#include "io/file/atomic_file.h"
+#include "io/file/extension.h"
+#include "io/file/text.h"
 #include "io/points.h"
-#include "io/sequence_outputs.h"
-#include "io/sequence_readers.h"
-#include "io/text.h"
+#include "io/sequence/sequence_outputs.h"
+#include "io/sequence/sequence_readers.h"
 
 namespace selvage::io {
 namespace fs = std::filesystem;

@@ -9,10 +9,10 @@
 
 #include "kernel/assert.h"
 #include "kernel/box.h"
+#include "kernel/broad/pair_finder.h"
+#include "kernel/broad/spatial_face_tree.h"
 #include "kernel/fp_env.h"
 #include "kernel/own_tasks.h"
-#include "kernel/pair_finder.h"
-#include "kernel/spatial_face_tree.h"
 
 namespace selvage {
 

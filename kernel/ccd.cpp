@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
+#include "kernel/query/ccd_detail.h"
 
 namespace selvage {
 

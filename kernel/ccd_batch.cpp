@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "kernel/assert.h"
-#include "kernel/canonical_order.h"
-#include "kernel/ccd_answer.h"
-#include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
-#include "kernel/lane_cull.h"
-#include "kernel/plane_passage.h"
+#include "kernel/lanes/lane_cull.h"
+#include "kernel/query/canonical_order.h"
+#include "kernel/query/ccd_answer.h"
+#include "kernel/query/ccd_detail.h"
+#include "kernel/query/plane_passage.h"
 
 namespace selvage {
 

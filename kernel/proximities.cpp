@@ -7,10 +7,10 @@
 
 #include "kernel/assert.h"
 #include "kernel/candidates.h"
-#include "kernel/ccd_detail.h"
 #include "kernel/fp_env.h"
-#include "kernel/lane_cull.h"
+#include "kernel/lanes/lane_cull.h"
 #include "kernel/own_tasks.h"
+#include "kernel/query/ccd_detail.h"
 
 namespace selvage {
 

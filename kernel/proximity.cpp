@@ -3,13 +3,13 @@
 #include <cmath>
 #include <limits>
 
-#include "kernel/canonical_order.h"
-#include "kernel/ccd_detail.h"
-#include "kernel/closest_point.h"
+#include "kernel/arithmetic/power_of_two.h"
+#include "kernel/arithmetic/rounding.h"
 #include "kernel/fp_env.h"
-#include "kernel/power_of_two.h"
-#include "kernel/rounding.h"
-#include "kernel/separation.h"
+#include "kernel/query/canonical_order.h"
+#include "kernel/query/ccd_detail.h"
+#include "kernel/query/closest_point.h"
+#include "kernel/query/separation.h"
 
 namespace selvage {
 

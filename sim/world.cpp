@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/fail.h"
+#include "io/format/polygon.h"
 #include "io/mesh_reader.h"
 #include "kernel/fp_env.h"
 #include "sim/bodies/body_sequence.h"
@@ -44,7 +45,8 @@ Shape make_shape(const GarmentSpec& garment, const Scene& scene) {
 Shape make_shape(const MeshSpec& mesh, const Scene& scene) {
   return read_for_line(scene.file, mesh.line, "mesh", [&]() -> Shape {
     const io::MeshData data = io::read_mesh(scene.file.parent_path() / mesh.file);
-    return {scaled_positions(data.points, mesh.scale, mesh.file.string()), data.triangles};
+    return {scaled_positions(data.points, mesh.scale, mesh.file.string()), data.triangles,
+            io::split_remark(mesh.file.string(), data.split_polygons)};
   });
 }
 
@@ -141,6 +143,7 @@ class WorldBuilder {
     world.colliders = std::move(bodies_);
     world.contacts = take_contacts();
     world.joined = std::move(joined_);
+    world.remarks = std::move(remarks_);
     world.body_count = static_cast<std::int32_t>(world.colliders.size());
     std::move(pins_.begin(), pins_.end(), std::back_inserter(world.colliders));
     for (const Collider& collider : world.colliders) world.deforms.push_back(collider.deforms() ? 1 : 0);
@@ -182,6 +185,9 @@ class WorldBuilder {
   VertexId add_part(const std::string& name, io::Group::Role role, const Shape& shape, const Positions& placed) {
     const auto begin = static_cast<VertexId>(x_.rows());
     const auto face_begin = static_cast<FaceId>(triangles_.size());
+    if (!shape.remark.empty() && std::ranges::find(remarks_, shape.remark) == remarks_.end()) {
+      remarks_.push_back(shape.remark);
+    }
     for (const auto& t : shape.triangles) triangles_.push_back({t[0] + begin, t[1] + begin, t[2] + begin});
     groups_.push_back({name, role, face_begin, static_cast<FaceId>(triangles_.size())});
     x_.conservativeResize(begin + placed.rows(), 3);
@@ -306,8 +312,9 @@ class WorldBuilder {
   std::vector<Stabilizer> stabilizers_;
   std::vector<ClothRows> cloths_;
   std::vector<Collider> bodies_, pins_;
-  std::vector<Linkage> linkages_;   ///< of the bodies
-  std::vector<JoinedBody> joined_;  ///< likewise
+  std::vector<Linkage> linkages_;  ///< of the bodies
+  std::vector<JoinedBody> joined_;
+  std::vector<std::string> remarks_;
   ContactSurfaces contacts_;
   std::vector<RestPair> rest_pairs_;
   EdgeId edge_begin_ = 0;  ///< of the next cloth

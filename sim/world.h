@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "io/mesh_data.h"
@@ -33,6 +34,7 @@ struct World {
   std::vector<JoinedBody> joined;     ///< by body
   std::vector<std::uint8_t> deforms;  ///< by collider: 1 where it deforms (collider.h)
   ContactSurfaces contacts;           ///< empty where no part has properties of its own, and no rest pairs
+  std::vector<std::string> remarks;   ///< on mesh files that were not taken as they stand, for a person
   double stable_step_s = 0;           ///< of the springs
   Positions x_t0, v_t0;               ///< #V by 3 at time 0, on the lattice of the scene's precision
 };

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "io/checksum.h"
+#include "io/file/checksum.h"
 #include "verify/surface/weld.h"
 
 namespace selvage::verify {

@@ -6,8 +6,8 @@
 
 #include "fuzz/kept/case_file.h"
 #include "fuzz/kept/overlap_case.h"
-#include "io/atomic_file.h"
 #include "io/fail.h"
+#include "io/file/atomic_file.h"
 #include "verify/report/report.h"
 
 namespace selvage::cli {

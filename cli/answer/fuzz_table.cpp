@@ -7,7 +7,7 @@
 
 #include "fuzz/draw/generators.h"
 #include "fuzz/run/worker.h"
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::cli {
 namespace {

@@ -14,5 +14,7 @@ namespace selvage::cli {
 [[nodiscard]] std::string part_of_face(const sim::World& world, FaceId face);
 /// The same of the part that holds the vertex.
 [[nodiscard]] std::string part_of_vertex(const sim::World& world, VertexId vertex);
+/// "dress pin 0": the pin that holds the vertex at the time. Printable; empty where none does.
+[[nodiscard]] std::string pin_of_vertex(const sim::World& world, VertexId vertex, double time_s);
 
 }  // namespace selvage::cli

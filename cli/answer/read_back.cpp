@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cli/arguments/sequence_decorator.h"
-#include "io/checksum.h"
+#include "io/file/checksum.h"
 
 namespace selvage::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/answer/replay.h"
-#include "io/text.h"
+#include "io/file/text.h"
 #include "verify/report/report.h"
 
 namespace selvage::cli {

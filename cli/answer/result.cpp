@@ -5,7 +5,7 @@
 
 #include "cli/arguments/output_check.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 namespace selvage::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/answer/verdict.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 namespace selvage::cli {
 namespace {

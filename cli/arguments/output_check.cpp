@@ -10,10 +10,10 @@
 #include <unistd.h>
 
 #include "cli/process/exit_code.h"
-#include "io/atomic_file.h"
-#include "io/extension.h"
 #include "io/fail.h"
-#include "io/sequence_json.h"
+#include "io/file/atomic_file.h"
+#include "io/file/extension.h"
+#include "io/sequence/sequence_json.h"
 
 namespace selvage::cli {
 namespace {

@@ -12,8 +12,8 @@
 #include "cli/arguments/output_check.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
-#include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/file/atomic_file.h"
 #include "io/point_cache.h"
 #include "sim/record/recorder.h"
 

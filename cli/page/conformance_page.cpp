@@ -11,8 +11,8 @@
 #include "fuzz/draw/generators.h"
 #include "fuzz/kept/case_file.h"
 #include "fuzz/shrink/shrink_query.h"
-#include "io/atomic_file.h"
-#include "io/text.h"
+#include "io/file/atomic_file.h"
+#include "io/file/text.h"
 #include "page/page.h"
 
 namespace selvage::cli {

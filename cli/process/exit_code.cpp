@@ -9,7 +9,7 @@
 
 #include "io/error.h"
 #include "io/fail.h"
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::cli {
 namespace {

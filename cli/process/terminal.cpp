@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::cli {
 namespace {

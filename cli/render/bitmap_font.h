@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "io/png.h"
+#include "io/format/png.h"
 
 namespace selvage::cli {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/render/camera.h"
-#include "io/png.h"
+#include "io/format/png.h"
 #include "io/sequence.h"
 
 namespace selvage::cli {

@@ -6,7 +6,7 @@
 
 #include "cli/render/camera.h"
 #include "cli/render/surface.h"
-#include "io/png.h"
+#include "io/format/png.h"
 
 namespace selvage::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::fuzz {
 

@@ -12,7 +12,7 @@
 
 #include "fuzz/base/deaths.h"
 #include "fuzz/harness/fuzz_target.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 namespace selvage::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "fuzz/base/case_text.h"
 #include "fuzz/oracle/query_property.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 namespace selvage::fuzz {
 namespace {

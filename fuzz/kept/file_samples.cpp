@@ -2,10 +2,10 @@
 
 #include "fuzz/kept/overlap_case.h"
 #include "fuzz/run/ledger.h"
-#include "io/checksum.h"
-#include "io/npy.h"
+#include "io/file/checksum.h"
+#include "io/format/npy.h"
 #include "io/point_cache.h"
-#include "io/sequence_json.h"
+#include "io/sequence/sequence_json.h"
 #include "kernel/assert.h"
 #include "verify/report/report.h"
 

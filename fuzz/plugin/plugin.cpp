@@ -23,10 +23,10 @@
 #include "fuzz/base/case_text.h"
 #include "fuzz/base/deaths.h"
 #include "fuzz/run/guarded_run.h"
-#include "io/atomic_file.h"
-#include "io/checksum.h"
 #include "io/fail.h"
-#include "io/text.h"
+#include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
+#include "io/file/text.h"
 #include "kernel/fp_env.h"
 
 namespace selvage::fuzz {

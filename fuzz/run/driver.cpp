@@ -15,7 +15,7 @@
 
 #include "fuzz/base/deaths.h"
 #include "fuzz/run/campaign_stats.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "kernel/assert.h"
 
 namespace selvage::fuzz {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fuzz/run/ledger.h"
-#include "io/json_values.h"
-#include "io/text.h"
+#include "io/file/json_values.h"
+#include "io/file/text.h"
 
 namespace selvage::fuzz {
 namespace {

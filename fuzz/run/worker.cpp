@@ -12,8 +12,8 @@
 #include "fuzz/base/deaths.h"
 #include "fuzz/run/guarded_run.h"
 #include "fuzz/run/wire.h"
-#include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/file/atomic_file.h"
 
 namespace selvage::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/power_of_two.h"
+#include "kernel/arithmetic/power_of_two.h"
 #include "sim/base/parallel.h"
 
 #undef HWY_TARGET_INCLUDE

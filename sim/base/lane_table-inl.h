@@ -1,5 +1,5 @@
 // Loops over the entries of a lane table, for as many vertices at once as a vector holds (Highway; see
-// kernel/lane_vector-inl.h for what makes all targets compute the same bits).
+// kernel/lanes/lane_vector-inl.h for what makes all targets compute the same bits).
 #if defined(SELVAGE_SIM_LANE_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SELVAGE_SIM_LANE_TABLE_INL_H
 #undef SELVAGE_SIM_LANE_TABLE_INL_H
@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "kernel/lane_vector-inl.h"
+#include "kernel/lanes/lane_vector-inl.h"
 #include "sim/base/lane_table.h"
 
 HWY_BEFORE_NAMESPACE();

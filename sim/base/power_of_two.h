@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kernel/power_of_two.h"
+#include "kernel/arithmetic/power_of_two.h"
 
 namespace selvage::sim {
 

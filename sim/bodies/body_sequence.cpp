@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/checksum.h"
+#include "io/file/checksum.h"
 #include "io/numbered_files.h"
 #include "kernel/mesh.h"
 #include "sim/bodies/mesh_shape.h"
@@ -57,6 +57,7 @@ BodySequence::BodySequence(const SequenceSpec& spec, const std::filesystem::path
     one_place_.narrow(x);
     if (i == 0) first_.x = std::move(x);
   }
+  first_.remark = reader_->remark();
 }
 
 Positions BodySequence::read(std::size_t frame) const {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "kernel/fp_env.h"
-#include "kernel/lane_motion.h"
+#include "kernel/lanes/lane_motion.h"
 #include "kernel/own_tasks.h"
 #include "sim/base/parallel.h"
 #include "sim/contact/contact_reach.h"

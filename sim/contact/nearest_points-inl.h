@@ -10,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include "kernel/lane_vector-inl.h"
+#include "kernel/lanes/lane_vector-inl.h"
 #include "kernel/types.h"
 #include "sim/base/power_of_two-inl.h"
 

@@ -1,7 +1,7 @@
 // Nearest points of pairs in plain doubles, without a proof: which pairs are worth a query of the kernel.
 #pragma once
 
-#include "kernel/lane_motion.h"
+#include "kernel/lanes/lane_motion.h"
 #include "kernel/types.h"
 #include "sim/contact/interaction.h"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/text.h"
+#include "io/file/text.h"
 #include "sim/scene/toml_parser.h"
 
 namespace selvage::sim {

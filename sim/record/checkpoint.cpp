@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "sim/base/fnv1a.h"
 #include "sim/base/points.h"
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "io/atomic_file.h"
 #include "io/fail.h"
-#include "io/sequence_json.h"
-#include "io/text.h"
+#include "io/file/atomic_file.h"
+#include "io/file/text.h"
+#include "io/sequence/sequence_json.h"
 #include "sim/base/points.h"
 
 namespace selvage::sim {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "sim/base/fnv1a.h"
 #include "sim/base/points.h"
 #include "sim/record/changed_setting.h"

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "io/atomic_file.h"
-#include "io/fp_guard.h"
+#include "io/file/atomic_file.h"
+#include "io/file/fp_guard.h"
 #include "sim/scene/contact_reader.h"
 #include "sim/scene/scene_ranges.h"
 #include "sim/scene/surface_reader.h"

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "io/mesh_data.h"
@@ -14,6 +15,7 @@ namespace selvage::sim {
 struct Shape {
   Positions x;              ///< #V by 3, m
   io::Triangles triangles;  ///< #F by 3
+  std::string remark = {};  ///< for a person, where its file was not taken as it stands
 };
 
 /// #V: 1 where a face names the vertex.

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/file/text.h"
 #include "io/sequence.h"
-#include "io/text.h"
 #include "tests/cli/run_program.h"
 #include "tests/cli/two_faces.h"
 

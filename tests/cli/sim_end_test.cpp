@@ -122,6 +122,17 @@ TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   EXPECT_EQ(told["exit_code"], 1);
 }
 
+TEST_F(SimCommand, PinsThatLeaveNoRoomAreNamed) {
+  const auto run =
+      sim("[time]\nframes = 10\n[[cloth]]\nsheet = {nx = 2, ny = 2, width_m = 1, height_m = 1}\ndensity_kg_m2 = 0.2\n"
+          "stretch_n_m = 40\n[[cloth.pin]]\nedge = \"left\"\n"
+          "key = [{time_s = 0}, {time_s = 0.1, position_m = [2, 0, 0]}]\n[[cloth.pin]]\nedge = \"right\"\n");
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_NE(run.err.find(" (cloth pin 0)"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(" (cloth pin 1)"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("move the pins apart"), std::string::npos) << run.err;
+}
+
 TEST_F(SimCommand, AnInterruptedRunExits75AndResumesWithTheSameBits) {
   spit(path("scene.toml"), scene(40, 0.2, 0.2));
   ASSERT_EQ(run_program(folder_, {"sim", path("scene.toml"), "-o", path("whole")}).exit_code, 0);

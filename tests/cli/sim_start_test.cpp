@@ -89,6 +89,17 @@ TEST_F(SimCommand, OfClothInPartsItIsSaidHowManyStartInside) {
       << run.err;
 }
 
+TEST_F(SimCommand, OfPolygonsThatWereSplitItIsSaid) {
+  spit(path("quad.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const auto run =
+      sim("[time]\nframes = 1\n[[cloth]]\nmesh = {file = \"quad.obj\"}\ndensity_kg_m2 = 0.2\nstretch_n_m = 40\n"
+          "[[body]]\nmesh = {file = \"quad.obj\"}\nposition_m = [0, 0, -1]\n");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::size_t note = run.err.find("selvage: note: quad.obj: 1 face has");
+  EXPECT_NE(note, std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("quad.obj: 1 face has", note + 30), std::string::npos) << "once: " << run.err;
+}
+
 TEST_F(SimCommand, AStartThatFloat32RoundsTogetherSaysSo) {
   const std::string far =
       "[time]\nframes = 1\n[collision]\nthickness_m = 5e-3\n%[[cloth]]\nsheet = {nx = 30, ny = 30, width_m = 1, "

@@ -36,7 +36,7 @@ endif()
 
 # A loop of oneTBB's own ends with its caller's tasks, and a host may call from any: here all are of tasks of their own
 # (kernel/own_tasks.h). What divides itself within such a task is named.
-set(divides_itself kernel/pair_finder.cpp kernel/spatial_face_tree.cpp)
+set(divides_itself kernel/broad/pair_finder.cpp kernel/broad/spatial_face_tree.cpp)
 foreach(room kernel io sim verify)
   file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${room}/*.h" "${ROOT}/${room}/*.cpp")
   foreach(source ${sources})
@@ -56,8 +56,20 @@ foreach(source ${sources})
   endif()
 endforeach()
 
-# The rooms within sim and within verify, likewise. What stands in the folder of sim itself is the step, and what makes it: it
-# may use them all but those that are made of steps. In that of verify it is the checks, which ask all of its rooms.
+# The rooms within a room, likewise. What stands in the folder of sim itself is the step, and what makes it: it may use them all but
+# those that are made of steps. In that of verify it is the checks, which ask all of its rooms. In those of kernel and io it is what
+# users call, whose words the rooms behind it speak.
+set(kernel_itself api)
+set(kernel_arithmetic_may arithmetic api)
+set(kernel_lanes_may lanes arithmetic api)
+set(kernel_query_may query lanes arithmetic api)
+set(kernel_broad_may broad api)
+set(kernel_api_may api broad query lanes arithmetic)
+set(io_itself api)
+set(io_file_may file api)
+set(io_format_may format file api)
+set(io_sequence_may sequence format file api)
+set(io_api_may api sequence format file)
 set(sim_itself step)
 set(sim_base_may base)
 set(sim_contact_may contact base)
@@ -78,7 +90,7 @@ set(verify_search_may search arithmetic)
 set(verify_surface_may surface search arithmetic)
 set(verify_check_may check decision filter search surface arithmetic)
 set(verify_report_may report check)
-foreach(house sim verify)
+foreach(house kernel io sim verify)
   file(GLOB_RECURSE sources RELATIVE "${ROOT}/${house}" "${ROOT}/${house}/*.h" "${ROOT}/${house}/*.cpp")
   foreach(source ${sources})
     get_filename_component(room "${source}" DIRECTORY)

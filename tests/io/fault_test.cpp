@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "io/sequence.h"
 #include "io/sequence_output.h"
 #include "tests/io/support.h"

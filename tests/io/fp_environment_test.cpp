@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "io/format/npy.h"
 #include "io/mesh_reader.h"
-#include "io/npy.h"
 #include "io/points.h"
 #include "io/query_csv.h"
-#include "io/sequence_json.h"
-#include "io/sequence_outputs.h"
-#include "io/sequence_readers.h"
+#include "io/sequence/sequence_json.h"
+#include "io/sequence/sequence_outputs.h"
+#include "io/sequence/sequence_readers.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/io/zip_writer.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/sequence.h"
-#include "io/sequence_json.h"
+#include "io/sequence/sequence_json.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/parsers.h"
 #include "tests/io/point_cache_builder.h"

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "io/byte_order.h"
+#include "io/file/byte_order.h"
 #include "io/mesh_data.h"
 
 namespace selvage::testing {

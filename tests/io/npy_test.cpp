@@ -1,8 +1,8 @@
-#include "io/npy.h"
+#include "io/format/npy.h"
 
 #include <gtest/gtest.h>
 
-#include "io/byte_order.h"
+#include "io/file/byte_order.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "io/npy.h"
-#include "io/sequence_readers.h"
+#include "io/format/npy.h"
+#include "io/sequence/sequence_readers.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/support.h"
 #include "tests/io/zip_writer.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "io/format/npy.h"
 #include "io/mesh_reader.h"
-#include "io/npy.h"
 #include "io/query_csv.h"
-#include "io/sequence_json.h"
-#include "io/sequence_readers.h"
+#include "io/sequence/sequence_json.h"
+#include "io/sequence/sequence_readers.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/io/zip_writer.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "io/byte_order.h"
+#include "io/file/byte_order.h"
 #include "io/mesh_reader.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"

@@ -1,10 +1,10 @@
-#include "io/png.h"
+#include "io/format/png.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "io/byte_order.h"
-#include "io/checksum.h"
+#include "io/file/byte_order.h"
+#include "io/file/checksum.h"
 #include "tests/io/support.h"
 
 namespace selvage::io {

@@ -11,7 +11,7 @@
 
 #include "io/mesh_reader.h"
 #include "io/sequence.h"
-#include "io/sequence_readers.h"
+#include "io/sequence/sequence_readers.h"
 #include "tests/io/parsers.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/io/support.h"

@@ -7,7 +7,7 @@
 
 #include <rapidcheck/gtest.h>
 
-#include "io/rational.h"
+#include "io/file/rational.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"
 #include "tests/property.h"

@@ -11,10 +11,10 @@
 #include <rapidcheck/gtest.h>
 #include <sys/resource.h>
 
-#include "io/byte_order.h"
-#include "io/checksum.h"
+#include "io/file/byte_order.h"
+#include "io/file/checksum.h"
 #include "io/mesh_reader.h"
-#include "io/sequence_outputs.h"
+#include "io/sequence/sequence_outputs.h"
 #include "tests/io/random_doubles.h"
 #include "tests/io/support.h"
 #include "tests/property.h"

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
-#include "io/npy.h"
-#include "io/sequence_json.h"
+#include "io/file/atomic_file.h"
+#include "io/format/npy.h"
+#include "io/sequence/sequence_json.h"
 #include "tests/io/support.h"
 
 namespace selvage::io {

@@ -9,8 +9,8 @@
 
 #include <zlib.h>
 
-#include "io/byte_order.h"
-#include "io/checksum.h"
+#include "io/file/byte_order.h"
+#include "io/file/checksum.h"
 
 namespace selvage::testing {
 

@@ -1,9 +1,9 @@
 #include "tests/kernel/bound_shares.h"
 
-#include "kernel/closest_point.h"
-#include "kernel/coplanarity.h"
-#include "kernel/rounding.h"
-#include "kernel/separation.h"
+#include "kernel/arithmetic/rounding.h"
+#include "kernel/query/closest_point.h"
+#include "kernel/query/coplanarity.h"
+#include "kernel/query/separation.h"
 #include "tests/kernel/exact.h"
 
 namespace selvage::testing {

@@ -1,12 +1,13 @@
-// How much of each bound of kernel/rounding.h rounding can use: a climb towards the worst case, one random change after
-// another, against exact rationals. More than all of it would be a wrong bound, next to nothing a loose one.
+// How much of each bound of kernel/arithmetic/rounding.h rounding can use: a climb towards the worst case, one random
+// change after another, against exact rationals. More than all of it would be a wrong bound, next to nothing a loose
+// one.
 #pragma once
 
 #include <array>
 #include <span>
 
-#include "kernel/pair_motion.h"
-#include "kernel/time_ticks.h"
+#include "kernel/arithmetic/time_ticks.h"
+#include "kernel/query/pair_motion.h"
 #include "tests/kernel/random_points.h"
 
 namespace selvage::testing {

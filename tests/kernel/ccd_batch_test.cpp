@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "kernel/box_hierarchy.h"
-#include "kernel/lane_cull.h"
-#include "kernel/plane_passage.h"
+#include "kernel/lanes/lane_cull.h"
+#include "kernel/query/plane_passage.h"
 #include "tests/kernel/constructed_contact.h"
 #include "tests/kernel/pair_list.h"
 #include "tests/kernel/public_frames.h"

@@ -303,8 +303,8 @@ TEST(Ccd, WeightsOnAnEdgeThatVanishesAreConvex) {
                            Vec3(0x1.0786p-5, 0x1.24c55p-2, 0x1.541912p+0), Vec3(0, 0, 0)};
   const Points face_t0 = {Vec3(0, 0, 0), Vec3(1.25, 1, 0), Vec3(1, 1.25, 0)};
   const Points face_t1 = {Vec3(1.3125, 0.875, 1.3125), Vec3(0.375, 0.125, 1.3125), Vec3(0.5625, -0.0625, 1.3125)};
-  const CcdResult edges = ccd(PairKind::kEe, edges_t0, edges_t1, kNoTolerance);
-  const CcdResult face = ccd(PairKind::kSelf, face_t0, face_t1, kNoTolerance);
+  const CcdResult edges = pair_ccd(PairKind::kEe, edges_t0, edges_t1, kNoTolerance);
+  const CcdResult face = pair_ccd(PairKind::kSelf, face_t0, face_t1, kNoTolerance);
   for (const CcdResult& result : {edges, face}) {
     EXPECT_EQ(result.verdict, CcdVerdict::kCollides);
     for (const double weight : result.weights) EXPECT_TRUE(weight >= 0 && weight <= 1) << weight;

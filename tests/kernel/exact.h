@@ -6,7 +6,7 @@
 
 #include <gmpxx.h>
 
-#include "kernel/pair_motion.h"
+#include "kernel/query/pair_motion.h"
 
 namespace selvage::testing {
 

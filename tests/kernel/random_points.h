@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kernel/vec3.h"
+#include "kernel/arithmetic/vec3.h"
 
 namespace selvage::testing {
 

@@ -1,17 +1,17 @@
-// Every bound of kernel/rounding.h against exact rationals, with a record of how much of it is used: a bound that is
-// exceeded is wrong, one that is never approached is loose.
-#include "kernel/rounding.h"
+// Every bound of kernel/arithmetic/rounding.h against exact rationals, with a record of how much of it is used: a bound
+// that is exceeded is wrong, one that is never approached is loose.
+#include "kernel/arithmetic/rounding.h"
 
 #include <type_traits>
 #include <utility>
 
 #include <gtest/gtest.h>
 
-#include "kernel/closest_point.h"
-#include "kernel/coplanarity.h"
-#include "kernel/lane_motion.h"
-#include "kernel/power_of_two.h"
-#include "kernel/separation.h"
+#include "kernel/arithmetic/power_of_two.h"
+#include "kernel/lanes/lane_motion.h"
+#include "kernel/query/closest_point.h"
+#include "kernel/query/coplanarity.h"
+#include "kernel/query/separation.h"
 #include "tests/kernel/exact.h"
 #include "tests/kernel/pair_kinds.h"
 #include "tests/kernel/random_points.h"

@@ -1,4 +1,4 @@
-// How much of each bound of kernel/rounding.h rounding can use (bound_shares.h). The shares stand in
+// How much of each bound of kernel/arithmetic/rounding.h rounding can use (bound_shares.h). The shares stand in
 // docs/guarantee-kernel.md.
 #include <algorithm>
 #include <cstdio>

@@ -1,9 +1,9 @@
 // The culls alone, on constructed contacts: no oracle and no search, so that a campaign of many cases costs little.
 // What a cull wrongly separates is seldom, for its bounds are wide and few queries come near them.
 #include "fuzz/draw/contact.h"
-#include "kernel/cull.h"
 #include "kernel/fp_env.h"
-#include "kernel/lane_cull.h"
+#include "kernel/lanes/lane_cull.h"
+#include "kernel/query/cull.h"
 #include "tests/kernel/pair_list.h"
 #include "tests/mutants/properties.h"
 

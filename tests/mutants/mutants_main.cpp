@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "tests/mutants/mutant_report.h"
 
 namespace selvage::mutants {

@@ -3,7 +3,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "fuzz/draw/step_world.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "io/sequence.h"
 #include "sim/record/recorder.h"
 #include "sim/scene/scene_reader.h"

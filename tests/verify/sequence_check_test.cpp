@@ -15,7 +15,7 @@
 #endif
 
 #include "io/sequence.h"
-#include "io/sequence_readers.h"
+#include "io/sequence/sequence_readers.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/public_data.h"
 #include "tests/verify/frames.h"

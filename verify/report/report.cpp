@@ -5,7 +5,7 @@
 #include <set>
 #include <span>
 
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::verify {
 namespace {

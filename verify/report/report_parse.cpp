@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/error.h"
-#include "io/json_values.h"
+#include "io/file/json_values.h"
 #include "verify/report/report.h"
 #include "verify/report/report_sums.h"
 

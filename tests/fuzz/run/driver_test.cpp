@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "fuzz/run/campaign_stats.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "tests/cli/run_program.h"
 
 namespace selvage::fuzz {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/run/ledger.h"
-#include "io/text.h"
+#include "io/file/text.h"
 
 namespace selvage::fuzz {
 namespace {

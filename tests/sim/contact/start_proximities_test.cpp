@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "kernel/collisions.h"
+#include "sim/contact/contact_reach.h"
 #include "sim/contact/local_proximities.h"
 #include "sim/response/repulsion.h"
 #include "tests/property.h"

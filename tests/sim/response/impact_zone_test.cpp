@@ -19,7 +19,7 @@ struct ZoneScene {
     Positions V_t1 = V_t0;
     for (Eigen::Index v = 0; v < 6; ++v) V_t1(v, 2) = v % 2 == 0 ? 1 : -1;
     V_t1(6, 2) = 5;
-    motion.start(V_t0, V_t1, CollisionOptions::Precision::kFloat64);
+    motion.start(V_t0, V_t1, Precision::kFloat64);
     groups.observe(motion);
   }
 };

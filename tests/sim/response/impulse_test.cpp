@@ -100,7 +100,7 @@ TEST(CollisionImpulse, OfAClosedPairKeepsBothMomentaAndAddsNoEnergy) {
       V_t1.row(i) = pair.x_t0[static_cast<std::size_t>(i)] + pair.displacement[static_cast<std::size_t>(i)];
     }
     StepMotion motion;
-    motion.start(V_t0, V_t1, CollisionOptions::Precision::kFloat64);
+    motion.start(V_t0, V_t1, Precision::kFloat64);
     const PairVectors before = gather(pair.interaction, motion.displacement());
     Collision collision{};
     collision.ccd.normal = vector_within(1).normalized();
@@ -129,7 +129,7 @@ TEST(ParallelUpdate, ManyInelasticImpulsesAtOnceKeepMomentumAndAddNoEnergy) {
     const auto random_positions = [&] { return Positions::NullaryExpr(kVertexCount, 3, [&] { return unit(engine); }); };
     const Positions V_t0 = random_positions();
     StepMotion motion;
-    motion.start(V_t0, V_t0 + random_positions(), CollisionOptions::Precision::kFloat64);
+    motion.start(V_t0, V_t0 + random_positions(), Precision::kFloat64);
     std::vector<double> inverse_mass;
     for (Eigen::Index i = 0; i < kVertexCount; ++i) inverse_mass.push_back(std::exp2(4 * unit(engine)));
     std::vector<PairChange> changes;
@@ -168,7 +168,7 @@ TEST(ParallelUpdate, NodeBetweenTwoApproachingTrianglesIsStoppedInOneRound) {
   const std::vector<double> inverse_mass(7, 1.0);
   for (const double cap : {1.0, 0.25}) {
     StepMotion motion;
-    motion.start(V_t0, V_t1, CollisionOptions::Precision::kFloat64);
+    motion.start(V_t0, V_t1, Precision::kFloat64);
     std::vector<PairChange> changes;
     for (const VertexId first : {1, 4}) {
       const Interaction pair = make_interaction(PairKind::kVf, {0, first, first + 1, first + 2},
