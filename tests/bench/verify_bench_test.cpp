@@ -78,6 +78,12 @@ TEST(VerifyBench, WhatIsFoundOnACleanSheetOrNotOnAPlantedOneIsWrong) {
   EXPECT_TRUE(is_wrong(report));
   report.planted = true;
   EXPECT_FALSE(is_wrong(report));
+  report.methods[0].extra = 1;
+  EXPECT_TRUE(is_wrong(report)) << "pairs that the others do not find";
+  report.methods[0].extra = 0;
+  report.methods[0].missing = 1;
+  EXPECT_TRUE(is_wrong(report)) << "pairs that the others find";
+  report.methods[0].missing = 0;
   report.methods[0].found = 0;
   EXPECT_TRUE(is_wrong(report));
 }

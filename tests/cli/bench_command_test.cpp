@@ -54,6 +54,8 @@ TEST(BenchCommand, TheTruthOfAFileThatTheExactCheckerContradictsIsNamed) {
     EXPECT_NE(wrong.err.find(file + line), std::string::npos) << wrong.err;
   }
   EXPECT_EQ(wrong.err.find(file + ":1:"), std::string::npos) << wrong.err;
+  spit(file, query("0,1,", "0"));  // to which a contact that is found is a false alarm, and nothing unsafe
+  EXPECT_EQ(run_program(folder, {"bench", "queries", file, "--repeat", "1"}).exit_code, 1);
 }
 
 TEST(BenchCommand, HardCasesThatAreInterruptedAre75) {

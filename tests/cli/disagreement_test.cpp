@@ -37,4 +37,31 @@ TEST(Disagreement, IsSevenWithoutAVerdictAndTheCaseIsKept) {
   for (const auto& file : kept) EXPECT_NE(run_program(folder, {"replay", file}).out, "") << file;
 }
 
+TEST(Disagreement, OfManyCasesTheGravestCountsWhereverItStands) {
+  const TemporaryFolder folder;
+  const auto divided = folder.path() / "divided.case", contradicted = folder.path() / "contradicted.case",
+             broken = folder.path() / "broken.case";
+  spit(divided,
+       "selvage-case 1 overlap\nseed hand\na 0 0 0 0\nb 1 4 0 0\nc 2 0 4 0\nd 3 1 1 -1\ne 4 2 1 1\nf 5 1 2 1\n"
+       "expect touches\n");
+  spit(contradicted,
+       "selvage-case 1 vf\nseed hand\noptions tolerance=0x0p+0 max_intervals=64\np 1 1 1  1 1 -1\na 0 0 0  0 0 0\n"
+       "b 4 0 0  4 0 0\nc 0 4 0  0 4 0\nexpect apart\n");
+  spit(broken,  // which the textbook's method misses
+       "selvage-case 1 ee\nseed hand\noptions tolerance=0x0p+0 max_intervals=4096\n"
+       "a -1.1e60 3.7e59 1.3e59  -1.3e60 2.9e59 -1.7e58\nb 1.9e60 1.3e59 1.7e59  2.3e60 0.7e59 -2.3e58\n"
+       "c 1.1e59 -1.7e60 1.9e58  1.3e59 -2.1e60 2.3e58\nd 2.3e59 2.9e60 -3.1e58  1.9e59 3.1e60 -2.7e58\n"
+       "expect touches\n");
+  const auto exit_code = [&](const std::filesystem::path& a, const std::filesystem::path& b) {
+    const std::vector<std::string> arguments = {"replay", "--plugin", SELVAGE_TEXTBOOK_PLUGIN, broken, a, b};
+    return run_program(folder, arguments, SELVAGE_LYING_PROGRAM).exit_code;
+  };
+  EXPECT_EQ(exit_code(broken, broken), 1);
+  EXPECT_EQ(exit_code(contradicted, broken), 3);
+  EXPECT_EQ(exit_code(broken, contradicted), 3);
+  EXPECT_EQ(exit_code(divided, contradicted), 7);
+  EXPECT_EQ(exit_code(contradicted, divided), 7);
+  EXPECT_EQ(exit_code(divided, broken), 7);
+}
+
 }  // namespace selvage

@@ -94,6 +94,26 @@ TEST(FuzzCommand, WhatHadNoCaseIsNotCleared) {
   EXPECT_EQ(merged.exit_code, 0) << merged.out << merged.err;
 }
 
+TEST(FuzzCommand, AShardThatWasStoppedIsNoPartOfAWhole) {
+  const TemporaryFolder folder;
+  std::vector<std::string> merge = {"merge", "-o", folder.path() / "whole"};
+  for (const std::string part : {"1", "2"}) {
+    merge.push_back(folder.path() / part);
+    testing::run_program(
+        folder, {"fuzz", "scale", "--cases", "1", "--jobs", "1", "--shard", part + "/2", "--artifacts", merge.back()});
+  }
+  const std::filesystem::path ledger = folder.path() / "1" / "campaign.json";
+  auto json = nlohmann::json::parse(slurp(ledger));
+  json["properties"][0]["units"] =
+      nlohmann::json::array();  // as of one that was stopped before its first unit was done
+  testing::spit(ledger, json.dump());
+  const auto merged = testing::run_program(folder, merge);
+  EXPECT_EQ(merged.exit_code, 3) << merged.out;
+  EXPECT_NE(merged.err.find("0 of 1 work units of scale are done; run the shards again with --resume"),
+            std::string::npos)
+      << merged.err;
+}
+
 TEST(FuzzCommand, AFindingOfSeveralShardsIsKeptFromItsLowestCase) {
   const TemporaryFolder folder;
   const auto shard = [&](const std::string& part, std::int64_t number) {

@@ -97,6 +97,18 @@ TEST(VerifyPage, HasEveryVerdictAndItsReasons) {
   EXPECT_EQ(data_of(slurp(page), "scene")["surfaces"].size(), 2U);
 }
 
+TEST(VerifyPage, AFrameThatWasNotReachedIsNotShownAsClean) {
+  const TemporaryFolder folder;
+  const auto good = folder.path() / "good.obj", bad = folder.path() / "bad.obj", page = folder.path() / "page.html";
+  spit(good, two_faces(1));
+  spit(bad, two_faces(0));
+  ASSERT_EQ(run_program(folder, {"verify", "--fail-fast", good, bad, good, good, "--html", page}).exit_code, 1);
+  const std::string html = slurp(page);
+  EXPECT_EQ(occurrences(html, "title=\"Frame 0: no violation\""), 1U);
+  EXPECT_EQ(occurrences(html, "title=\"Frame 2: not checked\""), 1U);
+  EXPECT_EQ(occurrences(html, "title=\"Frame 3: not checked\""), 1U);
+}
+
 TEST(VerifyPage, NamesOfStrangersStayText) {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "<script>alert(1)<.obj", page = folder.path() / "page.html";

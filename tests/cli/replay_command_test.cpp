@@ -68,6 +68,10 @@ TEST(ReplayCommand, EveryKindOfViolationBecomesACase) {
   for (const auto& entry : std::filesystem::directory_iterator(cases)) {
     const std::string name = entry.path().filename();
     kinds.insert(name.substr(0, name.find('-', name.find('-', 6) + 1)));
+    // The kernel is asked what the check has found: whether they come within the distance.
+    const std::string text = slurp(entry.path());
+    const bool is_near = name.starts_with("frame-0-vf") || name.starts_with("frame-0-ee");
+    EXPECT_EQ(text.find("options tolerance=0x1p+0 ") != text.npos, is_near) << name << "\n" << text;
   }
   EXPECT_EQ(kinds, (std::set<std::string>{"frame-0-ee", "frame-0-overlap", "frame-0-self", "frame-0-vf"}));
   const auto replayed = run_program(folder, {"replay", cases, "--json", folder.path() / "r.json"});

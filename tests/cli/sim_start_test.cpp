@@ -147,6 +147,7 @@ TEST_F(SimCommand, AMeshThatNoRepairCanFreeSaysWhatIsWrongWithIt) {
                                    "have --repair open them"},
         {"f 2 8 3 1\n", fan},
         {"f 2 8 3 1\n", fan, true},
+        {"f 1 2 4\nf 1 5 3\n", "move them apart, or let --repair do it"},  // around one corner, without a common side
         {"f 1 2 3\nf 6 4 7\nf 9 10 11\n", seams},
         {"f 1 2 3\nf 6 4 7\nf 9 10 11\n", "wrote it; the others: move them apart, or let --repair do it"}}) {
     spit(path("cloth.obj"), vertices + faces);

@@ -199,6 +199,12 @@ TEST(VerifyCommand, AGroupThatALaterFrameLacksIsNamedWithTheFrame) {
       << result.err;
   EXPECT_NE(result.err.find("what was checked before it is kept in " + json + ".progress"), std::string::npos)
       << result.err;
+  const auto mesh = folder.path() / "a.obj";
+  spit(mesh, two_faces(1));
+  const auto at_once =
+      run_program(folder, {"verify", mesh, "--ignore", "button", "--json", folder.path() / "one.json"});
+  EXPECT_EQ(at_once.exit_code, 2) << at_once.out;
+  EXPECT_EQ(at_once.err.find("is kept in"), std::string::npos) << "nothing was: " << at_once.err;
 }
 
 TEST(VerifyCommand, ProgressThatCannotBeKeptStopsNothing) {
@@ -421,6 +427,21 @@ TEST(VerifyCommand, AnInterruptThatLeavesWorkIs75WhateverWasFound) {
   EXPECT_NE(whole.out.find("stopped on request"), std::string::npos) << whole.out;
 }
 
+TEST(VerifyCommand, ASignalBehindTheLastFrameCostsNoVerdict) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", report = folder.path() / "report.json", page = folder.path() / "page.html";
+  spit(mesh, two_faces(1));
+  ASSERT_EQ(mkfifo(page.c_str(), 0600), 0);
+  const pid_t child = testing::start_program(folder.path(), {"verify", mesh, "--json", report, "--html", page});
+  // The report is there: what is left is the page, for whose reader the command waits.
+  for (int i = 0; i < 6000 && !std::filesystem::exists(report); ++i) usleep(10000);
+  kill(child, SIGTERM);
+  EXPECT_NE(testing::slurp(page).find("</html>"), std::string::npos);
+  const auto result = testing::wait_for_program(folder.path(), child);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_TRUE(result.out.starts_with("clean\n")) << result.out;
+}
+
 TEST(VerifyCommand, FailFastStopsAndCanGoOn) {
   const TemporaryFolder folder;
   const auto bad = folder.path() / "bad.obj", good = folder.path() / "good.obj", json = folder.path() / "report.json";
@@ -435,11 +456,57 @@ TEST(VerifyCommand, FailFastStopsAndCanGoOn) {
   EXPECT_TRUE(stopped.out.starts_with("violated\n")) << stopped.out;
   EXPECT_NE(stopped.out.find("stopped at the first violation after 2 of 4 frames"), std::string::npos) << stopped.out;
   EXPECT_EQ(nlohmann::json::parse(testing::slurp(json))["frames"]["checked"], 2);
+  const auto progress = folder.path() / "report.json.progress";
+  EXPECT_TRUE(std::filesystem::exists(progress)) << "what was checked is not checked again";
 
   const auto whole = run_program(folder, on);
+  EXPECT_FALSE(std::filesystem::exists(progress));
   EXPECT_EQ(whole.exit_code, 1) << whole.err;
   EXPECT_EQ(whole.out.find("stopped"), std::string::npos) << whole.out;
   EXPECT_EQ(nlohmann::json::parse(testing::slurp(json))["frames"]["violated"], 2);
+}
+
+// Parts are joined, and runs resumed, where these are the same.
+TEST(VerifyCommand, AReportHoldsTheOptionsThatAVerdictDependsOn) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", json = folder.path() / "r.json";
+  spit(mesh, two_faces(1));
+  const auto options_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"verify", mesh, mesh, "--json", json});
+    (void)run_program(folder, arguments);
+    return nlohmann::json::parse(testing::slurp(json))["options"];
+  };
+  const nlohmann::json none = {{"motions", "no"}, {"min_distance", "none"}, {"bodies", "no"},
+                               {"gap", "no"},     {"second_opinion", "no"}, {"groups", ""},
+                               {"body", ""},      {"exempt", ""},           {"ignore", ""},
+                               {"weld", "no"}};
+  EXPECT_EQ(options_of({}), none);
+  const nlohmann::json all = {{"motions", "yes"}, {"min_distance", "0x1p-1"}, {"bodies", "yes"},
+                              {"gap", "yes"},     {"second_opinion", "yes"},  {"groups", "front=0:1 back=1:2"},
+                              {"body", "back"},   {"exempt", "front,back"},   {"ignore", "front"},
+                              {"weld", "yes"}};
+  EXPECT_EQ(
+      options_of({"--motion", "--min-distance", "0.5", "--bodies", "--gap", "--second-opinion", "--group", "front=0:1",
+                  "--group", "back=1:2", "--body", "back", "--exempt", "front,back", "--ignore", "front", "--weld"}),
+      all);
+}
+
+TEST(VerifyCommand, StepsAreCheckedWithTheirMotionsUnlessFramesAloneAreAskedFor) {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  {
+    io::SequenceHeader header;
+    header.triangles = {{0, 1, 2}, {3, 4, 5}};
+    header.kind = io::SequenceKind::kSteps;
+    io::SequenceWriter writer(run, header);
+    for (const double height : {1.0, -3.0}) {
+      writer.append(1 - height, {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, height}, {2, 1, height}, {1, 2, height}});
+    }
+  }
+  EXPECT_EQ(run_program(folder, {"verify", run}).exit_code, 1) << "one face goes through the other";
+  const auto frames = run_program(folder, {"verify", run, "--frames-only"});
+  EXPECT_EQ(frames.exit_code, 0) << frames.out;
+  EXPECT_NE(frames.out.find("motions:    not checked (--motion does)"), std::string::npos) << frames.out;
 }
 
 TEST(VerifyCommand, OutputsThatCannotBeWrittenAreFoundBeforeTheCheck) {

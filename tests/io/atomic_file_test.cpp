@@ -117,6 +117,14 @@ TEST(AtomicFile, ReadRefusesWhatHasNoEnd) {
   expect_error(ErrorKind::kFile, "No such file", [&] { (void)read_file(folder / "b"); });
 }
 
+// Files of the kernel say that they are empty, and a file may grow while it is read.
+TEST(AtomicFile, ReadGoesOnBehindTheSizeThatAFileHas) {
+  const fs::path file = "/proc/self/mountinfo";
+  if (!fs::exists(file)) GTEST_SKIP() << "no /proc";
+  ASSERT_EQ(fs::file_size(file), 0u);
+  EXPECT_EQ(read_file(file), slurp(file));
+}
+
 TEST(AtomicFile, APipeIsRefusedAndNotWaitedFor) {
   const TemporaryFolder folder;
   const fs::path pipe = folder / "pipe";

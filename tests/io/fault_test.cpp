@@ -67,6 +67,16 @@ int fail() {
   return -1;
 }
 
+/// As much of `count` as a call goes through with.
+size_t share_of(size_t count) { return plan.is_armed && plan.fault == Fault::kShortWrites ? (count + 1) / 2 : count; }
+
+/// Every second call of those that may be.
+bool is_interrupted() {
+  if (!plan.is_armed || plan.fault != Fault::kInterruptions || plan.calls_before++ % 2 != 0) return false;
+  errno = EINTR;
+  return true;
+}
+
 }  // namespace
 
 extern "C" {
@@ -83,12 +93,8 @@ int open(const char* path, int flags, ...) {
 
 ssize_t write(int descriptor, const void* bytes, size_t count) {
   auto* const write_all = original<ssize_t(int, const void*, size_t)>("write");
-  if (plan.is_armed && plan.fault == Fault::kShortWrites) return write_all(descriptor, bytes, (count + 1) / 2);
-  if (plan.is_armed && plan.fault == Fault::kInterruptions && plan.calls_before++ % 2 == 0) {
-    errno = EINTR;
-    return -1;
-  }
-  if (!is_due("write " + name_of(descriptor))) return write_all(descriptor, bytes, count);
+  if (is_interrupted()) return -1;
+  if (!is_due("write " + name_of(descriptor))) return write_all(descriptor, bytes, share_of(count));
   if (plan.fault == Fault::kKillHalfway || plan.fault == Fault::kFailHalfway) {
     if (write_all(descriptor, bytes, count / 2) < 0) ::abort();
     if (plan.fault == Fault::kKillHalfway) ::raise(SIGKILL);
@@ -97,8 +103,19 @@ ssize_t write(int descriptor, const void* bytes, size_t count) {
 }
 
 ssize_t pwrite(int descriptor, const void* bytes, size_t count, off_t offset) {
+  if (is_interrupted()) return -1;
   if (is_due("overwrite " + name_of(descriptor))) return fail();
-  return original<ssize_t(int, const void*, size_t, off_t)>("pwrite")(descriptor, bytes, count, offset);
+  return original<ssize_t(int, const void*, size_t, off_t)>("pwrite")(descriptor, bytes, share_of(count), offset);
+}
+
+ssize_t read(int descriptor, void* bytes, size_t count) {
+  if (is_interrupted()) return -1;
+  return original<ssize_t(int, void*, size_t)>("read")(descriptor, bytes, share_of(count));
+}
+
+ssize_t pread(int descriptor, void* bytes, size_t count, off_t offset) {
+  if (is_interrupted()) return -1;
+  return original<ssize_t(int, void*, size_t, off_t)>("pread")(descriptor, bytes, share_of(count), offset);
 }
 
 /// A kill does not lose what is in the system's memory, so that the disk need not be waited for.
@@ -357,6 +374,26 @@ TEST_P(EveryCallOfAnOutput, LeavesNothingOrWholeFiles) {
     }
   }
   EXPECT_GT(calls, 8) << "the calls are not seen";
+}
+
+// Of an .npz sizes are written into what stands before the data, and a frame is read where it is in the file.
+TEST(OutputFaults, ShortAndInterruptedCallsAreContinued) {
+  for (const Fault fault : {Fault::kShortWrites, Fault::kInterruptions}) {
+    for (const char* name : {"a.npz", "a.obj", "a.pc2", "folder"}) {
+      const TemporaryFolder sound, folder;
+      convert(sound / name);
+      plan = {.is_armed = true, .fault = fault, .calls_before = 0, .log = {}};
+      EXPECT_NO_THROW(convert(folder / name)) << name;
+      plan = {};
+      EXPECT_EQ(files_below(folder.path()), files_below(sound.path())) << name;
+      if (!std::filesystem::exists(folder / name)) continue;  // a file a frame
+      plan = {.is_armed = true, .fault = fault, .calls_before = 0, .log = {}};
+      for (std::size_t i = 0; i < kFrames; ++i) {
+        EXPECT_TRUE(same_bits(open_sequence({folder / name})->frame(i).points, points_of(i))) << name;
+      }
+      plan = {};
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryCallOfAnOutput,

@@ -134,6 +134,22 @@ TEST(NpzHostile, DamagedArchives) {
   }
 }
 
+// Both its sizes reach into what follows, or beyond the end.
+TEST(NpzHostile, AMemberEndsBeforeTheDirectory) {
+  const std::string whole =
+      zip({{.name = "V.npy", .content = positions(2, "(2, 4, 3)")}, {.name = "F.npy", .content = npy_bytes(kFaces)}});
+  const std::size_t entry = whole.rfind("PK\x01\x02");  // of F.npy, the last member
+  for (const std::uint32_t more : {1u, 100'000u}) {
+    std::string damaged = whole;
+    for (const std::size_t at : {entry + 20, entry + 24}) {
+      std::string size;
+      append(size, load<std::uint32_t>(whole.data() + at, std::endian::little) + more, std::endian::little);
+      damaged.replace(at, size.size(), size);
+    }
+    expect_bad_npz("is not here; copy the file again", damaged);
+  }
+}
+
 // Of a member that is not read as well: without its group, a body would be cloth.
 TEST(NpzHostile, ANameInTheDirectoryIsThatBeforeTheMember) {
   const std::string whole = zip({{.name = "V.npy", .content = positions(2, "(2, 4, 3)")},

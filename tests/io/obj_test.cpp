@@ -42,6 +42,8 @@ TEST(Obj, ALastLineThatMayBeCutIsRefused) {
   const std::string cut = "the last line has no end and the face may be cut";
   expect_bad_obj("a.obj:14: " + cut, points + "f 3 4 1");
   expect_bad_obj(cut, points + "f 3 4 -1");
+  const std::string ten = points.substr(0, points.find("v 10 "));
+  expect_bad_obj("a.obj:11: " + cut, ten + "f 3 4 1");  // of vertex 10, the last there is
   expect_bad_obj(cut, points + "f 1 2 3 4\nf 5 6 7");
   expect_bad_obj(cut, points + "f 1 2 3 4\nf 5 6 7 ");
   expect_bad_obj(cut, points + "f 3 4 \\\n1");

@@ -103,6 +103,14 @@ TEST(Ply, TextOfAFloatIsRoundedOnceToFloat) {
   EXPECT_EQ(mesh.precision, Precision::kFloat32);
 }
 
+TEST(Ply, OneAxisOfDoublesMakesThemAll) {
+  for (const char axis : {'x', 'y', 'z'}) {
+    std::string elements = kTriangleElements;
+    elements.replace(elements.find(std::string("float ") + axis), 5, "double");
+    EXPECT_EQ(parse_ply(ply("ascii", elements, kTriangleData), "a.ply").precision, Precision::kFloat64) << axis;
+  }
+}
+
 TEST(Ply, OtherPropertiesAndElementsAreSkipped) {
   const std::string elements =
       "obj_info by hand\n"
@@ -191,18 +199,21 @@ TEST(Ply, PolygonsThatBecomeTenTimesTheFileAreRefusedWhereTheyAreMany) {
 }
 
 TEST(Ply, ALastNumberThatMayBeCutIsRefused) {
-  const auto cut = [](const std::string& last_line) {
+  const auto cut = [](const std::string& last_line, int count = 13) {
     std::string points;
-    for (int i = 0; i < 13; ++i) points += std::to_string(i) + " 0 " + std::to_string(i * i) + "\n";
+    for (int i = 0; i < count; ++i) points += std::to_string(i) + " 0 " + std::to_string(i * i) + "\n";
     return ply("ascii",
-               "element vertex 13\nproperty float x\nproperty float y\nproperty float z\n"
-               "element face 1\nproperty list uchar int vertex_indices\n",
+               "element vertex " + std::to_string(count) +
+                   "\nproperty float x\nproperty float y\nproperty float z\n"
+                   "element face 1\nproperty list uchar int vertex_indices\n",
                points + last_line);
   };
   expect_bad_ply("a.ply:24: the last line has no end and its number may be cut", cut("3 3 4 1"));
   EXPECT_EQ(parse_ply(cut("3 3 4 1\n"), "a.ply").triangles, (Triangles{{3, 4, 1}}));
   for (const char* end : {" ", "\r"})
     EXPECT_EQ(parse_ply(cut(std::string("3 3 4 1") + end), "a.ply").triangles[0][2], 1);
+  expect_bad_ply("its number may be cut", cut("3 3 4 1", 11));  // of vertex 10, the last there is
+  EXPECT_EQ(parse_ply(cut("3 3 4 1", 10), "a.ply").triangles[0][2], 1);
   // No more digits can follow: there is no such vertex.
   for (const int whole : {2, 9, 12, 0}) {
     EXPECT_EQ(parse_ply(cut("3 3 4 " + std::to_string(whole)), "a.ply").triangles[0][2], whole);

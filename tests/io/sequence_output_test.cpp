@@ -410,6 +410,17 @@ TEST(SequenceOutput, NpzCanBeReadAsAStream) {
   EXPECT_EQ(bytes.compare(at, 4, "PK\x01\x02"), 0) << "the directory does not follow";
 }
 
+TEST(SequenceOutput, PvdNamesEveryFrameWithItsTimeToTheBit) {
+  const TemporaryFolder folder;
+  const auto output = create(folder / "a.pvd", kTwoFrames);
+  output->append(0.1, mesh_of(kTwoFrames[0]));
+  output->append(1e300, mesh_of(kTwoFrames[1]));
+  output->finish();
+  const std::string list = slurp(folder / "a.pvd");
+  EXPECT_NE(list.find("timestep=\"0.1\" part=\"0\" file=\"a_000000.vtp\""), std::string::npos) << list;
+  EXPECT_NE(list.find("timestep=\"1e+300\" part=\"0\" file=\"a_000001.vtp\""), std::string::npos) << list;
+}
+
 TEST(SequenceOutput, Pc2NeverRounds) {
   const TemporaryFolder folder;
   const auto output = create(folder / "a.pc2", kTwoFrames);

@@ -129,6 +129,42 @@ TEST(SequenceFolder, ResumeRefusesAnotherRun) {
   expect_error(ErrorKind::kBadInput, "lists 1 frames, 2 are needed", [&] { writer.truncate(2); });
 }
 
+// Frames are read once before a run goes on: it must not end as complete with some that nobody can read.
+TEST(SequenceFolder, ResumeRefusesFramesThatAreNotThoseRecorded) {
+  const TemporaryFolder folder;
+  {
+    SequenceWriter writer(folder.path(), square_header());
+    for (int i = 0; i < 3; ++i) writer.append(i, square(i));
+  }
+  const auto resume = [&] { SequenceWriter(folder.path(), square_header(), true); };
+  EXPECT_NO_THROW(resume());
+  const fs::path frame = folder / "frame_000001.npy";
+  const std::string recorded = slurp(frame);
+  spit(frame, npy_bytes(square(7), Precision::kFloat64, "a"));
+  expect_error(ErrorKind::kBadInput, "frame_000001.npy: the checksum differs from the one recorded", resume);
+  spit(frame, recorded);
+  // Other programs may list frames without checksums.
+  spit(folder / "frames.jsonl", "{\"file\":\"frame_000000.npy\"}\n{\"file\":\"frame_000001.npy\"}\n");
+  EXPECT_NO_THROW(resume());
+  Points more = square(1);
+  more.push_back({5, 5, 5});
+  spit(frame, npy_bytes(more, Precision::kFloat64, "a"));
+  expect_error(ErrorKind::kBadInput, "frame_000001.npy: has another number of vertices than the first frame", resume);
+}
+
+// Of vertices without a face there may be more in the run that starts anew.
+TEST(SequenceFolder, WithoutFramesAnyNumberOfVerticesMayFollow) {
+  const TemporaryFolder folder;
+  { SequenceWriter(folder.path(), square_header()).append(0, square(0)); }
+  Points more = square(1);
+  more.push_back({5, 5, 5});
+  SequenceWriter writer(folder.path(), square_header(), true);
+  expect_error(ErrorKind::kBadInput, "5 vertices do not match", [&] { writer.append(1, more); });
+  writer.truncate(0);
+  writer.append(1, more);
+  EXPECT_EQ(open_sequence({folder.path()})->frame(0).points.size(), 5u);
+}
+
 TEST(SequenceFolder, OneWriterAFolder) {
   const TemporaryFolder folder;
   const SequenceWriter writer(folder.path(), square_header());
@@ -176,12 +212,13 @@ TEST(SequenceFolder, NoFaceHasTwoRolesHoweverGroupsOverlap) {
   std::mt19937 random(1);
   int refused = 0;
   for (int trial = 0; trial < 2000; ++trial) {
+    const std::size_t longest = trial % 2 == 0 ? 4 : 10;  // short ones are rarely within another
     std::vector<Group> groups(random() % 6);
     std::array<std::array<bool, 2>, 10> has = {};  // face, role
     for (Group& group : groups) {
       group.role = random() % 2 == 0 ? Group::Role::kCloth : Group::Role::kBody;
       group.face_begin = static_cast<std::int32_t>(random() % 10);
-      group.face_end = std::min<std::int32_t>(10, group.face_begin + static_cast<std::int32_t>(random() % 4));
+      group.face_end = std::min<std::int32_t>(10, group.face_begin + static_cast<std::int32_t>(random() % longest));
       for (std::int32_t face = group.face_begin; face < group.face_end; ++face) {
         has.at(static_cast<std::size_t>(face)).at(group.role == Group::Role::kCloth ? 0 : 1) = true;
       }
@@ -271,6 +308,21 @@ TEST(MeshFiles, ChangedFacesAreReported) {
   expect_error(ErrorKind::kBadInput, "d.obj: no face", [&] {
     (void)open_sequence({folder / "a.obj", folder / "d.obj"});
   });
+}
+
+// A recheck and a verdict say of what precision the coordinates are: float64 where one frame is.
+TEST(MeshFiles, ThePrecisionIsThatOfTheFrameThatStoresMost) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& real) {
+    spit(folder / name, "ply\nformat ascii 1.0\nelement vertex 3\nproperty " + real + " x\nproperty " + real +
+                            " y\nproperty " + real + " z\nelement face 1\nproperty list uchar int vertex_indices\n" +
+                            "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    return folder / name;
+  };
+  const fs::path single = write("single.ply", "float"), whole = write("whole.ply", "double");
+  EXPECT_EQ(open_sequence({single, single})->precision(), Precision::kFloat32);
+  EXPECT_EQ(open_sequence({whole, single})->precision(), Precision::kFloat64);
+  EXPECT_EQ(open_sequence({single, whole})->precision(), Precision::kFloat64);
 }
 
 TEST(SequenceFolder, FacesThatAreNoneAreNamedWithTheirFile) {

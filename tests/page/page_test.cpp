@@ -27,7 +27,7 @@ TEST(PageHtml, BytesThatAreNoTextAreReplaced) {
   EXPECT_EQ(text("a\xC3").code, "a" + replacement) << "cut off";
   EXPECT_EQ(text("\xC0\xAF").code, replacement + replacement) << "a longer form of a slash";
   EXPECT_EQ(text("\xED\xA0\x80").code, replacement + replacement + replacement) << "half a surrogate pair";
-  EXPECT_EQ(text(std::string("a\0\x1b\n", 4)).code, "a" + replacement + replacement + "\n");
+  EXPECT_EQ(text(std::string("a\0\x1b\x7f\n", 5)).code, "a" + replacement + replacement + replacement + "\n");
 }
 
 TEST(Page, IsOneFileThatForbidsToLoadAnything) {

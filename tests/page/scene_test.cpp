@@ -144,15 +144,31 @@ TEST(PageScene, ClothComesFirstAndFacesAreSharedUntilTheyChange) {
             html.npos);
 }
 
+// The same faces in the same order, of which the last ones are cloth from some frame on.
+TEST(PageScene, ASurfaceHasAsManyFacesOfClothAsItHas) {
+  Sheet sheet(1);
+  sheet.is_body = {0, 0, 1};
+  Scene scene(sheet.box(), 16, Prediction::kNone);
+  ASSERT_TRUE(scene.add_frame(sheet.frame(0), kNoLimit));
+  sheet.is_body = {0, 0, 0};
+  ASSERT_TRUE(scene.add_frame(sheet.frame(1), kNoLimit));
+  EXPECT_NE(html_of(scene).find("\"surfaces\": [{\"cloth\": 2}, {\"cloth\": 3}]"), std::string::npos);
+}
+
 TEST(PageScene, PredictedFramesAddUp) {
-  const Sheet first(1), second(1, 2);
-  Scene scene(first.box(), 16, Prediction::kPrevious), alone(first.box(), 16, Prediction::kNone);
-  ASSERT_TRUE(scene.add_frame(first.frame(0), kNoLimit) && scene.add_frame(second.frame(1), kNoLimit));
-  ASSERT_TRUE(alone.add_frame(second.frame(1), kNoLimit));
-  std::vector<std::int32_t> sum = unpack_integers(packed_data(html_of(scene), "frame-0"), 3);
-  const std::vector<std::int32_t> difference = unpack_integers(packed_data(html_of(scene), "frame-1"), 3);
-  for (std::size_t i = 0; i < sum.size(); ++i) sum.at(i) += difference.at(i);
-  EXPECT_EQ(sum, unpack_integers(packed_data(html_of(alone), "frame-0"), 3));
+  const std::vector<Sheet> sheets = {Sheet(1), Sheet(1, 2), Sheet(1, 3)};
+  Scene scene(sheets[0].box(), 16, Prediction::kPrevious), alone(sheets[0].box(), 16, Prediction::kNone);
+  for (std::size_t n = 0; n < sheets.size(); ++n) {
+    const SceneFrame frame = sheets[n].frame(static_cast<std::int64_t>(n));
+    ASSERT_TRUE(scene.add_frame(frame, kNoLimit) && alone.add_frame(frame, kNoLimit));
+  }
+  std::vector<std::int32_t> sum(27, 0);
+  for (std::size_t n = 0; n < sheets.size(); ++n) {  // each is the difference to the one before
+    const std::string id = "frame-" + std::to_string(n);
+    const std::vector<std::int32_t> difference = unpack_integers(packed_data(html_of(scene), id), 3);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += difference.at(i);
+    EXPECT_EQ(sum, unpack_integers(packed_data(html_of(alone), id), 3)) << n;
+  }
 }
 
 TEST(PageScene, WhatDoesNotFitIsLeftOut) {

@@ -186,6 +186,7 @@ TEST(MotionCheck, SingleVertexThroughASheetIsNamedWithItsTime) {
     EXPECT_LE(result.violations[0].t.lower_approx, 1.0 / 3);
     EXPECT_GE(result.violations[0].t.upper_approx, 1.0 / 3);
     EXPECT_LE(result.violations[0].t.upper_approx - result.violations[0].t.lower_approx, 0x1p-52);
+    EXPECT_NEAR(result.violations[0].at_touch.at(0)[2], testing::point_on(mesh, face, {1, 1, 2})[2], 1e-15);
     V_t1[static_cast<std::size_t>(p)][2] += 0.515625;  // now it stops 1/64 above the face
     EXPECT_EQ(check_motion(surface(mesh), mesh.points, V_t1, unlimited()).violations_total.total(), 0);
   }

@@ -14,10 +14,11 @@ namespace {
 using selvage::testing::Frames;
 using selvage::testing::sheet;
 
-/// A sheet, and a triangle at a height that goes through it between frames 2 and 3 and lies in it in frame 5.
+/// A sheet, and a triangle at a height that goes through it between frames 2 and 3, lies in it in frame 5 and is
+/// farther away than all else in the last one.
 std::vector<io::MeshData> frames() {
   std::vector<io::MeshData> result;
-  for (const double height : {4.0, 3.0, 2.0, -2.0, -3.0, 0.25, -4.0}) {
+  for (const double height : {4.0, 3.0, 2.0, -2.0, -3.0, 0.25, -6.0}) {
     io::MeshData mesh = sheet(5);
     const auto p = testing::add_vertex(mesh, {1.25, 1.25, height}), q = testing::add_vertex(mesh, {1.5, 1.25, height}),
                r = testing::add_vertex(mesh, {1.25, 1.5, height});
@@ -84,6 +85,10 @@ TEST(Parts, AReportComesBackFromItsJson) {
   const ParsedReport parsed = parse_report(text, "report.json");
   EXPECT_EQ(json_report(parsed.report, parsed.context), text);
   EXPECT_EQ(parsed.report.violations[0].x_t1, report.violations[0].x_t1);
+  const SequenceReport later = part(frames(), 3, 5).parsed.report;
+  ASSERT_EQ(later.violations.at(0).frame, 2) << "the first motion starts from the frame before the range";
+  const std::string of_later = json_report(later, kContext);
+  EXPECT_EQ(json_report(parse_report(of_later, "part.json").report, kContext), of_later);
 }
 
 TEST(Parts, WhatIsNoReportIsRefused) {
@@ -126,6 +131,7 @@ TEST(Parts, AReportThatContradictsItselfIsRefused) {
       {"expected frames", [](SequenceReport& report) { --report.frames_expected; }},
       {"expected motions", [](SequenceReport& report) { ++report.motions_expected; }},
       {"listed", [](SequenceReport& report) { report.violations.pop_back(); }},
+      {"checksums of surfaces", [](SequenceReport& report) { report.surface_crc32.pop_back(); }},
       {"time", [](SequenceReport& report) { report.violations.back().t.lower_approx = 9; }},
       {"clean", [](SequenceReport& report) { report.verdict = Verdict::kClean; }},
       {"unknown", [](SequenceReport& report) { report.verdict = Verdict::kUnknown; }},
@@ -191,25 +197,33 @@ TEST(Parts, ARunThatIsResumedReportsWhatOneRunWould) {
   for (const SequenceReport& note : notes) {
     const ParsedReport parsed = parse_report(json_report(note, kContext), "progress");
     std::int64_t units = 0;
+    std::size_t last = 0;
     const auto done_before = static_cast<std::size_t>(note.frames.checked + note.motions.checked);
     SequenceOptions resuming = options();
     resuming.resume_from = &parsed.report;
     resuming.progress = [&](std::size_t done, std::size_t) {
       if (done >= done_before) ++units;  // before that frames are read and compared
+      last = done;
       return true;
     };
     EXPECT_EQ(json(check_sequence(Frames(all), resuming)), whole);
+    const bool has_work = note.frame_crc32.size() < all.size();
+    if (has_work) EXPECT_EQ(last, 2 * all.size() - 2) << "before the last frame all else is done";
     EXPECT_LE(units, 2 * static_cast<std::int64_t>(all.size() - note.frame_crc32.size()))
         << "what is done is not done again";
   }
   SequenceOptions resuming = options();
   resuming.resume_from = &notes[3];
+  notes[3].seconds = 1000;
+  EXPECT_GE(check_sequence(Frames(all), resuming).seconds, 1000) << "of both runs";
   std::vector<io::MeshData> changed = all;
   changed[3].points[0][2] += 1;
   EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "the last frame that was done";
   changed = all;
   changed.pop_back();
   EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "another sequence";
+  resuming.check.max_violations += 1;
+  EXPECT_THROW((void)check_sequence(Frames(all), resuming), io::Error) << "a list of another length";
 }
 
 // It was only the last frame that was compared: a crossing put into another one was reported clean.
@@ -246,6 +260,10 @@ TEST(Parts, NoFrameThatAReportSpeaksOfMayChange) {
     std::vector<io::MeshData> changed = all;
     changed[0].groups[1].role = io::Group::Role::kBody;
     EXPECT_THROW((void)check_sequence(Frames(changed), resuming), io::Error) << "the frame before the range";
+    for (const auto& other : std::vector<std::pair<std::size_t, std::size_t>>{{1, 5}, {1, 7}, {2, 6}}) {
+      resuming.range = other;
+      EXPECT_THROW((void)check_sequence(Frames(all), resuming), io::Error) << other.first << " to " << other.second;
+    }
   }
 }
 
@@ -330,6 +348,19 @@ TEST(Parts, NothingMissingDoubleOrForeignIsJoined) {
   foreign = b;
   foreign.parsed.context.options[0].second = "no";
   EXPECT_NE(merge_error({a, foreign, c}).find("options"), std::string::npos);
+  const std::vector<std::function<void(SequenceReport&)>> differences = {
+      [](SequenceReport& report) { report.precision = io::Precision::kFloat32; },
+      [](SequenceReport& report) { report.second_opinion = SecondOpinionScope::kAll; },
+      [](SequenceReport& report) { report.bodies_checked = true; },
+      [](SequenceReport& report) { report.gap_searched = true; },
+      [](SequenceReport& report) { report.welded.emplace(); },
+      [](SequenceReport& report) { report.ignored.emplace_back(); },
+      [](SequenceReport& report) { report.exempted.clear(); }};
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    foreign = b;
+    differences[i](foreign.parsed.report);
+    EXPECT_NE(merge_error({a, foreign, c}).find("what they report differs"), std::string::npos) << i;
+  }
   std::vector<io::MeshData> other = all;
   other[6].points[0][2] += 1;
   EXPECT_NE(merge_error({a, part(other, 3, 5), c}).find("sequences"), std::string::npos);
@@ -360,6 +391,35 @@ TEST(Parts, TheSmallestGapOfThePartsIsThatOfTheWhole) {
   const Part first = part(all, 0, 1, searching), second = part(all, 1, 2, searching);
   EXPECT_EQ(first.parsed.report.gap->upper, second.parsed.report.gap->upper);
   EXPECT_EQ(json(merge({first, second}).report), json(check_sequence(Frames(all), searching)));
+}
+
+TEST(Parts, DisagreementsOfAllPartsAreCountedAndSoManyListed) {
+  std::vector<Part> parts = {part(frames(), 0, 3), part(frames(), 3, 7)};
+  for (Part& each : parts) {
+    SequenceReport& report = each.parsed.report;
+    report.second_opinion = SecondOpinionScope::kAll;
+    report.pairs.asked_again = report.pairs.disagreed = 3;
+    report.disagreements.assign(3, part(frames(), 3, 7).parsed.report.violations.at(0));
+  }
+  const SequenceReport merged = merge(parts).report;
+  EXPECT_EQ(merged.verdict, Verdict::kUnknown);
+  EXPECT_EQ(merged.pairs.disagreed, 6);
+  EXPECT_EQ(std::ssize(merged.disagreements), merged.max_violations);
+}
+
+// Every frame of it was gone through and counted, and of the last one nothing but areas was owed.
+TEST(Parts, WhatALaterPartDidNotCheckLeavesTheWholeUnknown) {
+  std::vector<io::MeshData> all(4, sheet(4));
+  for (io::MeshData& mesh : all) mesh.groups = {{"a", io::Group::Role::kCloth, 0, 2}};
+  all.back().groups[0].face_end = static_cast<std::int32_t>(all.back().triangles.size());
+  SequenceOptions exempting = options({{}, {{"a", "a"}}, {}});
+  exempting.motions = false;
+  const Part first = part(all, 0, 2, exempting), second = part(all, 2, 4, exempting);
+  EXPECT_EQ(first.parsed.report.verdict, Verdict::kClean);
+  EXPECT_EQ(second.parsed.report.verdict, Verdict::kUnknown);
+  const ParsedReport merged = merge({first, second});
+  EXPECT_EQ(merged.report.verdict, Verdict::kUnknown);
+  EXPECT_EQ(json(merged.report), json(check_sequence(Frames(all), exempting)));
 }
 
 TEST(Parts, APartThatWasStoppedLeavesTheWholeUnknown) {

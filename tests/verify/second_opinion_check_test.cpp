@@ -75,7 +75,8 @@ TEST(SecondOpinionCheck, ADeciderThatLiesIsHeard) {
     if (event == 1) liar.self = always;
     if (event == 2) liar.degenerate = [](const auto&) { return true; };
     report = check(SecondOpinionScope::kAll, liar);
-    EXPECT_GT(report.pairs.disagreed, 0) << event;
+    EXPECT_GT(report.pairs.disagreed, 1) << event;
+    EXPECT_EQ(std::ssize(report.disagreements), std::min(report.pairs.disagreed, report.max_violations)) << event;
     EXPECT_EQ(report.disagreements.at(0).kind, "apart") << event;
   }
 }

@@ -84,6 +84,10 @@ TEST(SequenceCheck, NamesTheFrameAndTheMotionThatAreViolated) {
   EXPECT_FALSE(frame.violations.front().motion);
 }
 
+TEST(SequenceCheck, TheLargestCoordinateIsThatFarthestFromZero) {
+  EXPECT_EQ(check_frames({sheet_and_triangle(9), sheet_and_triangle(-11)}).largest_coordinate, 11);
+}
+
 TEST(SequenceCheck, FramesAloneDoNotSeeWhatHappensBetween) {
   const SequenceReport report =
       check_frames({sheet_and_triangle(3), sheet_and_triangle(-3)}, {{}, true, false, nullptr});
@@ -339,6 +343,15 @@ TEST(Report, TextAndJsonTellTheSame) {
   EXPECT_NE(text.find("2 of 2 checked, 0 violated"), std::string::npos) << text;
   EXPECT_NE(text.find("1 of 1 checked, 1 violated"), std::string::npos) << text;
   EXPECT_NE(text.find("and " + std::to_string(report.violations_total.total() - 1) + " more"), std::string::npos);
+}
+
+TEST(Report, APartKnowsWhetherItsFirstFrameHasTheSurfaceOfTheOneBefore) {
+  io::MeshData other = sheet(4);
+  std::swap(other.triangles[3], other.triangles[4]);
+  SequenceOptions part;
+  part.range = {2, 4};
+  EXPECT_EQ(first_surface_change(check_frames({sheet(4), sheet(4), other, other}, part)), 2);
+  EXPECT_EQ(first_surface_change(check_frames({sheet(4), other, other, other}, part)), std::nullopt);
 }
 
 TEST(Report, SaysThatMotionsAreNotChecked) {

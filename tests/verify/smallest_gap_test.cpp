@@ -108,6 +108,14 @@ TEST(SmallestGap, IsOfANearestPairWhateverTheOrder) {
   }
 }
 
+// Reports of earlier versions do not hold the vertices.
+TEST(SmallestGap, WithoutItsVerticesIsToldByItsBounds) {
+  const Gap exact{1, 1}, less{1 - 0x1p-53, 1};
+  EXPECT_TRUE(is_smaller(less, exact));
+  EXPECT_FALSE(is_smaller(exact, less));
+  EXPECT_FALSE(is_smaller(less, less)) << "of which nobody knows";
+}
+
 TEST(SmallestGap, OfSubnormalMeshes) {
   std::mt19937 random(5);
   for (int round = 0; round < 300; ++round) {

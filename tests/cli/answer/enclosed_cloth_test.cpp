@@ -48,6 +48,10 @@ TEST(EnclosedCloth, IsNotedByVerify) {
     EXPECT_EQ(verify({"--motion", first, last}).exit_code, 1);
   }
   EXPECT_FALSE(said(verify({inside, "--ignore", "ball"})));
+  std::string open = testing::slurp(inside);
+  open.resize(open.rfind("f 6 4 7\n"));
+  spit(folder.path() / "open.obj", open);
+  EXPECT_FALSE(said(verify({folder.path() / "open.obj"}))) << "a bowl has no inside";
 }
 
 }  // namespace selvage

@@ -98,6 +98,27 @@ TEST_F(BodySequenceTest, IsAtItsFramesToTheBitAndStraightBetweenThem) {
   EXPECT_LT((between - (0.75 * frame(3) + 0.25 * frame(4))).cwiseAbs().maxCoeff(), 1e-15);
 }
 
+TEST_F(BodySequenceTest, OfAFolderHasItsTimesOrAsManyFramesASecondAsAreAskedFor) {
+  const std::vector<double> times_s = {0.5, 1, 2.5};  // not evenly
+  {
+    io::SequenceHeader header;
+    header.triangles = make_sphere(0.1, 2).triangles;
+    io::SequenceWriter writer(folder_.path() / "run", header);
+    for (const double time_s : times_s) writer.append(time_s, points_of(ball(time_s)));
+  }
+  SequenceSpec run = spec();
+  run.file = "run";
+  run.frames_per_s.reset();
+  const BodySequence own(run, scene_file());  // since the first
+  EXPECT_EQ(own.at(0.5), ball(1));
+  EXPECT_EQ(own.at(2), ball(2.5));
+  EXPECT_LT((own.at(0.875) - (0.75 * ball(1) + 0.25 * ball(2.5))).cwiseAbs().maxCoeff(), 1e-15);
+  run.frames_per_s = 4;
+  const BodySequence even(run, scene_file());
+  EXPECT_EQ(even.at(0.25), ball(1));
+  EXPECT_EQ(even.at(0.5), ball(2.5));
+}
+
 TEST_F(BodySequenceTest, EveryStepOnItIsExactlyFree) {
   write_frames();
   for (const std::string solver : {"explicit", "implicit"}) {

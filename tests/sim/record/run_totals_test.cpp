@@ -18,6 +18,20 @@ TEST(RunTotals, ARepairThatLeavesClothTornIsAShortfall) {
   EXPECT_EQ(totals.shortfalls(), "--repair left cloth at 9 times its length, 1 times a body waited");
 }
 
+TEST(RunTotals, TheLargestStrainIsKeptWithItsTimeAndPlace) {
+  RunTotals totals;
+  StepResult step;
+  for (const double strain : {0.25, 0.75, 0.5}) {
+    step.end_s += 1;
+    step.most_strained = {strain, {static_cast<VertexId>(100 * strain), 7}};
+    totals.add(step);
+  }
+  EXPECT_EQ(totals.largest_strain, 0.75);
+  EXPECT_EQ(totals.largest_strain_at_s, 2);
+  EXPECT_EQ(totals.largest_strain_from, 75);
+  EXPECT_EQ(totals.largest_strain_to, 7);
+}
+
 TEST(RunTotals, AResidualThatIsNoNumberIsNotHiddenByOthers) {
   RunTotals totals;
   StepResult step;

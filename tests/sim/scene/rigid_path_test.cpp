@@ -32,6 +32,21 @@ TEST(RigidPath, MeetsItsKeysBitForBit) {
   }
 }
 
+TEST(RigidPath, LinearAndSmoothGoStraightFromEachKeyToTheNext) {
+  for (const auto& [interpolation, share] :
+       {std::pair(Interpolation::kLinear, 0.25), std::pair(Interpolation::kSmooth, 0.15625)}) {
+    const RigidPath path(kKeys, interpolation);
+    for (std::size_t i = 1; i < kKeys.size(); ++i) {
+      const PoseKey &from = kKeys[i - 1], &to = kKeys[i];
+      const Pose quarter = path.at(0.75 * from.time_s + 0.25 * to.time_s);
+      const Vec3 x = (1 - share) * from.pose.position_m + share * to.pose.position_m,
+                 turn = (1 - share) * from.pose.rotation_deg + share * to.pose.rotation_deg;
+      EXPECT_LT((quarter.position_m - x).norm(), 1e-14) << i;
+      EXPECT_LT((quarter.rotation_deg - turn).norm(), 1e-11) << i;
+    }
+  }
+}
+
 TEST(RigidPath, SmoothStandsStillAtKeysAndLinearDoesNot) {
   const double h = 1e-4;
   const auto speed = [&](Interpolation interpolation, double time_s) {

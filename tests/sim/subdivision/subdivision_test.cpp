@@ -130,6 +130,24 @@ std::map<std::array<VertexId, 2>, Vec3> smooth_edges(const Shape& shape, const s
   return points;
 }
 
+TEST(LoopRules, ABoundaryIsTheCubicSplineOfItsOwnVertices) {
+  Shape sheet = make_sheet(4, 4, 1, 1);
+  for (Eigen::Index v = 0; v < 16; ++v) sheet.x(v, 2) = static_cast<double>(v * 7 % 5);
+  const Mesh mesh = mesh_of(sheet);
+  const Positions fine = LoopRules(mesh, {}).smooth(sheet.x);
+  const auto at = [&](VertexId v) { return Vec3(sheet.x.row(v)); };
+  const std::array<std::array<VertexId, 3>, 3> corners = {{{1, 0, 4}, {0, 1, 2}, {1, 2, 3}}};  // before, at, behind
+  for (const auto& [before, v, behind] : corners) {
+    const Vec3 expected = 0.75 * at(v) + 0.125 * at(before) + 0.125 * at(behind);
+    EXPECT_LT((Vec3(fine.row(v)) - expected).norm(), 1e-15) << v;
+  }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto& [a, b] = mesh.edges[e];
+    if (std::max(a, b) > 3) continue;  // others than those of the lowest row
+    EXPECT_LT((Vec3(fine.row(16 + static_cast<Eigen::Index>(e))) - 0.5 * (at(a) + at(b))).norm(), 1e-15) << a;
+  }
+}
+
 TEST(LoopRules, DoNotAskWhichWayRoundFacesAre) {
   const Shape ball = make_sphere(1, 2);
   Shape mixed = ball;

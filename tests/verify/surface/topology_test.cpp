@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -21,14 +22,18 @@ TEST(Topology, EdgesAreNumberedByLargerThenSmallerVertex) {
 }
 
 TEST(Topology, WhatAnyClothFaceHoldsIsCloth) {
-  const std::vector<std::array<std::int32_t, 3>> triangles = {{4, 2, 3}, {0, 3, 2}};
-  const std::vector<std::uint8_t> is_body = {1, 0};
-  const Topology topology = make_topology({triangles, is_body}, 6);
-  EXPECT_EQ(topology.faces.body, (std::vector<std::int32_t>{0}));
-  EXPECT_EQ(topology.faces.cloth, (std::vector<std::int32_t>{1}));
-  EXPECT_EQ(topology.vertices.body, (std::vector<std::int32_t>{4}));
-  EXPECT_EQ(topology.vertices.cloth, (std::vector<std::int32_t>{0, 2, 3}));
-  EXPECT_EQ(topology.edge_parts.body, (std::vector<std::int32_t>{3, 4}));  // 2-4 and 3-4; 2-3 is shared
+  std::vector<std::array<std::int32_t, 3>> triangles = {{4, 2, 3}, {0, 3, 2}};
+  std::vector<std::uint8_t> is_body = {1, 0};
+  for (const std::int32_t body : {0, 1}) {  // the face of the body may be before that of the cloth, or behind it
+    const Topology topology = make_topology({triangles, is_body}, 6);
+    EXPECT_EQ(topology.faces.body, (std::vector<std::int32_t>{body}));
+    EXPECT_EQ(topology.faces.cloth, (std::vector<std::int32_t>{1 - body}));
+    EXPECT_EQ(topology.vertices.body, (std::vector<std::int32_t>{4}));
+    EXPECT_EQ(topology.vertices.cloth, (std::vector<std::int32_t>{0, 2, 3}));
+    EXPECT_EQ(topology.edge_parts.body, (std::vector<std::int32_t>{3, 4}));  // 2-4 and 3-4; 2-3 is shared
+    std::swap(triangles[0], triangles[1]);
+    std::swap(is_body[0], is_body[1]);
+  }
 }
 
 TEST(Topology, RefusesWhatIsNoSurface) {
