@@ -58,6 +58,21 @@ io::MeshData read_surface(const io::SequenceReader& input, std::size_t frame) {
   return mesh;
 }
 
+/// Throws io::Error where what is read would be in the way: who is told to remove it would lose it.
+void require_apart_from_input(const ConvertArguments& arguments) {
+  std::vector<std::pair<std::filesystem::path, std::string>> made = {{arguments.output, "the result"}};
+  if (io::output_format(arguments.output) == io::OutputFormat::kPc2) {
+    made.emplace_back(io::base_beside(arguments.output), "the base mesh of " + arguments.output.string());
+  }
+  for (const std::filesystem::path& input : io::sequence_files(arguments.sequence.sources, arguments.sequence.base)) {
+    for (const auto& [file, what] : made) {
+      if (!is_one_file(file, input)) continue;
+      throw io::Error(io::ErrorKind::kFile, fmt::format("{} is read, and {} would take its place; choose another name",
+                                                        file.string(), what));
+    }
+  }
+}
+
 /// Writes frames of `input`; nothing is returned where a signal has stopped it, and nothing is left then.
 std::optional<Conversion> write(const io::SequenceReader& input, FrameRange range, const ConvertArguments& arguments) {
   const io::OutputTraits& format = io::traits(io::output_format(arguments.output));
@@ -168,6 +183,7 @@ ExitCode run(const ConvertArguments& arguments) {
   if (input->frame_count() == 0) {
     throw io::Error(io::ErrorKind::kBadInput, "the sequence holds no frame: there is nothing to convert");
   }
+  require_apart_from_input(arguments);
   const FrameRange range = parse_frame_range(arguments.frames, input->frame_count());
   const io::OutputTraits& format = io::traits(io::output_format(arguments.output));
   if (arguments.recheck && !format.is_read) {

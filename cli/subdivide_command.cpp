@@ -1,3 +1,4 @@
+#include "cli/answer/polygon_fan.h"
 #include "cli/subdivide_command.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ struct Intersections {
   std::array<std::int32_t, 2> first{};  ///< faces; twice the same for one without area
 };
 
-/// Of no meaning once a signal has arrived.
+/// Nothing where a signal has arrived, for which whoever asks looks.
 Intersections find_intersections(const io::Triangles& triangles, const std::vector<io::Group>& groups,
                                  const io::Points& V) {
   const std::vector<std::uint8_t> is_body = io::body_faces(triangles.size(), groups);
@@ -85,7 +86,7 @@ io::MeshData read_frame(const io::SequenceReader& input, std::size_t frame, cons
   return mesh;
 }
 
-/// Of no meaning once a signal has arrived.
+/// Incomplete where a signal has arrived, for which whoever asks looks.
 struct FineFrame {
   io::Points points;
   sim::SubdivisionCounts counts;
@@ -111,18 +112,36 @@ std::string pairs_intersect(std::int64_t count) {
   return count == 1 ? "1 pair intersects" : fmt::format("{} pairs intersect", count);
 }
 
+/// What is wrong with the mesh itself where these faces of the input intersect, with the remedy; or what else to do.
+std::string remedy(const io::MeshData& mesh, const std::array<std::int32_t, 2>& faces) {
+  if (faces[0] == faces[1]) return "take it out of the mesh";
+  if (is_of_one_fan(mesh.triangles, faces)) return fan_remedy(faces);
+  const auto corners = [&](std::int32_t face) { return mesh.triangles[static_cast<std::size_t>(face)]; };
+  for (const std::int32_t a : corners(faces[0])) {
+    for (const std::int32_t b : corners(faces[1])) {
+      if (a == b || mesh.points[static_cast<std::size_t>(a)] != mesh.points[static_cast<std::size_t>(b)]) continue;
+      return fmt::format(
+          "vertices {} and {} lie at one place, as where a mesh is split at seams: weld them (merge by distance 0) in "
+          "the program that wrote it; else free the frame",
+          a, b);
+    }
+  }
+  return "free the frame";
+}
+
 /// What keeps the frame from being written, as faces of the input.
-std::string describe(const FineFrame& fine, std::int32_t levels, bool has_others) {
+std::string describe(const FineFrame& fine, const io::MeshData& mesh, std::int32_t levels, bool has_others) {
   const bool is_input = fine.before.count > 0;
   const Intersections& found = is_input ? fine.before : fine.after;
   const std::int32_t parts = is_input ? 1 : 1 << (2 * levels);  // face f becomes faces 4 f .. 4 f + 3 at every level
   const std::int32_t f = found.first[0] / parts, g = found.first[1] / parts;
   const std::string pairs = pairs_intersect(found.count);
-  const char* const others = has_others ? ", or subdivide the others one by one with --frame" : "";
+  const std::string others = has_others ? ", or subdivide the others one by one with --frame" : "";
   if (is_input) {
     return fmt::format(
-        "{} already, the first {}; nothing is written: free the frame{}", pairs,
-        f == g ? fmt::format("is face {}, which has no area", f) : fmt::format("of faces {} and {}", f, g), others);
+        "{} already, the first {}; nothing is written: {}{}", pairs,
+        f == g ? fmt::format("is face {}, which has no area", f) : fmt::format("of faces {} and {}", f, g),
+        remedy(mesh, {f, g}), others);
   }
   return fmt::format("{} after subdivision, the first {}; nothing is written: {}{}", pairs,
                      f == g ? fmt::format("within face {}, which is too thin for the rounding of its midpoints", f)
@@ -193,7 +212,7 @@ ExitCode run(const SubdivideArguments& arguments) {
     for (std::size_t k = 0; k < fine.size(); ++k) {
       if (fine[k].before.count + fine[k].after.count > 0) {
         const std::string name = io::printable(input->frame_name(frame + k));
-        say("selvage: {}: {}\n", name, describe(fine[k], arguments.levels, end - begin > 1));
+        say("selvage: {}: {}\n", name, describe(fine[k], coarse[k], arguments.levels, end - begin > 1));
         return ExitCode::kViolation;
       }
       written.points = std::move(fine[k].points);

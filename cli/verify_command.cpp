@@ -128,9 +128,10 @@ ExitCode run(const VerifyArguments& arguments) {
   print_notes(notes_on_groups(arguments, *sequence));
   require_writable_outputs(arguments);
   verify::SequenceReport report = check(arguments, *sequence, options, context);
-  const std::vector<std::string> on_enclosed = notes_on_clean(arguments, *sequence, options, report);
-  print_notes(on_enclosed);
-  context.notes.insert(context.notes.end(), on_enclosed.begin(), on_enclosed.end());
+  std::vector<std::string> on_result = notes_on_clean(arguments, *sequence, options, report);
+  if (auto on_polygons = note_on_polygons(*sequence, report)) on_result.push_back(std::move(*on_polygons));
+  print_notes(on_result);
+  context.notes.insert(context.notes.end(), on_result.begin(), on_result.end());
   const auto print = [&] {
     const auto max_listed = static_cast<std::size_t>(arguments.max_violations.value_or(kViolationsInText));
     print_report(verify::text_report(report, context, max_listed), report.verdict, {arguments.json, arguments.html});

@@ -39,6 +39,8 @@ class SequenceReader {
   [[nodiscard]] virtual MeshData frame(std::size_t frame) const = 0;
   /// What is there and is no part of it, or what was changed, as a sentence; nothing where there is none.
   [[nodiscard]] virtual std::string remark() const { return {}; }
+  /// Faces of its files with more corners than three, which became several triangles each; of all files.
+  [[nodiscard]] virtual std::int64_t split_polygons() const { return 0; }
 };
 
 /// One folder, one .npz, one .pc2 or .mdd, or one or more mesh files in the given order. `base` is the mesh that a

@@ -209,6 +209,8 @@ void require_same_mesh(const OutputHeader& header, const MeshData& mesh, OutputF
   }
 }
 
+fs::path base_beside(const fs::path& cache) { return fs::path(cache).replace_extension(".obj"); }
+
 WrittenFiles::~WrittenFiles() {
   std::error_code status;
   for (const fs::path& file : files_) fs::remove(file, status);

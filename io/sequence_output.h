@@ -19,6 +19,9 @@ enum class OutputFormat { kFolder, kNpz, kObj, kPc2, kPvd };
 /// Error(kBadInput): another one, or no name before it.
 [[nodiscard]] OutputFormat output_format(const std::filesystem::path& target);
 
+/// The mesh that a .pc2 of this name moves, which is written beside it as OBJ.
+[[nodiscard]] std::filesystem::path base_beside(const std::filesystem::path& cache);
+
 /// What the format keeps of a sequence besides positions and faces.
 struct OutputTraits {
   const char* name;

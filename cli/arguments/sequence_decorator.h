@@ -23,6 +23,7 @@ class SequenceDecorator : public io::SequenceReader {
   bool same_faces_as_previous(std::size_t frame) const override { return inner_->same_faces_as_previous(frame); }
   io::MeshData frame(std::size_t frame) const override { return inner_->frame(frame); }
   std::string remark() const override { return inner_->remark(); }
+  std::int64_t split_polygons() const override { return inner_->split_polygons(); }
 
  protected:
   [[nodiscard]] const io::SequenceReader& inner() const { return *inner_; }

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM ask for a clean stop: the work in hand is finished and written. What comes within half a second of
+// SIGINT, SIGTERM and SIGHUP ask for a clean stop: the work in hand is finished and written. What comes within half a second of
 // the first is the same request, which a launcher and the terminal may both deliver; a later signal kills, and the
 // first does where a command has no work to stop in between. A file that would grow beyond `ulimit -f` is an error of
 // the write, which cleans up behind itself, and no signal.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer/part_name.h"
+#include "cli/answer/polygon_fan.h"
 
 namespace selvage::cli {
 namespace {
@@ -19,16 +20,6 @@ class Faults {
 
   [[nodiscard]] bool is_twice(const sim::FacePair& pair) const {
     return !is_without_area(pair) && std::ranges::is_permutation(corners(pair[0]), corners(pair[1]));
-  }
-
-  /// Whether both are triangles of a fan, which is what readers make of a polygon. That of a convex one has no overlap.
-  [[nodiscard]] bool is_of_one_fan(const sim::FacePair& pair) const {
-    const auto [first, last] = std::minmax(pair[0], pair[1]);
-    for (FaceId face = first; face < last; ++face) {
-      const auto here = corners(face), next = corners(face + 1);
-      if (here[0] != next[0] || here[2] != next[1]) return false;
-    }
-    return first < last;
   }
 
   /// Corners of both, if of one part, that lie, to the bit, where one of the other face lies.
@@ -90,11 +81,7 @@ std::string start_remedy(const sim::World& world, const Positions& x, std::span<
     return fmt::format("faces {} and {} have the same corners: take one of them out of the mesh", pair[0], pair[1]);
   }
   for (const sim::FacePair& pair : pairs) {
-    if (!faults.is_of_one_fan(pair)) continue;
-    return fmt::format(
-        "faces {} and {} go around one corner, as those of a polygon do, which is split into triangles around its "
-        "first: one that is not convex overlaps itself then; export triangles instead",
-        pair[0], pair[1]);
+    if (is_of_one_fan(world.triangles, pair)) return fan_remedy(pair);
   }
   const std::string move = repair_failed ? "move them apart" : "move them apart, or let --repair do it";
   const std::string seams = seam_remedy(faults, pairs);

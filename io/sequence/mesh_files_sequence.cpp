@@ -30,6 +30,7 @@ class MeshFilesSequence final : public SequenceReader {
   double time(std::size_t frame) const override { return static_cast<double>(frame); }
   bool counts_frames() const override { return false; }
   bool same_faces_as_previous(std::size_t frame) const override { return same_faces_.at(frame); }
+  std::int64_t split_polygons() const override { return split_polygons_; }
   std::string remark() const override {
     const std::string last = files_.size() > 1 ? " to " + files_.back().string() : "";
     return split_remark(files_.front().string() + last, split_polygons_);

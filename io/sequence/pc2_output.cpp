@@ -16,7 +16,7 @@ class Pc2Output final : public SequenceOutput {
  public:
   Pc2Output(fs::path file, OutputHeader all)
       : SequenceOutput(std::move(file), std::move(all)),
-        base_(fs::path(target()).replace_extension(".obj")),
+        base_(base_beside(target())),
         cache_(target()) {
     constexpr std::size_t kMax = std::numeric_limits<std::int32_t>::max();
     const auto& [sequence, vertex_count, frame_count] = header();

@@ -39,6 +39,7 @@ class PointCacheSequence final : public SequenceReader {
   double time(std::size_t frame) const override { return header_.times.at(frame); }
   bool counts_frames() const override { return counts_frames_; }
   bool same_faces_as_previous(std::size_t) const override { return true; }
+  std::int64_t split_polygons() const override { return split_polygons_; }
   std::string remark() const override { return split_remark("the base mesh of " + name_, split_polygons_); }
 
   MeshData frame(std::size_t frame) const override {

@@ -31,6 +31,20 @@ const std::vector<io::Points> kApart = {face_pair_points(1, 0), face_pair_points
 
 }  // namespace
 
+// "Remove it" would be advice to lose what is converted.
+TEST(ConvertCommand, WhatIsReadIsNotSaidToBeInTheWay) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", cache = folder.path() / "a.pc2";
+  spit(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto onto_base = run_program(folder, {"convert", mesh, "-o", cache});
+  EXPECT_EQ(onto_base.exit_code, 4);
+  expect_text(onto_base.err, mesh.string() + " is read, and the base mesh of " + cache.string() + " would take its place");
+  const auto onto_itself = run_program(folder, {"convert", mesh, "-o", mesh});
+  EXPECT_EQ(onto_itself.exit_code, 4);
+  expect_text(onto_itself.err, mesh.string() + " is read, and the result would take its place");
+  EXPECT_FALSE(fs::exists(cache));
+}
+
 TEST(ConvertCommand, EveryFormatKeepsTheVerdictAndSaysWhatItDoesNotKeep) {
   const TemporaryFolder folder;
   record(folder.path() / "run", kApart, io::SequenceKind::kSteps);

@@ -242,12 +242,29 @@ TEST(SubdivideCommand, ASignalEndsTheWorkOnAFrame) {
   EXPECT_FALSE(fs::exists(folder.path() / "fine"));
 }
 
+TEST(SubdivideCommand, AFrameThatIntersectsSaysWhatIsWrongWithItsMesh) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "mesh.obj";
+  const std::string second = "f 1 2 3\nv 0 0 0\nv 4 0 0\nv 2 -3 1\nf 4 5 6\n";
+  for (const auto& [text, words] :
+       {std::pair{"v 0 0 0\nv 4 0 0\nv 2 3 0\n" + second, "vertices 0 and 3 lie at one place"},
+        {std::string("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n"),
+         "faces 0 and 1 go around one corner, as those of a polygon do"},
+        {std::string("v 0 0 0\nv 4 0 0\nv 2 3 0\nf 1 2 3\nv 1 1 1\nv 1 1 -1\nv 5 5 0\nf 4 5 6\n"), "free the frame"}}) {
+    spit(mesh, text);
+    const auto run = testing::run_program(folder, {"subdivide", mesh, "-o", folder.path() / "fine"});
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    expect_text(run.err, words);
+    EXPECT_FALSE(fs::exists(folder.path() / "fine"));
+  }
+}
+
 TEST(SubdivideCommand, AnInterruptedRunLeavesNothing) {
   const TemporaryFolder folder;
   io::SequenceWriter writer(folder.path() / "run",
                             {{{0, 1, 2}}, {}, io::SequenceKind::kFrames, io::Precision::kFloat64, "test"});
   for (int i = 0; i < 300; ++i) writer.append(i, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  for (const int signal : {SIGTERM, SIGINT}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     const pid_t child = testing::start_program(
         folder.path(), {"subdivide", folder.path() / "run", "-o", folder.path() / "fine", "--levels", "5"});
     for (int i = 0; i < 6000 && !fs::exists(folder.path() / "fine" / "frame_000000.npy"); ++i) usleep(1000);

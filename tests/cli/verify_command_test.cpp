@@ -20,6 +20,20 @@ using testing::two_faces;
 
 }  // namespace
 
+TEST(VerifyCommand, APolygonThatIsNotConvexIsNamedAsTheCause) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj";
+  const std::string corners = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\n";
+  spit(mesh, corners + "f 1 2 3 4 5\n");
+  const auto concave = run_program(folder, {"verify", mesh});
+  EXPECT_EQ(concave.exit_code, 1);
+  expect_text(concave.err, "note: faces 0 and 1 go around one corner, as those of a polygon do");
+  spit(mesh, corners + "f 1 2 3\nf 1 3 4\nf 1 4 5\n");  // triangles of the user's own
+  const auto folded = run_program(folder, {"verify", mesh});
+  EXPECT_EQ(folded.exit_code, 1);
+  EXPECT_EQ(folded.err.find("go around one corner"), std::string::npos) << folded.err;
+}
+
 TEST(VerifyCommand, CleanFrameIsZero) {
   const TemporaryFolder folder;
   spit(folder.path() / "a.obj", two_faces(1));
