@@ -9,7 +9,7 @@
 #include "fuzz/kept/file_samples.h"
 #include "fuzz/kept/kept_case.h"
 #include "fuzz/kept/overlap_case.h"
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 #include "io/mesh_reader.h"
 #include "io/npy.h"
 #include "io/query_csv.h"

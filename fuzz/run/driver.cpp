@@ -15,6 +15,7 @@
 
 #include "fuzz/base/deaths.h"
 #include "fuzz/run/campaign_stats.h"
+#include "fuzz/run/work_units.h"
 #include "io/atomic_file.h"
 #include "kernel/assert.h"
 

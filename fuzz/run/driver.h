@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 #include "fuzz/run/worker_process.h"
 
 namespace selvage::fuzz {

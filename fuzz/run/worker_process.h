@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "fuzz/ledger/ledger.h"
 #include "fuzz/run/case_clock.h"
-#include "fuzz/run/ledger.h"
 #include "fuzz/run/worker.h"
 
 namespace selvage::fuzz {
