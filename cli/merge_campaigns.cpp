@@ -7,6 +7,7 @@
 #include "cli/answer/fuzz_table.h"
 #include "cli/arguments/output_check.h"
 #include "fuzz/run/driver.h"
+#include "fuzz/run/work_units.h"
 #include "io/file/atomic_file.h"
 
 namespace selvage::cli {

@@ -1,4 +1,3 @@
-#include "cli/answer/polygon_fan.h"
 #include "cli/subdivide_command.h"
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "cli/answer/polygon_fan.h"
 #include "cli/arguments/named_bodies.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"

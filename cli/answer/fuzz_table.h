@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "fuzz/run/ledger.h"
+#include "fuzz/campaign/property.h"
+#include "fuzz/ledger/ledger.h"
 
 namespace selvage::cli {
 

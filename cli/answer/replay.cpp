@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fuzz/oracle/query_property.h"
+#include "fuzz/run/redraw.h"
 #include "kernel/assert.h"
 
 namespace selvage::cli {
@@ -93,7 +94,7 @@ Explanation replay_text(const std::string& text, const std::string& name, const 
   if (std::ranges::any_of(fuzz::kPairKinds, is_motion)) {
     return explain(name, replay_motion(fuzz::parse_case(text, name), asked));
   }
-  return explain(name, replay_kept(name, fuzz::parse_kept_case(text, name)));
+  return explain(name, replay_kept(name, fuzz::parse_kept_case(text, name, fuzz::redraw)));
 }
 
 }  // namespace selvage::cli

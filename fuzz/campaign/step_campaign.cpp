@@ -40,7 +40,7 @@ class StepCampaign final : public Property {
   std::string kept(const Stream& stream, ChoiceSource source, const std::string& origin, const std::string& failure,
                    bool shrunk) override {
     // Which of its steps failed is known only when they are run.
-    if (!shrunk) return kept_text(DrawnCase(origin), origin, failure);
+    if (!shrunk) return drawn_text(origin, failure);
     const Choices choices = shrink_choices(
         source, failure, [&](ChoiceSource simpler) { return run(stream, simpler).failure; }, kStepChoiceTrials);
     ChoiceSource again = ChoiceSource::from_words(choices);

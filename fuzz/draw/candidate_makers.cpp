@@ -111,17 +111,17 @@ struct CandidateClass {
   std::string_view name;
   Positions (*make)(ChoiceSource&, const StepWorld&, const Positions&);
 };
-constexpr std::array<CandidateClass, 11> kCandidateClasses{{{"still", still},
-                                                            {"small-jolt", small_jolt},
-                                                            {"smooth", smooth},
-                                                            {"throw-one", throw_one},
-                                                            {"swap-layers", swap_layers},
-                                                            {"to-plane", to_plane},
-                                                            {"to-point", to_point},
-                                                            {"explode", explode},
-                                                            {"permute", permute},
-                                                            {"wild-jolt", wild_jolt},
-                                                            {"anywhere", anywhere}}};
+constexpr std::array<CandidateClass, kCandidateClassCount> kCandidateClasses{{{"still", still},
+                                                                              {"small-jolt", small_jolt},
+                                                                              {"smooth", smooth},
+                                                                              {"throw-one", throw_one},
+                                                                              {"swap-layers", swap_layers},
+                                                                              {"to-plane", to_plane},
+                                                                              {"to-point", to_point},
+                                                                              {"explode", explode},
+                                                                              {"permute", permute},
+                                                                              {"wild-jolt", wild_jolt},
+                                                                              {"anywhere", anywhere}}};
 
 /// A script that leaves the domain would be refused, rightly.
 bool is_in_domain(const Eigen::RowVector3d& point) { return point.cwiseAbs().maxCoeff() <= kMaxCoordinate; }
@@ -150,15 +150,6 @@ void move_bodies_rigidly(const StepWorld& world, const Positions& x, Positions& 
 }
 
 }  // namespace
-
-const std::vector<std::string_view>& candidate_classes() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all;
-    for (const CandidateClass& one : kCandidateClasses) all.push_back(one.name);
-    return all;
-  }();
-  return names;
-}
 
 Positions choose_candidate(ChoiceSource& source, const StepWorld& world, const Positions& x,
                            std::string_view& candidate_class) {

@@ -56,8 +56,8 @@ void connect(StepWorld& world, const Triples& faces);
 /// The same with a surface of this class.
 [[nodiscard]] StepWorld make_step_world(ChoiceSource& source, const SurfaceClass& surface);
 
-/// Number and names of the ways to choose candidate positions.
-[[nodiscard]] const std::vector<std::string_view>& candidate_classes();
+/// Ways to choose candidate positions.
+inline constexpr std::size_t kCandidateClassCount = 11;
 /// Candidates for a step from x: smooth or wild motion, layers swapped, everything at one point or in one plane,
 /// exploded, mirrored, vertices permuted, no motion at all. Finite; scripted vertices move in the same spirit, but each
 /// body by one translation.

@@ -1,21 +1,21 @@
 #include "fuzz/kept/drawn_case.h"
 
-#include <algorithm>
 #include <charconv>
-#include <exception>
-#include <optional>
-
-#include "fuzz/base/deaths.h"
-#include "fuzz/run/worker.h"
+#include <utility>
 
 namespace selvage::fuzz {
 namespace {
 
-struct Draw {
-  std::unique_ptr<Property> property;
-  const Stream* stream = nullptr;
-  std::uint64_t seed = 0;
-  std::int64_t number = 0;
+class DrawnCase final : public KeptCase {
+ public:
+  explicit DrawnCase(Redrawn redrawn) : redrawn_(std::move(redrawn)) {}
+  [[nodiscard]] std::string kind() const override { return std::string(kDrawn); }
+  [[nodiscard]] std::string promise() const override { return redrawn_.promise; }
+  [[nodiscard]] std::string body() const override { return {}; }
+  [[nodiscard]] Retrial retry() const override { return redrawn_.retry(); }
+
+ private:
+  Redrawn redrawn_;
 };
 
 template <typename Number>
@@ -25,46 +25,35 @@ bool parse_number(std::string_view word, Number& x) {
 }
 
 /// "PROPERTY:STREAM:SEED:NUMBER", as case_origin() writes it.
-std::optional<Draw> draw_of(const std::string& origin) {
+std::optional<CaseOrigin> parse_origin(const std::string& word) {
   std::vector<std::string> parts(1);
-  for (const char c : origin) {
+  for (const char c : word) {
     if (c == ':') {
       parts.emplace_back();
     } else {
       parts.back() += c == '/' ? ' ' : c;
     }
   }
-  Draw draw;
-  if (parts.size() != 4 || !parse_number(parts[2], draw.seed) || !parse_number(parts[3], draw.number)) return {};
-  for (auto& property : all_properties()) {
-    if (property->name() != parts[0]) continue;
-    const auto stream = std::ranges::find(property->streams(), parts[1], &Stream::name);
-    if (stream == property->streams().end()) return {};
-    draw.stream = &*stream;
-    draw.property = std::move(property);
-    return draw;
-  }
-  return {};
+  CaseOrigin origin;
+  if (parts.size() != 4 || !parse_number(parts[2], origin.seed) || !parse_number(parts[3], origin.number)) return {};
+  origin.property = parts[0];
+  origin.stream = parts[1];
+  return origin;
 }
 
 }  // namespace
 
-std::string DrawnCase::promise() const { return draw_of(origin_)->property->promise(); }
-
-Retrial DrawnCase::retry() const {
-  const std::optional<Draw> draw = draw_of(origin_);
-  try {
-    const OneCase run = run_case(*draw->property, *draw->stream, draw->seed, draw->number, kCaseSeconds);
-    return {run.outcome.failure, {"drawn again from its seed, in a process of its own"}, {}};
-  } catch (const std::exception& error) {
-    return {kThrew, {error.what()}, {}};
-  }
+std::string drawn_text(const std::string& origin, const std::string& failure) {
+  return kept_text(DrawnCase({}), origin, failure);
 }
 
-std::unique_ptr<KeptCase> parse_drawn_case(const std::string& origin, CaseLines& lines) {
-  if (!draw_of(origin)) lines.fail("seed: '" + origin + "' is not PROPERTY:STREAM:SEED:NUMBER of a known property");
+std::unique_ptr<KeptCase> parse_drawn_case(const std::string& origin, const Redraw& redraw, CaseLines& lines) {
+  const std::optional<CaseOrigin> parts = parse_origin(origin);
+  std::optional<Redrawn> redrawn;
+  if (parts) redrawn = redraw(*parts);
+  if (!redrawn) lines.fail("seed: '" + origin + "' is not PROPERTY:STREAM:SEED:NUMBER of a known property");
   if (!lines.only_blank_left()) lines.fail("nothing may follow 'failure'; remove it");
-  return std::make_unique<DrawnCase>(origin);
+  return std::make_unique<DrawnCase>(*std::move(redrawn));
 }
 
 }  // namespace selvage::fuzz

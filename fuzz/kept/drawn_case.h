@@ -6,22 +6,12 @@
 
 namespace selvage::fuzz {
 
-class DrawnCase final : public KeptCase {
- public:
-  static constexpr std::string_view kKind = "drawn";
+inline constexpr std::string_view kDrawn = "drawn";  ///< the kind
 
-  explicit DrawnCase(std::string origin) : origin_(std::move(origin)) {}
-  [[nodiscard]] std::string kind() const override { return std::string(kKind); }
-  [[nodiscard]] std::string promise() const override;
-  [[nodiscard]] std::string body() const override { return {}; }
-  /// Here and now: where the code under test crashes, so does this.
-  [[nodiscard]] Retrial retry() const override;
-
- private:
-  std::string origin_;
-};
+[[nodiscard]] std::string drawn_text(const std::string& origin, const std::string& failure);
 
 /// Throws io::Error where `origin` is no case that can be drawn.
-[[nodiscard]] std::unique_ptr<KeptCase> parse_drawn_case(const std::string& origin, CaseLines& lines);
+[[nodiscard]] std::unique_ptr<KeptCase> parse_drawn_case(const std::string& origin, const Redraw& redraw,
+                                                         CaseLines& lines);
 
 }  // namespace selvage::fuzz

@@ -1,7 +1,7 @@
 #include "fuzz/kept/file_samples.h"
 
 #include "fuzz/kept/overlap_case.h"
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 #include "io/file/checksum.h"
 #include "io/format/npy.h"
 #include "io/point_cache.h"

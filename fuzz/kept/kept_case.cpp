@@ -46,12 +46,12 @@ std::string kept_text(const KeptCase& kept, const std::string& origin, const std
   return "selvage-case 1 " + kept.kind() + "\nseed " + origin + "\nfailure " + failure + "\n" + kept.body();
 }
 
-ParsedCase parse_kept_case(std::string_view text, const std::string& name) {
+ParsedCase parse_kept_case(std::string_view text, const std::string& name, const Redraw& redraw) {
   CaseLines lines(text, name);
   const std::string kind = parse_head(lines);
   const MeshKind* mesh = mesh_kind(kind);
   const ByteKind* bytes = byte_kind(kind);
-  if (mesh == nullptr && bytes == nullptr && kind != DrawnCase::kKind) {
+  if (mesh == nullptr && bytes == nullptr && kind != kDrawn) {
     lines.fail("there is no kind of case '" + kind + "' here; replay it with the selvage that wrote it");
   }
   lines.expect_end_of_line();
@@ -63,7 +63,7 @@ ParsedCase parse_kept_case(std::string_view text, const std::string& name) {
   } else if (bytes != nullptr) {
     parsed.kept = std::make_unique<KeptBytes>(parse_byte_case(*bytes, lines));
   } else {
-    parsed.kept = parse_drawn_case(parsed.origin, lines);
+    parsed.kept = parse_drawn_case(parsed.origin, redraw, lines);
   }
   return parsed;
 }

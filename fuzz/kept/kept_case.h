@@ -8,7 +8,10 @@
 // (drawn_case.h).
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,12 +42,28 @@ class KeptCase {
 /// `origin`: PROPERTY:STREAM:SEED:NUMBER, one word. `failure`: the word of the broken promise.
 [[nodiscard]] std::string kept_text(const KeptCase& kept, const std::string& origin, const std::string& failure);
 
+/// The origin of a case, in parts.
+struct CaseOrigin {
+  std::string property, stream;
+  std::uint64_t seed = 0;
+  std::int64_t number = 0;
+};
+/// A case that its seed has made again.
+struct Redrawn {
+  std::string promise;
+  std::function<Retrial()> retry;
+};
+/// Makes a case again, with what no room below the campaigns knows; nothing where no property, or no stream of it, is
+/// so called.
+using Redraw = std::function<std::optional<Redrawn>(const CaseOrigin&)>;
+
 struct ParsedCase {
   std::string origin, failure;  ///< as the file says
   std::unique_ptr<KeptCase> kept;
 };
-/// Throws io::Error naming `name` and the line.
-[[nodiscard]] ParsedCase parse_kept_case(std::string_view text, const std::string& name);
+/// `redraw` makes the cases that are known by their seed alone (fuzz/run/redraw.h). Throws io::Error naming `name` and
+/// the line.
+[[nodiscard]] ParsedCase parse_kept_case(std::string_view text, const std::string& name, const Redraw& redraw);
 /// The kind that the text names, whether or not there is one so called. Throws io::Error where it is no case at all.
 [[nodiscard]] std::string kind_of_case(std::string_view text, const std::string& name);
 

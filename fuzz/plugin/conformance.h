@@ -7,8 +7,8 @@
 #include <string>
 
 #include "fuzz/campaign/property.h"
+#include "fuzz/ledger/ledger.h"
 #include "fuzz/plugin/plugin.h"
-#include "fuzz/run/ledger.h"
 
 namespace selvage::fuzz {
 

@@ -15,6 +15,7 @@
 
 #include "fuzz/base/deaths.h"
 #include "fuzz/run/campaign_stats.h"
+#include "fuzz/run/work_units.h"
 #include "io/file/atomic_file.h"
 #include "kernel/assert.h"
 
@@ -73,13 +74,14 @@ void require_same_plugin(const Ledger& known, const Ledger& now, const std::stri
 
 }  // namespace
 
-struct Driver::Team {
-  explicit Team(const WorkerSetting& setting) : worker(std::in_place, setting) {}
-  std::optional<WorkerProcess> worker;  // always there
+struct Driver::WorkerSlot {
+  explicit WorkerSlot(const WorkerSetting& setting) : worker(std::in_place, setting) {}
+  /// Always there: an optional because emplace() puts another in its place, and a worker is neither moved nor assigned.
+  std::optional<WorkerProcess> worker;
   std::vector<Event> failures;
 };
 
-struct Driver::Share {
+struct Driver::PropertyProgress {
   double seconds = 0;       ///< spent, those in hand estimated
   double unit_seconds = 0;  ///< of the last unit
   std::set<std::int64_t> in_hand;
@@ -127,13 +129,13 @@ Driver::Driver(Properties& properties, DriverOptions options)
     ledger_ = std::move(known);
   }
   for (const auto& property : properties_) {
-    Share share;
-    share.next = options_.shard - 1;
-    share.is_skipped.resize(property->streams().size());
-    share.crashes.resize(property->streams().size());
-    share.hangs.resize(property->streams().size());
+    PropertyProgress state;
+    state.next = options_.shard - 1;
+    state.is_skipped.resize(property->streams().size());
+    state.crashes.resize(property->streams().size());
+    state.hangs.resize(property->streams().size());
     SELVAGE_ASSERT(property->streams().size() <= Progress::kMaxStreams);
-    shares_.push_back(std::move(share));
+    property_progress_.push_back(std::move(state));
   }
 }
 
@@ -146,7 +148,7 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
   // Until the last fork: it takes one thread along and the locks of all. At its end the control lets threads start.
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   for (const auto& property : properties_) property->prepare();
-  for (int i = 0; i < options_.jobs; ++i) teams_.push_back(std::make_unique<Team>(setting_));
+  for (int i = 0; i < options_.jobs; ++i) slots_.push_back(std::make_unique<WorkerSlot>(setting_));
   const auto start = Clock::now();
   auto last_save = start;
   bool stopped = false;
@@ -155,15 +157,15 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
     stopped = stopped || stop();
     const Pace now = pace(stopped);
     std::vector<pollfd> waits;
-    std::vector<Team*> busy;
-    for (const auto& team : teams_) {
-      if (!team->worker->job() && !assign(*team, now)) continue;
-      waits.push_back({team->worker->events(), POLLIN, 0});
-      busy.push_back(team.get());
+    std::vector<WorkerSlot*> busy;
+    for (const auto& slot : slots_) {
+      if (!slot->worker->job() && !assign(*slot, now)) continue;
+      waits.push_back({slot->worker->events(), POLLIN, 0});
+      busy.push_back(slot.get());
     }
     if (busy.empty()) break;
     if (poll(waits.data(), waits.size(), kTick_ms) < 0 && errno != EINTR) throw std::runtime_error("poll failed");
-    for (std::size_t i = 0; i < busy.size(); ++i) look_after(*busy[i], now, waits[i].revents);
+    for (std::size_t i = 0; i < busy.size(); ++i) receive_or_watch(*busy[i], now, waits[i].revents);
     watch(status_);
     if (is_dirty_ && std::chrono::duration<double>(Clock::now() - last_save).count() >= kSaveEvery_s) {
       save();
@@ -171,7 +173,7 @@ bool Driver::run(const std::function<bool()>& stop, const std::function<void(con
     }
   }
   save();
-  teams_.clear();
+  slots_.clear();
   return !stopped;
 }
 
@@ -179,40 +181,41 @@ Driver::Pace Driver::pace(bool stopped) {
   if (!stopped && !(options_.seconds && status_.seconds >= *options_.seconds)) return Pace::kFull;
   if (!stopping_since_s_) {
     stopping_since_s_ = status_.seconds;
-    for (const auto& team : teams_) team->worker->ask_to_stop();
+    for (const auto& slot : slots_) slot->worker->ask_to_stop();
   }
   return status_.seconds - *stopping_since_s_ < options_.case_seconds + kGrace_s ? Pace::kStopping : Pace::kLate;
 }
 
-bool Driver::assign(Team& team, Pace pace) {
+bool Driver::assign(WorkerSlot& slot, Pace pace) {
   const std::optional<Job> job = next_job(pace);
   if (!job) return false;
-  team.failures.clear();
+  slot.failures.clear();
   const auto p = static_cast<std::size_t>(job->property);
   if (job->kind == Job::Kind::kKeep &&
-      shares_[p].lost.contains({ledger_.properties[p].streams[static_cast<std::size_t>(job->stream)], job->failure})) {
-    team.worker.emplace(setting_);  // one in which nothing has run yet
+      property_progress_[p].lost.contains(
+          {ledger_.properties[p].streams[static_cast<std::size_t>(job->stream)], job->failure})) {
+    slot.worker.emplace(setting_);  // one in which nothing has run yet
   }
   const auto& open = ledger_.properties[p].open;
   const auto place = job->kind == Job::Kind::kUnit ? open.find(job->number) : open.end();
-  team.worker->give(*job, shares_[p].is_skipped, place == open.end() ? UnitPlace{} : place->second);
+  slot.worker->give(*job, property_progress_[p].is_skipped, place == open.end() ? UnitPlace{} : place->second);
   return true;
 }
 
-/// `heard`: what poll() says of its events. One that has just spoken is not looked at: it may wait for the next job.
-void Driver::look_after(Team& team, Pace pace, short heard) {
-  if (heard != 0) return hear(team, (heard & POLLHUP) != 0);
-  team.worker->watch(options_.case_seconds);
-  const Job& job = *team.worker->job();  // where nothing but a case as it is remains to be written, that is waited for
-  if (pace == Pace::kLate && (job.kind == Job::Kind::kUnit || job.shrunk != 0)) team.worker->abandon();
+/// `revents`: what poll() says of its events. One that has just spoken is not watched: it may wait for the next job.
+void Driver::receive_or_watch(WorkerSlot& slot, Pace pace, short revents) {
+  if (revents != 0) return receive(slot, (revents & POLLHUP) != 0);
+  slot.worker->watch(options_.case_seconds);
+  const Job& job = *slot.worker->job();  // where nothing but a case as it is remains to be written, that is waited for
+  if (pace == Pace::kLate && (job.kind == Job::Kind::kUnit || job.shrunk != 0)) slot.worker->abandon();
   // Nothing is lost with a worker that still loads what it tests.
-  if (pace == Pace::kStopping && job.kind == Job::Kind::kUnit && !team.worker->has_started()) team.worker->abandon();
+  if (pace == Pace::kStopping && job.kind == Job::Kind::kUnit && !slot.worker->has_started()) slot.worker->abandon();
 }
 
 std::optional<Job> Driver::next_job(Pace pace) {
-  for (std::size_t p = 0; p < shares_.size(); ++p) {
+  for (std::size_t p = 0; p < property_progress_.size(); ++p) {
     for (const auto& [key, finding] : ledger_.properties[p].findings) {
-      if (!finding.file.empty() || shares_[p].being_kept.contains(key)) continue;
+      if (!finding.file.empty() || property_progress_[p].being_kept.contains(key)) continue;
       Job job;
       job.kind = Job::Kind::kKeep;
       job.property = static_cast<std::int32_t>(p);
@@ -222,75 +225,75 @@ std::optional<Job> Driver::next_job(Pace pace) {
       key.second.copy(job.failure, kFailureWord - 1);
       const bool can_shrink = !is_death(key.second) && key.second != kBrokeChannel;
       job.shrunk = can_shrink && pace != Pace::kLate ? 1 : 0;
-      shares_[p].being_kept.insert(key);
+      property_progress_[p].being_kept.insert(key);
       return job;
     }
   }
   if (pace != Pace::kFull) return std::nullopt;
   std::optional<std::size_t> chosen;
-  for (std::size_t p = 0; p < shares_.size(); ++p) {
-    Share& share = shares_[p];
-    while (ledger_.properties[p].units.contains(share.next) || share.in_hand.contains(share.next)) {
-      share.next += options_.shards;
+  for (std::size_t p = 0; p < property_progress_.size(); ++p) {
+    PropertyProgress& state = property_progress_[p];
+    while (ledger_.properties[p].units.contains(state.next) || state.in_hand.contains(state.next)) {
+      state.next += options_.shards;
     }
     const auto end = unit_count(*properties_[p], options_.cases);
-    if (end && share.next >= *end) continue;
-    if (std::ranges::all_of(share.is_skipped, std::identity())) continue;
-    const auto cost = [&](std::size_t i) { return shares_[i].seconds / properties_[i]->weight(); };
+    if (end && state.next >= *end) continue;
+    if (std::ranges::all_of(state.is_skipped, std::identity())) continue;
+    const auto cost = [&](std::size_t i) { return property_progress_[i].seconds / properties_[i]->weight(); };
     if (!chosen || cost(p) < cost(*chosen)) chosen = p;
   }
   if (!chosen) return std::nullopt;
-  Share& share = shares_[*chosen];
-  share.in_hand.insert(share.next);
-  share.seconds += share.unit_seconds;
+  PropertyProgress& state = property_progress_[*chosen];
+  state.in_hand.insert(state.next);
+  state.seconds += state.unit_seconds;
   Job job;
   job.property = static_cast<std::int32_t>(*chosen);
-  job.number = share.next;
+  job.number = state.next;
   return job;
 }
 
-void Driver::hear(Team& team, bool has_hung_up) {
-  const std::optional<Event> event = team.worker->receive_event();
-  const Job job = *team.worker->job();
+void Driver::receive(WorkerSlot& slot, bool has_hung_up) {
+  const std::optional<Event> event = slot.worker->receive_event();
+  const Job job = *slot.worker->job();
   const std::vector<Stream>& streams = properties_[static_cast<std::size_t>(job.property)]->streams();
   if (!event && has_hung_up) {
-    take_death(team);
-  } else if (!event || !is_sound(*event, job, team.worker->progress(), streams)) {  // a part of one is none either
-    take_broken_channel(team);
+    take_death(slot);
+  } else if (!event || !is_sound(*event, job, slot.worker->progress(), streams)) {  // a part of one is none either
+    take_broken_channel(slot);
   } else if (event->kind == Event::Kind::kFailure) {
-    team.failures.push_back(*event);
+    slot.failures.push_back(*event);
   } else {
-    take_done(team, *event);
+    take_done(slot, *event);
   }
 }
 
-void Driver::take_done(Team& team, const Event& done) {
-  const Job job = *team.worker->job();
+void Driver::take_done(WorkerSlot& slot, const Event& done) {
+  const Job job = *slot.worker->job();
   status_.processor_seconds += done.seconds;
   const auto p = static_cast<std::size_t>(job.property);
   PropertyLedger& property = ledger_.properties[p];
   if (job.kind == Job::Kind::kKeep) {
-    team.worker->finish();
+    slot.worker->finish();
     is_dirty_ = true;
     const std::pair<std::string, std::string> key{property.streams[static_cast<std::size_t>(job.stream)], job.failure};
-    shares_[p].being_kept.erase(key);
+    property_progress_[p].being_kept.erase(key);
     take_kept(job);
     return;
   }
-  shares_[p].seconds += done.seconds - shares_[p].unit_seconds;
-  shares_[p].unit_seconds = done.seconds;
-  take_unit(team);
+  property_progress_[p].seconds += done.seconds - property_progress_[p].unit_seconds;
+  property_progress_[p].unit_seconds = done.seconds;
+  take_unit(slot);
 }
 
 /// As far as it came: the rest is left for --resume.
-void Driver::take_unit(Team& team) {
-  const Job job = *team.worker->job();
-  team.worker->finish();
+void Driver::take_unit(WorkerSlot& slot) {
+  const Job job = *slot.worker->job();
+  slot.worker->finish();
   is_dirty_ = true;
   const auto p = static_cast<std::size_t>(job.property);
   PropertyLedger& property = ledger_.properties[p];
-  const Progress& progress = team.worker->progress();
-  shares_[p].in_hand.erase(job.number);
+  const Progress& progress = slot.worker->progress();
+  property_progress_[p].in_hand.erase(job.number);
   property.open.erase(job.number);
   if (progress.stream == static_cast<std::int32_t>(property.streams.size())) {
     property.units.insert(job.number);
@@ -302,7 +305,7 @@ void Driver::take_unit(Team& team) {
     property.accuracy[i] += progress.accuracy[i];
     status_.cases += progress.rows[i].cases;
   }
-  for (const Event& failure : team.failures) {
+  for (const Event& failure : slot.failures) {
     const auto stream = static_cast<std::size_t>(failure.stream);
     const std::pair<std::string, std::string> key{property.streams.at(stream), failure.failure};
     auto [place, is_new] = property.findings.try_emplace(key, Finding{0, failure.number, {}});
@@ -326,73 +329,73 @@ void Driver::fail_of_worker(const Death& death, const std::string& what_for) con
   throw std::runtime_error(what);
 }
 
-void Driver::take_death(Team& team) {
-  const Death death = team.worker->bury();
-  SELVAGE_ASSERT(team.worker->job().has_value());
-  const Job job = *team.worker->job();
-  if (job.kind == Job::Kind::kKeep) return take_death_of_keeping(team, job, death);
+void Driver::take_death(WorkerSlot& slot) {
+  const Death death = slot.worker->reap();
+  SELVAGE_ASSERT(slot.worker->job().has_value());
+  const Job job = *slot.worker->job();
+  if (job.kind == Job::Kind::kKeep) return take_death_of_keeping(slot, job, death);
   if (death.is_abandoned) {
-    take_unit(team);
-    return team.worker->revive();
+    take_unit(slot);
+    return slot.worker->restart();
   }
   if (death.at_start) fail_of_worker(death, "run");
   const auto p = static_cast<std::size_t>(job.property);
-  Share& share = shares_[p];
-  Progress& progress = team.worker->progress();
+  PropertyProgress& state = property_progress_[p];
+  Progress& progress = slot.worker->progress();
   const auto [stream, number] = place_of(job, progress, properties_[p]->streams());
   Event failure;
   failure.kind = Event::Kind::kFailure;
   failure.stream = static_cast<std::int32_t>(stream);
   failure.number = number;
   death.failure.copy(failure.failure, kFailureWord - 1);
-  team.failures.push_back(failure);
+  slot.failures.push_back(failure);
   progress.rows[stream] += {1, 1, {}, 0};
   ++progress.number;
   if (death.failure == kHung) {
-    if (++share.hangs[stream] >= kMaxHangsOfStream) share.is_skipped[stream] = true;
-    const int hangs = std::accumulate(share.hangs.begin(), share.hangs.end(), 0);
-    if (hangs >= kMaxHangs) share.is_skipped.assign(share.is_skipped.size(), true);
-  } else if (++share.crashes[stream] >= kMaxCrashes) {
-    share.is_skipped[stream] = true;
+    if (++state.hangs[stream] >= kMaxHangsOfStream) state.is_skipped[stream] = true;
+    const int hangs = std::accumulate(state.hangs.begin(), state.hangs.end(), 0);
+    if (hangs >= kMaxHangs) state.is_skipped.assign(state.is_skipped.size(), true);
+  } else if (++state.crashes[stream] >= kMaxCrashes) {
+    state.is_skipped[stream] = true;
   }
-  for (std::size_t i = 0; i < share.is_skipped.size(); ++i) progress.is_skipped[i] = share.is_skipped[i];
-  team.worker->revive();
+  for (std::size_t i = 0; i < state.is_skipped.size(); ++i) progress.is_skipped[i] = state.is_skipped[i];
+  slot.worker->restart();
 }
 
 /// Shrinking ran into a case that kills, or has no time left: what was written first stays. Before that, what is tested
 /// has spoilt its worker: another keeps the case.
-void Driver::take_death_of_keeping(Team& team, const Job& job, const Death& death) {
+void Driver::take_death_of_keeping(WorkerSlot& slot, const Job& job, const Death& death) {
   const auto p = static_cast<std::size_t>(job.property);
   const Stream& stream = properties_[p]->streams()[static_cast<std::size_t>(job.stream)];
   const std::pair<std::string, std::string> key{stream.name, job.failure};
-  shares_[p].being_kept.erase(key);
-  if (team.worker->progress().has_kept) {
+  property_progress_[p].being_kept.erase(key);
+  if (slot.worker->progress().has_kept) {
     take_kept(job);
     is_dirty_ = true;
-  } else if (!death.is_abandoned && !shares_[p].lost.insert(key).second) {
+  } else if (!death.is_abandoned && !property_progress_[p].lost.insert(key).second) {
     fail_of_worker(death, "keep");
   }
-  team.worker->revive();
+  slot.worker->restart();
 }
 
 /// Nothing that comes out of the pipe is believed any more: the unit in hand is not done, and nothing more of the
 /// property is run.
-void Driver::take_broken_channel(Team& team) {
-  const Job job = *team.worker->job();
+void Driver::take_broken_channel(WorkerSlot& slot) {
+  const Job job = *slot.worker->job();
   const auto p = static_cast<std::size_t>(job.property);
   PropertyLedger& property = ledger_.properties[p];
-  Share& share = shares_[p];
-  const auto [stream, number] = place_of(job, team.worker->progress(), properties_[p]->streams());
+  PropertyProgress& state = property_progress_[p];
+  const auto [stream, number] = place_of(job, slot.worker->progress(), properties_[p]->streams());
   if (job.kind == Job::Kind::kKeep) {  // as above: what was written first, if anything was, stays
-    if (team.worker->progress().has_kept) take_kept(job);
-    share.being_kept.erase({property.streams[stream], job.failure});
+    if (slot.worker->progress().has_kept) take_kept(job);
+    state.being_kept.erase({property.streams[stream], job.failure});
   }
   auto [place, is_new] =
       property.findings.try_emplace({property.streams[stream], kBrokeChannel}, Finding{0, number, {}});
   ++place->second.count;
-  share.is_skipped.assign(share.is_skipped.size(), true);
+  state.is_skipped.assign(state.is_skipped.size(), true);
   is_dirty_ = true;
-  team.worker.emplace(setting_);
+  slot.worker.emplace(setting_);
 }
 
 void Driver::save() {

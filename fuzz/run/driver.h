@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 #include "fuzz/run/worker_process.h"
 
 namespace selvage::fuzz {
@@ -47,22 +47,22 @@ class Driver {
   [[nodiscard]] const DriverStatus& status() const { return status_; }
 
  private:
-  struct Team;   // a worker and what it has reported about its job
-  struct Share;  // of a property: what is given out, and what it cost
+  struct WorkerSlot;        // a worker and what it has reported about its job
+  struct PropertyProgress;  // of a property: what is given out, and what it cost
 
   enum class Pace { kFull, kStopping, kLate };
   [[nodiscard]] Pace pace(bool stopped);
-  bool assign(Team& team, Pace pace);
+  bool assign(WorkerSlot& slot, Pace pace);
   [[nodiscard]] std::optional<Job> next_job(Pace pace);
-  void look_after(Team& team, Pace pace, short heard);
-  void hear(Team& team, bool has_hung_up);
-  void take_done(Team& team, const Event& done);
-  void take_unit(Team& team);
-  void take_death(Team& team);
+  void receive_or_watch(WorkerSlot& slot, Pace pace, short revents);
+  void receive(WorkerSlot& slot, bool has_hung_up);
+  void take_done(WorkerSlot& slot, const Event& done);
+  void take_unit(WorkerSlot& slot);
+  void take_death(WorkerSlot& slot);
   void take_kept(const Job& job);
-  void take_death_of_keeping(Team& team, const Job& job, const Death& death);
+  void take_death_of_keeping(WorkerSlot& slot, const Job& job, const Death& death);
   [[noreturn]] void fail_of_worker(const Death& death, const std::string& what_for) const;
-  void take_broken_channel(Team& team);
+  void take_broken_channel(WorkerSlot& slot);
   void save();
   void append_stats() const;
 
@@ -71,8 +71,8 @@ class Driver {
   Ledger ledger_;
   DriverStatus status_;
   WorkerSetting setting_;
-  std::vector<Share> shares_;
-  std::vector<std::unique_ptr<Team>> teams_;
+  std::vector<PropertyProgress> property_progress_;
+  std::vector<std::unique_ptr<WorkerSlot>> slots_;
   std::optional<double> stopping_since_s_;
   bool is_dirty_ = false;
 };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 
 namespace selvage::fuzz {
 

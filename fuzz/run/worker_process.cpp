@@ -76,7 +76,7 @@ void WorkerProcess::give(const Job& job, const std::vector<bool>& is_skipped, co
   job_ = job;
   clock_ = {};
   beat_at_job_ = progress_->beat.load();
-  static_cast<void>(try_send(jobs_, job));  // one that has died meanwhile is buried where its events end
+  static_cast<void>(try_send(jobs_, job));  // one that has died meanwhile is reaped where its events end
 }
 
 std::optional<Event> WorkerProcess::receive_event() {
@@ -86,7 +86,7 @@ std::optional<Event> WorkerProcess::receive_event() {
   return event;
 }
 
-Death WorkerProcess::bury() {
+Death WorkerProcess::reap() {
   int status = 0;
   if (waitpid(pid_, &status, 0) != pid_) fail("waitpid");
   pid_ = -1;
@@ -100,7 +100,7 @@ Death WorkerProcess::bury() {
   return death;
 }
 
-void WorkerProcess::revive() {
+void WorkerProcess::restart() {
   start();
   if (job_ && job_->kind == Job::Kind::kUnit) {
     static_cast<void>(try_send(jobs_, *job_));

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "fuzz/ledger/ledger.h"
 #include "fuzz/run/case_clock.h"
-#include "fuzz/run/ledger.h"
 #include "fuzz/run/worker.h"
 
 namespace selvage::fuzz {
@@ -29,14 +29,14 @@ class WorkerProcess {
   void give(const Job& job, const std::vector<bool>& is_skipped, const UnitPlace& from);
   [[nodiscard]] const std::optional<Job>& job() const { return job_; }
   [[nodiscard]] int events() const { return events_; }
-  /// Reads one event. Nothing where the worker has died: then bury() and revive().
+  /// Reads one event. Nothing where the worker has died: then reap() and restart().
   [[nodiscard]] std::optional<Event> receive_event();
   /// The job is done: the worker is idle.
   void finish() { job_.reset(); }
 
-  [[nodiscard]] Death bury();
+  [[nodiscard]] Death reap();
   /// Another process takes over: the unit goes on behind the case that killed the last one; a kept case is given up.
-  void revive();
+  void restart();
   /// Whether it has loaded what it tests.
   [[nodiscard]] bool has_started() const { return progress_->has_started; }
   /// Kills it if the case in hand, or loading what it tests, has taken too long (case_clock.h).

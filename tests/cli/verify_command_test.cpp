@@ -13,6 +13,7 @@
 namespace selvage {
 namespace {
 
+using testing::expect_text;
 using testing::run_program;
 using testing::spit;
 using testing::TemporaryFolder;

@@ -78,7 +78,7 @@ TEST(StepWorlds, EverySurfaceAndCandidateOccursAndEveryStageHasWork) {
     sum.stopped += seen.stopped;
   }
   EXPECT_EQ(surfaces.size(), surface_classes().size());
-  EXPECT_EQ(candidates.size(), candidate_classes().size());
+  EXPECT_EQ(candidates.size(), kCandidateClassCount);
   EXPECT_GT(sum.with_collisions, sum.steps / 2);
   EXPECT_GT(sum.with_zones, sum.steps / 5);
   EXPECT_GT(sum.with_fail_safe, sum.steps / 20);

@@ -13,6 +13,7 @@
 #include "fuzz/kept/scene_case.h"
 #include "fuzz/kept/step_case.h"
 #include "fuzz/kept/subdivision_case.h"
+#include "fuzz/run/redraw.h"
 #include "fuzz/shrink/shrink_bytes.h"
 #include "fuzz/shrink/shrink_choices.h"
 #include "fuzz/shrink/shrink_mesh.h"
@@ -48,7 +49,7 @@ void expect_same_bits(const Positions& a, const Positions& b) {
 }
 
 MeshCase parsed_again(const MeshCase& kept) {
-  const ParsedCase parsed = parse_kept_case(kept_text(KeptMesh(kept), "a:b:1:2", "touches"), "again");
+  const ParsedCase parsed = parse_kept_case(kept_text(KeptMesh(kept), "a:b:1:2", "touches"), "again", redraw);
   EXPECT_EQ(parsed.origin, "a:b:1:2");
   EXPECT_EQ(parsed.failure, "touches");
   return dynamic_cast<const KeptMesh&>(*parsed.kept).mesh();
@@ -83,17 +84,17 @@ TEST(KeptCase, KeepsEveryByteOfAFile) {
   for (int i = 0; i < 1024; ++i) bytes += static_cast<char>(i * i / 7);
   bytes += "a line with # and \\ and blanks at its end  \n  \n\n";
   const ParsedCase parsed =
-      parse_kept_case(kept_text(KeptBytes(file_case("ply", bytes)), "files:ply:1:2", "unsound"), "again");
+      parse_kept_case(kept_text(KeptBytes(file_case("ply", bytes)), "files:ply:1:2", "unsound"), "again", redraw);
   EXPECT_EQ(dynamic_cast<const KeptBytes&>(*parsed.kept).bytes().bytes, bytes);
   EXPECT_EQ(dynamic_cast<const KeptBytes&>(*parsed.kept).bytes().value, "ply");
 }
 
 void expect_bad_kept_case(const std::string& text, const std::string& words) {
-  testing::expect_bad_input([&] { (void)parse_kept_case(text, "x.case"); }, text, words);
+  testing::expect_bad_input([&] { (void)parse_kept_case(text, "x.case", redraw); }, text, words);
 }
 
 TEST(KeptCase, NamesLineAndFieldOfWhatIsWrong) {
-  ASSERT_NO_THROW((void)parse_kept_case(kStep, "x.case"));
+  ASSERT_NO_THROW((void)parse_kept_case(kStep, "x.case", redraw));
   const std::string step = kStep;
   expect_bad_kept_case(testing::replaced(step, "1 step", "1 stop"), "x.case:1: there is no kind of case 'stop'");
   expect_bad_kept_case(testing::replaced(step, "seed", "sed"), "x.case:2: expected 'seed'");
@@ -129,7 +130,9 @@ TEST(KeptCase, NamesLineAndFieldOfWhatIsWrong) {
 }
 
 TEST(KeptCase, WhatPromisesNothingIsNotRun) {
-  const auto unfit = [](const std::string& text) { return parse_kept_case(text, "x.case").kept->retry().unfit; };
+  const auto unfit = [](const std::string& text) {
+    return parse_kept_case(text, "x.case", redraw).kept->retry().unfit;
+  };
   const std::string step = testing::replaced(testing::replaced(kStep, "0 0 nan", "0 0 0"), "f 0 1 2", "f 0 1 3");
   EXPECT_EQ(unfit(step), "");
   EXPECT_EQ(unfit(testing::replaced(step, "  0 2\n", "  1 2\n")), "a vertex of a body has a mass");

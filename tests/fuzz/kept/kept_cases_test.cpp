@@ -4,6 +4,7 @@
 #include "fuzz/kept/case_file.h"
 #include "fuzz/kept/kept_case.h"
 #include "fuzz/oracle/query_property.h"
+#include "fuzz/run/redraw.h"
 #include "tests/cli/run_program.h"
 
 namespace selvage::fuzz {
@@ -32,7 +33,7 @@ TEST(KeptCases, NoLevelBreaksItsPromiseOnThem) {
   ASSERT_FALSE(files.empty());
   for (const std::filesystem::path& file : files) {
     const std::string text = testing::slurp(file);
-    const ParsedCase parsed = parse_kept_case(text, file.string());
+    const ParsedCase parsed = parse_kept_case(text, file.string(), redraw);
     const Retrial retrial = parsed.kept->retry();
     EXPECT_EQ(retrial.unfit, "") << file;
     EXPECT_EQ(retrial.failure, "") << file;

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "fuzz/run/campaign_stats.h"
+#include "fuzz/run/work_units.h"
 #include "io/file/atomic_file.h"
 #include "tests/cli/run_program.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 #include "io/file/text.h"
 
 namespace selvage::fuzz {

@@ -1,4 +1,4 @@
-#include "fuzz/run/range_set.h"
+#include "fuzz/ledger/range_set.h"
 
 #include <algorithm>
 #include <iterator>

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fuzz/base/counts.h"
-#include "fuzz/campaign/property.h"
-#include "fuzz/run/range_set.h"
+#include "fuzz/ledger/range_set.h"
+#include "fuzz/oracle/accuracy.h"
 #include "io/error.h"
 
 namespace selvage::fuzz {
@@ -60,14 +60,6 @@ struct Ledger {
   std::optional<std::uint32_t> plugin_crc32 = {};  ///< of the plugin's file: one that was rebuilt is another target
   friend bool operator==(const Ledger&, const Ledger&) = default;
 };
-
-/// Cases in a work unit.
-[[nodiscard]] std::int64_t unit_size(const Property& property);
-/// Work units that hold so many cases; nothing where `cases` is 0: without end.
-[[nodiscard]] std::optional<std::int64_t> unit_count(const Property& property, std::int64_t cases);
-
-/// An empty ledger for these properties.
-[[nodiscard]] Ledger make_ledger(const Properties& properties);
 
 [[nodiscard]] std::string to_json(const Ledger& ledger);
 /// Throws io::Error(kBadInput).

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fuzz/run/ledger.h"
+#include "fuzz/ledger/ledger.h"
 #include "io/file/json_values.h"
 #include "io/file/text.h"
 
