@@ -29,6 +29,20 @@ TEST(ContactEnergy, IsOfEachPartByItself) {
   EXPECT_DOUBLE_EQ(found[4].before_j, 4 * 0.0625 + 25 + 50);
 }
 
+TEST(ContactEnergy, WhatSpringsLoseCountsAgainstWhatOthersGain) {
+  const SpringSystem springs({{0, 1, SpringKind::kStructural, 1, 8, 0}, {1, 2, SpringKind::kStructural, 1, 8, 0}}, 3);
+  Positions x = Positions::Zero(3, 3), moved = x;
+  x.col(0) << 0, 1.5, 3;
+  moved.col(0) << 0, 1, 3;  // the first at rest, the second stretched twice as far
+  Mesh mesh;
+  mesh.vertex_count = 3;
+  mesh.edges = {{0, 1}, {1, 2}};
+  const std::vector<double> inverse_mass(3, 1.0);
+  const auto found =
+      contact_energies(springs, SurfaceParts(mesh), inverse_mass, {x, moved, Positions::Zero(3, 3), {}, {}}, 0);
+  EXPECT_DOUBLE_EQ(found[0].gain_j, 4 * (1 - 0.25) - 4 * 0.25);
+}
+
 // A sheet of one face, another of twice its mass, and a body; what moves moves along z.
 TEST(ContactEnergy, CountsMotionBesideWhatAPartMeets) {
   const SpringSystem springs({{0, 1, SpringKind::kStructural, 1, 8, 0}}, 6);

@@ -24,6 +24,13 @@ TEST(StepClock, HalvesDownToTheShortest) {
   EXPECT_EQ(clock.dt_s(), 0.04 / 16);
 }
 
+TEST(StepClock, HalvesToNoLessThanIsAskedFor) {
+  const StepClock clock(25, 0.0025, 0.04);
+  EXPECT_TRUE(clock.can_halve(0.02));
+  EXPECT_TRUE(clock.can_halve(0.020001)) << "in decimals";
+  EXPECT_FALSE(clock.can_halve(0.021));
+}
+
 TEST(StepClock, DoublesAfterThreeGoodStepsInARow) {
   StepClock clock(25, 0.0025, 0.04);
   for (int i = 0; i < 3; ++i) clock.halve();
@@ -71,6 +78,16 @@ TEST(StepClock, TriesLongStepsThatFailLessAndLessOften) {
   for (int i = 0; i < 4; ++i) clock.advance(false);
   clock.halve();
   EXPECT_EQ(steps_to_double(clock), 4);
+}
+
+TEST(StepClock, TriesLongStepsAgainHoweverOftenTheyFailed) {
+  StepClock clock(25, 0.0025, 0.04);
+  clock.halve();
+  for (int failure = 0; failure < 12; ++failure) {
+    steps_to_double(clock);
+    clock.halve();
+  }
+  EXPECT_EQ(clock.state().good_steps_asked, 3072);
 }
 
 TEST(StepClock, CountsOneFailureHoweverOftenItHalves) {

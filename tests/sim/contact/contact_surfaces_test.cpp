@@ -3,6 +3,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "kernel/proximities.h"
 #include "sim/contact/contact_table.h"
@@ -204,6 +205,50 @@ TEST(ContactSurfaces, APairRepelsBelowTheMeanOfItsThicknesses) {
   EXPECT_NEAR(sinks_by(6e-3), 0, 1e-12);
 }
 
+// 20 um apart where 100 are asked for: by what the surfaces have, not the options.
+TEST(ContactSurfaces, APairIsPushedToItsOwnTolerance) {
+  for (const bool by_zones : {false, true}) {
+    StepScene scene;
+    scene.options.repulsion = false;
+    scene.options.tolerance_m = by_zones ? 1e-2 : 1e-6;
+    if (by_zones) scene.options.impulse_iterations = 0;
+    add(scene, {.tolerance_m = 1e-4}, triangle(0.1), Vec3::Zero());
+    const StepScene::Part upper = add(scene, {.tolerance_m = 1e-5}, triangle(0.01), Vec3(0, 0, 1e-3));
+    scene.push(upper, Vec3(0, 0, 2e-5 - 1e-3));
+    const CollisionStepResult result = scene.step();
+    EXPECT_EQ(exact_defect(scene, result), "");
+    EXPECT_TRUE(result.report.below_tolerance.empty()) << by_zones;
+    EXPECT_GE(lowest(result.x, upper) - highest(result.x, {0, 3}), 1e-4) << by_zones;
+  }
+}
+
+// 20 um apart: within the tolerance of a surface elsewhere, by which the pair is asked first, and beyond its own.
+TEST(ContactSurfaces, QueriesForTheOwnToleranceAreCounted) {
+  const auto intervals_with = [](double of_pair_m) {
+    StepScene scene;
+    scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+    add(scene, {.tolerance_m = of_pair_m}, triangle(0.1), Vec3::Zero());
+    add(scene, {.tolerance_m = of_pair_m}, triangle(0.01), Vec3(0, 0, 2e-5));
+    add(scene, {.tolerance_m = 1e-4}, triangle(0.1), Vec3(5, 0, 0));
+    const CollisionStepResult result = scene.step();
+    EXPECT_EQ(result.report.below_tolerance.empty(), of_pair_m < 2e-5);
+    return result.report.certificate.intervals;
+  };
+  EXPECT_GT(intervals_with(1e-5), intervals_with(1e-4)) << "asked twice";
+}
+
+// Limits what moves to a quarter of the distance, looked for within the largest thickness of all.
+TEST(ContactSurfaces, TheFailSafeLooksAsFarAsTheThickestSurface) {
+  StepScene scene;
+  scene.options = {.thickness_m = 1e-5, .repulsion = false, .impulse_iterations = 0, .zone_iterations = 0};
+  add(scene, {.thickness_m = 1e-3}, triangle(0.1), Vec3::Zero());
+  const StepScene::Part upper = add(scene, {.thickness_m = 8e-3}, triangle(0.01), Vec3(0, 0, 0.01));
+  scene.push(upper, Vec3(0, 0, -0.02));
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_NEAR(lowest(result.x, upper), 0.01 - 8e-3 / 4, 1e-12);
+}
+
 TEST(ContactSurfaces, FrictionIsThatOfThePair) {
   // Pressed by 1e-4 m and dragged by 1e-3: kinetic friction takes coefficient times 1e-4 off.
   const auto dragged_by = [](double of_cloth, double of_body) {
@@ -267,6 +312,18 @@ TEST(RestPairs, ThatDoNotFitTheMeshAreCalledInvalid) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const double bad : {-1e-9, inf, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_EQ(error_with({PairKind::kVf, 0, 3, bad}), InputError::kBadOption);
+  }
+}
+
+TEST(RestPairs, ThatAreNamedTwiceAreAsThickAsTheNearer) {
+  StepScene scene;
+  scene.options.thickness_m = 1;
+  scene.add(make_sheet(3, 2, 0.1, 0.1), Vec3::Zero());
+  const Mesh mesh = scene.mesh();
+  for (const std::pair<double, double>& named : {std::pair(0.05, 0.06), std::pair(0.06, 0.05)}) {
+    const std::vector<RestPair> pairs{{PairKind::kVf, 0, 3, named.first}, {PairKind::kVf, 0, 3, named.second}};
+    const ContactTable table(mesh, scene.options, {.rest_pairs = pairs});
+    EXPECT_EQ(table.of(PairKind::kVf, 0, 3).thickness_m, 0.05);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel/mesh.h"
+#include "sim/contact/repulsion_contact.h"
 
 namespace selvage::sim {
 namespace {
@@ -253,6 +254,23 @@ TEST(StraightSurface, APointIsOverItOrBeyond) {
     const Vec3 unit = Vec3(tilt, 0, 1).normalized();
     EXPECT_EQ(across({Kind::kPlane}, 1, Vec3::UnitZ(), unit, 5).is_beyond, tilt > 1e-3) << "as straight as it must be";
   }
+}
+
+TEST(StraightSurface, AContactIsAsFarAsItIsAcross) {
+  RepulsionContact contact;
+  const std::array<double, 4> inverse_mass{0, 1, 1, 1};
+  contact.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 1, 0, 0}, inverse_mass);
+  Positions V(4, 3);
+  V << 0, 0, 0, 3, 0, 4, 1, 0, 0, 0, 1, 0;
+  contact.x_t0 = gather(contact.interaction, V);
+  contact.normal = Vec3(-0.6, 0, -0.8);
+  contact.distance = 5;
+  StraightFeature feature;
+  feature.parts[StraightFeature::kWithin] = {Kind::kPlane, {0, 2, 0, 3}, {9, 9}};
+  turn_across(feature, V, contact);
+  EXPECT_FALSE(contact.is_beyond);
+  EXPECT_EQ(contact.normal, Vec3(0, 0, -1));
+  EXPECT_EQ(contact.distance, 4);
 }
 
 }  // namespace selvage::sim

@@ -45,6 +45,16 @@ TEST(HeldContacts, KeepTheLoadOfThePairsContactThatActsFirst) {
   EXPECT_EQ(held.loads(), (ContactLoads{{{0, 0, 3}}, {}}));
 }
 
+TEST(HeldContacts, GiveLoadsOfBothKindsOnInOrder) {
+  const TwoFaces scene;
+  std::vector<RepulsionContact> contacts(4, scene.one.contact);
+  for (const std::size_t i : {2U, 3U}) contacts[i].kind = PairKind::kEe;
+  for (const std::size_t i : {0U, 2U}) contacts[i].first = 3;
+  HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
+  for (std::size_t i = 0; i < 4; ++i) held.bore(i, {double(i + 1), Vec3::Zero()}, true, false);
+  EXPECT_EQ(held.loads(), (ContactLoads{{{0, 0, 2}, {3, 0, 1}}, {{0, 0, 4}, {3, 0, 3}}}));
+}
+
 TEST(HeldContacts, AreGivenOnAsMeasuredAtTheStart) {
   const TwoFaces scene;
   HeldContacts held({scene.one.contact}, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);

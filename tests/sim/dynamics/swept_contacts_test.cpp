@@ -387,6 +387,37 @@ TEST(SweptContacts, StickWithinTheConeAndSlideBeyond) {
   EXPECT_EQ(Eigen::RowVector3d(leaves.v.row(0)), Eigen::RowVector3d(0.9, 0, 1));
 }
 
+// Of a body's vertex, which remembers no friction to begin with.
+TEST(SweptContacts, RubInEveryStepAsMuchAsInTheFirst) {
+  Positions V(4, 3);
+  V << -2, -2, 0, 2, -2, 0, 0, 4, 0, 0, 0, kHeldThickness;
+  RepulsionContact contact;
+  contact.first = 3;
+  contact.interaction =
+      make_interaction(PairKind::kVf, {3, 0, 1, 2}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, std::array<double, 4>{1, 1, 1, 0});
+  contact.x_t0 = gather(contact.interaction, V);
+  contact.normal = Vec3::UnitZ();
+  contact.distance = kHeldThickness;
+  contact.mobility = effective_mobility(contact.interaction);
+  contact.properties = {kHeldThickness, 1e-6, 0.5, 0.4};
+  const Ground ground(Faces{{0, 1, 2}}, {1, 1, 1, 0});
+  LaneVectors x, v;
+  x.copy(V.topRows(3));
+  v.resize(3);
+  Swept held({contact}, {}, ground.surface(3), V, V, 2 * kHeldStep, 1);
+  for (const double share : {0.5, 1.0}) {
+    x.copy(V.topRows(3));  // where the vertex is above the middle of the face
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      v.row(i) = Eigen::RowVector3d(1.9, 0, 1);
+      x.row(i) += kHeldStep * v.row(i);
+    }
+    act(held, {kHeldStep, share, x, v});
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      EXPECT_LT((v.row(i) - Eigen::RowVector3d(1.9 - 0.4, 0, 0)).norm(), 1e-14) << share;
+    }
+  }
+}
+
 TEST(SweptContacts, FollowTheBodyTheyLieOn) {
   OneContact one = vertex_over_body({0, 0, 0}, kHeldStep * Vec3(0.2, 0, 1));
   one.step();

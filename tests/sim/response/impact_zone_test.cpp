@@ -72,4 +72,46 @@ TEST(ImpactZones, DoNotJoinTwoScriptsThatMoveDifferently) {
   EXPECT_FALSE(zones.merge({4, 5, 4, 5}));  // would join them through cloth
 }
 
+TEST(ImpactZones, TakeBodiesAtRestForOneScript) {
+  const std::vector<double> inverse_mass{1, 0, 0};
+  const std::vector<std::int32_t> body{-1, 0, 1};
+  ScriptedGroups groups{CollisionBodies{inverse_mass, body}};
+  StepMotion motion;
+  const Positions V = Positions::Random(3, 3);
+  motion.start(V, V + Positions::Constant(3, 3, 0.5).cwiseProduct(Eigen::Vector3d::UnitX().replicate(1, 3)),
+               CollisionOptions::Precision::kFloat64);
+  groups.observe(motion);
+  ImpactZones zones(3, groups);
+  EXPECT_TRUE(zones.merge({0, 1, 2, 2}));
+  zones.move_grown(motion.displacement(), inverse_mass, motion);
+  EXPECT_EQ(motion.x(), V) << "what holds both stays";
+}
+
+TEST(ImpactZones, WeighTheirVerticesByMass) {
+  ZoneScene scene;
+  scene.inverse_mass = {1, 1, 0.5, 0.25, 1, 1, 0, 0};
+  ImpactZones zones(8, scene.groups);
+  const Positions before = scene.motion.displacement();
+  ASSERT_TRUE(zones.merge({1, 2, 3, 3}));
+  zones.move_grown(before, scene.inverse_mass, scene.motion);
+  const auto momentum = [&](const Positions& displacement) -> Eigen::RowVector3d {
+    return displacement.row(1) + 2 * displacement.row(2) + 4 * displacement.row(3);
+  };
+  EXPECT_LT((momentum(scene.motion.displacement()) - momentum(before)).norm(), 1e-14);
+}
+
+// A zone that grows takes the motion from before all zones: by the last one it would have lost what a chord loses.
+TEST(ImpactZones, GrowAsIfTheyHadBeenMergedAtOnce) {
+  ZoneScene in_steps, at_once;
+  const Positions before = in_steps.motion.displacement();
+  ImpactZones growing(8, in_steps.groups), whole(8, at_once.groups);
+  ASSERT_TRUE(growing.merge({0, 1, 1, 0}));
+  growing.move_grown(before, in_steps.inverse_mass, in_steps.motion);
+  ASSERT_TRUE(growing.merge({1, 2, 2, 1}));
+  growing.move_grown(before, in_steps.inverse_mass, in_steps.motion);
+  ASSERT_TRUE(whole.merge({0, 1, 2, 2}));
+  whole.move_grown(before, at_once.inverse_mass, at_once.motion);
+  EXPECT_EQ(in_steps.motion.x(), at_once.motion.x());
+}
+
 }  // namespace selvage::sim::testbed

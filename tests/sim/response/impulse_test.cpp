@@ -56,6 +56,14 @@ TEST(Distribute, InfiniteMassDoesNotMove) {
   for (const Vec3& c : none) EXPECT_EQ(c, Vec3(0, 0, 0));
 }
 
+// Else products of masses would leave the range of doubles.
+TEST(Distribute, WhatIsTooHeavyBesideTheOthersDoesNotMove) {
+  EXPECT_TRUE(is_closed(node_against_node(1, 0x1p-99)));
+  const Interaction pair = node_against_node(1, 0x1p-101);
+  EXPECT_FALSE(is_closed(pair));
+  EXPECT_EQ(distribute(pair, Vec3(0, 0, 2))[1], Vec3(0, 0, 0));
+}
+
 TEST(Distribute, DoesNotThrowTheFreeCornerOfAPinnedTriangle) {
   const std::array<double, 4> inverse_mass{0, 1, 0, 0};
   for (const double lever : {2.0, kMaxLever, 16.0, 64.0, 1e9}) {
@@ -118,6 +126,39 @@ TEST(CollisionImpulse, OfAClosedPairKeepsBothMomentaAndAddsNoEnergy) {
     RC_ASSERT((m1.angular - m0.angular).norm() <= 1e-12 * (m0.angular_scale + m1.angular_scale));
     RC_ASSERT(m1.energy <= m0.energy * (1 + 1e-12));
   });
+}
+
+// A vertex of cloth on a body, by a normal that would have it on the other side.
+TEST(CollisionImpulse, PushesToTheSideOnWhichThePointsWereAtFirst) {
+  const std::array<double, 4> inverse_mass{1, 0, 0, 0};
+  const Interaction pair = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.5, 0.25, 0.25}, inverse_mass);
+  Positions V_t0(4, 3), V_t1(4, 3);
+  V_t0 << 0, 0, 1, -1, 0, 0, 1, 1, 0, 1, -1, 0;
+  V_t1 = V_t0;
+  V_t1(0, 2) = -1;
+  StepMotion motion;
+  motion.start(V_t0, V_t1, CollisionOptions::Precision::kFloat64);
+  Collision collision{};
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    collision.ccd.normal = normal;
+    EXPECT_NEAR(collision_impulse(collision, pair, motion, 0).change[0].z(), 2, 1e-15);
+  }
+}
+
+TEST(CollisionImpulse, ContactsOfCollisionsAreSeenFromTheSideOnWhichThePointsWereAtFirst) {
+  const std::array<double, 4> inverse_mass{1, 0, 0, 0};
+  Positions V_t0(4, 3);
+  V_t0 << 0, 0, 1, -1, 0, 0, 1, 1, 0, 1, -1, 0;
+  Collision collision{};
+  collision.kind = PairKind::kVf;
+  collision.ccd.weights = {1, 0.5, 0.25, 0.25};
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    collision.ccd.normal = normal;
+    const auto contact = make_contact(collision, {0, 1, 2, 3}, {}, V_t0, inverse_mass);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->normal, Vec3(0, 0, 1));
+    EXPECT_EQ(contact->distance, 1);
+  }
 }
 
 TEST(ParallelUpdate, ManyInelasticImpulsesAtOnceKeepMomentumAndAddNoEnergy) {

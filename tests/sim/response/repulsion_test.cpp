@@ -116,4 +116,62 @@ TEST(Repulsion, KeepsTheLimitOfALeverInAllItsSweeps) {
   }
 }
 
+namespace {
+
+/// Two vertices that overlap and rest; the spring's force is far below its limit.
+struct Overlap {
+  static constexpr double kOverlap = 1e-3, kStep = 1e-3;
+  RepulsionContact contact;
+  CollisionOptions options;
+  explicit Overlap(double inverse_mass_kg) {
+    options.repulsion_stiffness_n_m = 10;
+    const std::array<double, 4> inverse_mass{inverse_mass_kg, inverse_mass_kg, inverse_mass_kg, inverse_mass_kg};
+    contact.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 1, 0, 0}, inverse_mass);
+    contact.x_t0 = {Vec3(0, 0, kOverlap), Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
+    contact.normal = Vec3::UnitZ();
+    contact.distance = kOverlap;
+    contact.mobility = effective_mobility(contact.interaction);
+    contact.properties.thickness_m = 2 * kOverlap;
+  }
+  [[nodiscard]] double by_spring_m() const {  // k d dt^2 (1/m + 1/m)
+    return 10 * kOverlap * kStep * kStep * 2 * contact.interaction.inverse_mass_scale;
+  }
+};
+
+}  // namespace
+
+TEST(Repulsion, PushesLightClothFartherByTheSameSpring) {
+  for (const double inverse_mass_kg : {0.25, 1.0, 4.0}) {
+    const Overlap overlap(inverse_mass_kg);
+    FrictionLoad load;
+    (void)repel_contact(overlap.contact, Positions::Zero(4, 3), overlap.options, Overlap::kStep, 0, load);
+    EXPECT_NEAR(load.pressed, overlap.by_spring_m(), 1e-15 * overlap.by_spring_m()) << inverse_mass_kg;
+  }
+}
+
+TEST(Repulsion, SpringActsInTheFirstSweepAlone) {
+  const Overlap overlap(1);
+  Positions displacement = Positions::Zero(4, 3);
+  displacement(0, 2) = -1e-4;  // by a neighbour, after the first sweep
+  FrictionLoad load;
+  (void)repel_contact(overlap.contact, displacement, overlap.options, Overlap::kStep, 1, load);
+  EXPECT_EQ(load.pressed, 1e-4) << "what approaches is stopped";
+}
+
+TEST(Repulsion, SpringActsOnceThoughContactsAreSweptAgainWithOthers) {
+  const Overlap overlap(1);
+  Positions V(4, 3);
+  for (Eigen::Index i = 0; i < 4; ++i) V.row(i) = overlap.contact.x_t0[static_cast<std::size_t>(i)];
+  StepMotion motion;
+  motion.start(V, V, CollisionOptions::Precision::kFloat64);
+  Contacts contacts;
+  contacts.add(overlap.contact);
+  for (int call = 0; call < 3; ++call) {
+    contacts.repel(overlap.options, Overlap::kStep, 2, motion);
+    EXPECT_EQ(contacts.count().repulsions, 1);
+    const double apart_m = motion.displacement()(0, 2) - motion.displacement()(1, 2);
+    EXPECT_NEAR(apart_m, overlap.by_spring_m(), 1e-15 * overlap.by_spring_m());
+  }
+}
+
 }  // namespace selvage::sim::testbed

@@ -147,4 +147,24 @@ TEST(FailSafe, LimitsOnlyWhatCollides) {
   EXPECT_LE(std::abs(result.x(40, 2) - scene.V_t0(40, 2)), kBallShare * scene.options.thickness_m);
 }
 
+// Two ends of a body that rise differently, each below a sheet of its own.
+TEST(FailSafe, CarriesClothAsFarAsWhatItMeetsOfABodyThatDeforms) {
+  StepScene scene;
+  scene.deforms = {1};
+  scene.options.repulsion = false;
+  scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+  for (const double rises_m : {5e-3, 2e-2}) {
+    const Vec3 at(100 * rises_m, 0, 0);
+    const StepScene::Part end = scene.add(make_sheet(4, 4, 0.1, 0.1), at, 0);
+    const Positions candidate = scene.V_candidate;
+    scene.add(make_sheet(3, 3, 0.05, 0.05), at + Vec3(1e-3, 2e-3, 2e-3));
+    scene.V_candidate.topRows(candidate.rows()) = candidate;
+    for (VertexId v = end.begin; v < end.end; ++v) scene.V_candidate(v, 2) += rises_m * (1 + 0.1 * scene.V_t0(v, 1));
+  }
+  scene.V_candidate.topRows(16).col(2).array() = scene.V_t0.topRows(16).col(2).array() + 5e-3;
+  const CollisionStepResult result = scene.step();
+  EXPECT_EQ(exact_defect(scene, result), "");
+  EXPECT_GT(result.report.fail_safe_vertices, 0);
+}
+
 }  // namespace selvage::sim::testbed

@@ -1,5 +1,8 @@
 // Candidates that are cut back before the step: out of the domain, or where far too much would meet on the way.
+#include "sim/response/travel_limit.h"
+
 #include <random>
+#include <utility>
 
 #include "sim/collision_step.h"
 #include "tests/sim/step_scene.h"
@@ -84,6 +87,42 @@ TEST(CollisionStep, NothingIsCutBackForPairsThatAreNearInAnyCase) {
   EXPECT_EQ(result.report.cut_candidates, 0);
   EXPECT_GT(result.report.first_collisions, 1 << 14);
   EXPECT_GT(result.report.below_tolerance.size(), 1U << 14);
+}
+
+// 1024 diagonals of the box of all starts and of where scripts end.
+TEST(TravelLimit, CutsWhatLeavesTheSceneByFarAndCountsIt) {
+  StepScene scene;
+  const auto body = scene.add(triangle(0.1), Vec3::Zero(), 0);
+  const auto cloth = scene.add(triangle(0.1), Vec3(0, 0, 0.01));
+  const auto cut = [&](const Vec3& of_body, double of_cloth_m) {
+    scene.V_candidate = scene.V_t0;
+    scene.push(body, of_body);
+    scene.V_candidate(cloth.begin, 0) += of_cloth_m;
+    StepMotion motion;
+    motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+    const std::int64_t count = limit_travel(ScriptedGroups(scene.bodies()), motion);
+    EXPECT_EQ(motion.displacement().topRows(3), (scene.V_candidate - scene.V_t0).topRows(3)) << "scripts are followed";
+    return std::pair(count, motion.displacement().row(cloth.begin).norm());
+  };
+  const double diagonal_m = Vec3(0.2, 0.2, 0.01).norm();
+  EXPECT_EQ(cut(Vec3::Zero(), 200), (std::pair<std::int64_t, double>(0, 200)));
+  const auto [count, length_m] = cut(Vec3::Zero(), 300);
+  EXPECT_EQ(count, 1);
+  EXPECT_NEAR(length_m, kMaxTravel * diagonal_m, 1e-9);
+  EXPECT_EQ(cut(Vec3(5, 0, 0), 300), (std::pair<std::int64_t, double>(0, 300))) << "the body goes far as well";
+}
+
+TEST(TravelLimit, HalvesTheWayOfClothAndNoScript) {
+  StepScene scene;
+  const auto body = scene.add(triangle(0.1), Vec3::Zero(), 0);
+  const auto cloth = scene.add(triangle(0.1), Vec3(0, 0, 1));
+  scene.push(body, Vec3(0, 0, 1));
+  scene.V_candidate(cloth.begin, 2) += 8;
+  StepMotion motion;
+  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+  EXPECT_EQ(halve_travel(ScriptedGroups(scene.bodies()), motion, 2), 1);
+  scene.V_candidate(cloth.begin, 2) = scene.V_t0(cloth.begin, 2) + 2;
+  EXPECT_EQ(motion.x(), scene.V_candidate);
 }
 
 }  // namespace selvage::sim::testbed
