@@ -559,7 +559,7 @@ TEST(CollisionStep, ImpactZonesKeepMomentumOnACoarseLattice) {
   scene.V_t0 = scene.V_t0.cast<float>().cast<double>();
   scene.V_candidate = scene.V_t0;
   scene.push(upper, Vec3(1.3e-5, 2.1e-5, -1.7e-2));  // less than the spacing of the lattice there
-  scene.options.impulse_iterations = 0;
+  scene.options.max_impulse_rounds = 0;
   scene.options.repulsion = false;
   const Positions v_before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
   const CollisionStepResult result = scene.step();

@@ -208,7 +208,9 @@ TEST(Parts, ARunThatIsResumedReportsWhatOneRunWould) {
     };
     EXPECT_EQ(json(check_sequence(Frames(all), resuming)), whole);
     const bool has_work = note.frame_crc32.size() < all.size();
-    if (has_work) EXPECT_EQ(last, 2 * all.size() - 2) << "before the last frame all else is done";
+    if (has_work) {
+      EXPECT_EQ(last, 2 * all.size() - 2) << "before the last frame all else is done";
+    }
     EXPECT_LE(units, 2 * static_cast<std::int64_t>(all.size() - note.frame_crc32.size()))
         << "what is done is not done again";
   }

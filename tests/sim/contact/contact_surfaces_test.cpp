@@ -211,7 +211,7 @@ TEST(ContactSurfaces, APairIsPushedToItsOwnTolerance) {
     StepScene scene;
     scene.options.repulsion = false;
     scene.options.tolerance_m = by_zones ? 1e-2 : 1e-6;
-    if (by_zones) scene.options.impulse_iterations = 0;
+    if (by_zones) scene.options.max_impulse_rounds = 0;
     add(scene, {.tolerance_m = 1e-4}, triangle(0.1), Vec3::Zero());
     const StepScene::Part upper = add(scene, {.tolerance_m = 1e-5}, triangle(0.01), Vec3(0, 0, 1e-3));
     scene.push(upper, Vec3(0, 0, 2e-5 - 1e-3));
@@ -226,7 +226,7 @@ TEST(ContactSurfaces, APairIsPushedToItsOwnTolerance) {
 TEST(ContactSurfaces, QueriesForTheOwnToleranceAreCounted) {
   const auto intervals_with = [](double of_pair_m) {
     StepScene scene;
-    scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+    scene.options.max_impulse_rounds = scene.options.max_zone_rounds = 0;
     add(scene, {.tolerance_m = of_pair_m}, triangle(0.1), Vec3::Zero());
     add(scene, {.tolerance_m = of_pair_m}, triangle(0.01), Vec3(0, 0, 2e-5));
     add(scene, {.tolerance_m = 1e-4}, triangle(0.1), Vec3(5, 0, 0));

@@ -152,7 +152,7 @@ TEST(FailSafe, CarriesClothAsFarAsWhatItMeetsOfABodyThatDeforms) {
   StepScene scene;
   scene.deforms = {1};
   scene.options.repulsion = false;
-  scene.options.impulse_iterations = scene.options.zone_iterations = 0;
+  scene.options.max_impulse_rounds = scene.options.max_zone_rounds = 0;
   for (const double rises_m : {5e-3, 2e-2}) {
     const Vec3 at(100 * rises_m, 0, 0);
     const StepScene::Part end = scene.add(make_sheet(4, 4, 0.1, 0.1), at, 0);
