@@ -240,7 +240,7 @@ TEST(ContactSurfaces, QueriesForTheOwnToleranceAreCounted) {
 // Limits what moves to a quarter of the distance, looked for within the largest thickness of all.
 TEST(ContactSurfaces, TheFailSafeLooksAsFarAsTheThickestSurface) {
   StepScene scene;
-  scene.options = {.thickness_m = 1e-5, .repulsion = false, .impulse_iterations = 0, .zone_iterations = 0};
+  scene.options = {.thickness_m = 1e-5, .repulsion = false, .max_impulse_rounds = 0, .max_zone_rounds = 0};
   add(scene, {.thickness_m = 1e-3}, triangle(0.1), Vec3::Zero());
   const StepScene::Part upper = add(scene, {.thickness_m = 8e-3}, triangle(0.01), Vec3(0, 0, 0.01));
   scene.push(upper, Vec3(0, 0, -0.02));
@@ -322,7 +322,7 @@ TEST(RestPairs, ThatAreNamedTwiceAreAsThickAsTheNearer) {
   const Mesh mesh = scene.mesh();
   for (const std::pair<double, double>& named : {std::pair(0.05, 0.06), std::pair(0.06, 0.05)}) {
     const std::vector<RestPair> pairs{{PairKind::kVf, 0, 3, named.first}, {PairKind::kVf, 0, 3, named.second}};
-    const ContactTable table(mesh, scene.options, {.rest_pairs = pairs});
+    const ContactTable table(mesh, scene.options, {{}, {}, pairs});
     EXPECT_EQ(table.of(PairKind::kVf, 0, 3).thickness_m, 0.05);
   }
 }

@@ -79,7 +79,7 @@ TEST(ImpactZones, TakeBodiesAtRestForOneScript) {
   StepMotion motion;
   const Positions V = Positions::Random(3, 3);
   motion.start(V, V + Positions::Constant(3, 3, 0.5).cwiseProduct(Eigen::Vector3d::UnitX().replicate(1, 3)),
-               CollisionOptions::Precision::kFloat64);
+               Precision::kFloat64);
   groups.observe(motion);
   ImpactZones zones(3, groups);
   EXPECT_TRUE(zones.merge({0, 1, 2, 2}));

@@ -137,7 +137,7 @@ TEST(CollisionImpulse, PushesToTheSideOnWhichThePointsWereAtFirst) {
   V_t1 = V_t0;
   V_t1(0, 2) = -1;
   StepMotion motion;
-  motion.start(V_t0, V_t1, CollisionOptions::Precision::kFloat64);
+  motion.start(V_t0, V_t1, Precision::kFloat64);
   Collision collision{};
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
     collision.ccd.normal = normal;

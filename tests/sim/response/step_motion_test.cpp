@@ -6,7 +6,7 @@
 namespace selvage::sim {
 namespace {
 
-constexpr auto kFloat64 = CollisionOptions::Precision::kFloat64;
+constexpr auto kFloat64 = Precision::kFloat64;
 constexpr double kNearTheEnd = kMaxCoordinate / 4;
 
 Positions point(double x) {
