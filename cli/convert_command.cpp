@@ -169,6 +169,7 @@ ExitCode recheck(const io::SequenceReader& input, Conversion conversion, const C
   };
   const verify::SequenceReport report = verify::check_sequence(*written, options);
   verify::ReportContext context{"selvage " SELVAGE_VERSION, {}, {}};
+  context.is_rounded = conversion.rounding.changed > 0;
   for (const auto& source : conversion.sources) context.sources.push_back(source.string());
   for (std::size_t i = 0; i < written->frame_count(); ++i) context.frame_names.emplace(i, written->frame_name(i));
   fmt::print("as written: ");

@@ -30,14 +30,8 @@ CcdResult self_ccd(const std::array<Vec3, 3>& x_t0, const std::array<Vec3, 3>& x
 
 CcdResult pair_ccd(PairKind kind, const std::array<Vec3, 4>& x_t0, const std::array<Vec3, 4>& x_t1,
                    const CcdOptions& options) {
-  switch (kind) {
-    case PairKind::kVf:
-      return vf_ccd(x_t0, x_t1, options);
-    case PairKind::kEe:
-      return ee_ccd(x_t0, x_t1, options);
-    case PairKind::kSelf:
-      break;
-  }
+  if (kind == PairKind::kVf) return vf_ccd(x_t0, x_t1, options);
+  if (kind == PairKind::kEe) return ee_ccd(x_t0, x_t1, options);
   return self_ccd({x_t0[0], x_t0[1], x_t0[2]}, {x_t1[0], x_t1[1], x_t1[2]}, options);
 }
 

@@ -66,8 +66,9 @@ Proximity ee_proximity(const std::array<Vec3, 4>& x) {
 }
 
 Proximity pair_proximity(PairKind kind, const std::array<Vec3, 4>& x) {
+  if (kind == PairKind::kVf) return vf_proximity(x);
   if (kind == PairKind::kEe) return ee_proximity(x);
-  return kind == PairKind::kVf ? vf_proximity(x) : self_proximity({x[0], x[1], x[2]});
+  return self_proximity({x[0], x[1], x[2]});
 }
 
 }  // namespace selvage

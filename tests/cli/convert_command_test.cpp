@@ -38,7 +38,8 @@ TEST(ConvertCommand, WhatIsReadIsNotSaidToBeInTheWay) {
   spit(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const auto onto_base = run_program(folder, {"convert", mesh, "-o", cache});
   EXPECT_EQ(onto_base.exit_code, 4);
-  expect_text(onto_base.err, mesh.string() + " is read, and the base mesh of " + cache.string() + " would take its place");
+  expect_text(onto_base.err,
+              mesh.string() + " is read, and the base mesh of " + cache.string() + " would take its place");
   const auto onto_itself = run_program(folder, {"convert", mesh, "-o", mesh});
   EXPECT_EQ(onto_itself.exit_code, 4);
   expect_text(onto_itself.err, mesh.string() + " is read, and the result would take its place");
@@ -112,6 +113,17 @@ TEST(ConvertCommand, RecheckFindsWhatMotionRoundingMakes) {
   EXPECT_EQ(result.exit_code, 1) << result.out;
   expect_text(result.out, "2 of 2 checked, 0 violated");
   expect_text(result.out, "1 of 1 checked, 1 violated");
+}
+
+TEST(ConvertCommand, WhatRoundingPutsAtOnePlaceIsNotTakenForASeam) {
+  const TemporaryFolder folder;
+  const double above = 1 + 0x1p-30;
+  record(folder.path() / "run", {{{0, 0, 1}, {4, 0, 1}, {0, 4, 1}, {0, 0, above}, {4, 0, above}, {0, 4, above}}});
+  const auto result =
+      run_program(folder, {"convert", folder.path() / "run", "-o", folder.path() / "a.pc2", "--recheck"});
+  EXPECT_EQ(result.exit_code, 1) << result.out;
+  expect_text(result.out, "6 vertices of the violations lie at the place of another, where rounding or a seam");
+  EXPECT_EQ(result.out.find("--weld"), std::string::npos) << result.out;
 }
 
 TEST(ConvertCommand, BodiesStayBodiesInTheRecheck) {

@@ -21,10 +21,6 @@ using Points = std::array<Vec3, 4>;
 
 namespace {
 
-Proximity proximity(PairKind kind, const Points& x) {
-  return kind == PairKind::kVf ? vf_proximity(x) : ee_proximity(x);
-}
-
 std::array<Rational3, 4> exact_points(const Points& x) {
   std::array<Rational3, 4> result;
   for (std::size_t i = 0; i < 4; ++i) result[i] = exact(detail::to_double3(x[i]));
@@ -54,7 +50,7 @@ double largest_difference(PairKind kind, const Points& x) {
 
 /// K4 for one configuration. `sharpness`: the bracket's width relative to the largest difference.
 void expect_bracket(PairKind kind, const Points& x, double sharpness) {
-  const Proximity answer = proximity(kind, x);
+  const Proximity answer = pair_proximity(kind, x);
   const ExactClosest real(kind, exact_points(x));
   // Booleans, because a failure would print rationals of thousands of digits.
   EXPECT_TRUE(squared(exact(answer.distance_lower)) <= real.distance_squared()) << answer.distance_lower;
@@ -198,7 +194,7 @@ TEST(Proximity, TiesBetweenFeaturesOfVeryDifferentSizesAreBracketed) {
     const int spread = random.integer(1, 1000);
     for (Vec3& p : x) p = detail::to_vec3(random.point(-spread, spread));
     const PairKind kind = testing::kMeshKinds[i % 2];
-    const Proximity answer = proximity(kind, x);
+    const Proximity answer = pair_proximity(kind, x);
     EXPECT_LE(answer.distance_upper - answer.distance_lower, 0x1p-34 * largest_difference(kind, x));
   }
 }
@@ -230,6 +226,15 @@ TEST(EeProximity, KnownConfigurations) {
 
   const Points parallel = {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, 3, 4), Vec3(5, 3, 4)};
   EXPECT_NEAR(ee_proximity(parallel).distance, 5, 0x1p-45);
+}
+
+TEST(Proximity, OfAPairIsTheQueryOfItsKind) {
+  const Points x = {Vec3(0, 0, 3), Vec3(1, 0, 0), Vec3(1, 4, 0), Vec3(-3, -1, 0)};
+  EXPECT_EQ(pair_proximity(PairKind::kVf, x).distance, 3);
+  EXPECT_EQ(pair_proximity(PairKind::kEe, x).distance, ee_proximity(x).distance);
+  EXPECT_LT(pair_proximity(PairKind::kEe, x).distance, 3);
+  EXPECT_EQ(pair_proximity(PairKind::kSelf, x).distance, self_proximity({x[0], x[1], x[2]}).distance);
+  EXPECT_GT(pair_proximity(PairKind::kSelf, x).distance, 3);
 }
 
 TEST(Proximity, RelabellingChangesNoBit) {
@@ -269,7 +274,7 @@ TEST(Proximity, ScalingByAPowerOfTwoScalesTheAnswer) {
     const int exponent = random.integer(-900, 900);
     Points scaled = x;
     for (Vec3& p : scaled) p *= std::ldexp(1.0, exponent);
-    const Proximity one = proximity(kind, x), other = proximity(kind, scaled);
+    const Proximity one = pair_proximity(kind, x), other = pair_proximity(kind, scaled);
     EXPECT_EQ(other.distance, std::ldexp(one.distance, exponent));
     EXPECT_EQ(other.distance_lower, std::ldexp(one.distance_lower, exponent));
     EXPECT_EQ(other.distance_upper, std::ldexp(one.distance_upper, exponent));
@@ -286,8 +291,8 @@ TEST(Proximity, OutsideTheDomainNothingIsClaimed) {
       Points x = {Vec3(0.25, 0.5, 2), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
       x[i][1] = value;
       for (const PairKind kind : testing::kMeshKinds) {
-        EXPECT_EQ(proximity(kind, x).distance_lower, 0);
-        EXPECT_EQ(proximity(kind, x).distance_upper, std::numeric_limits<double>::infinity());
+        EXPECT_EQ(pair_proximity(kind, x).distance_lower, 0);
+        EXPECT_EQ(pair_proximity(kind, x).distance_upper, std::numeric_limits<double>::infinity());
       }
     }
   }

@@ -184,10 +184,10 @@ std::string text_report(const SequenceReport& report, const ReportContext& conte
   }
   for (const std::string& what : report.unchecked) text += "unchecked:  " + io::printable(what) + "\n";
   if (const std::size_t seam = coincident(report.violations).size(); seam > 0 && !report.welded) {
-    text +=
-        "note:       at least " + std::to_string(seam) +
-        " vertices of the violations lie at the place of another, as where a mesh is split at seams (selvage verify "
-        "--weld joins them)\n";
+    text += "note:       at least " + std::to_string(seam) +
+            " vertices of the violations lie at the place of another, " +
+            (context.is_rounded ? "where rounding or a seam of the mesh has put them\n"
+                                : "as where a mesh is split at seams (selvage verify --weld joins them)\n");
   }
   const std::size_t listed = std::min(max_listed, report.violations.size());
   for (std::size_t i = 0; i < listed; ++i) text += line(report.violations[i], context);

@@ -25,6 +25,7 @@ struct ReportContext {
   /// What was asked for, by name: reports with other options are not about the same thing.
   std::vector<std::pair<std::string, std::string>> options = {};
   std::vector<std::string> notes = {};  ///< what to know of the sequence before trusting the verdict, a sentence each
+  bool is_rounded = false;  ///< what is checked was rounded: vertices at one place are then no sign of a seam
 };
 
 /// Several lines, the verdict first, the violations last: at most `max_listed`, and how many more there are.
