@@ -1,12 +1,12 @@
 #include "cli/bench_command.h"
 
-#include "cli/bench_broad_command.h"
-#include "cli/bench_ccd_command.h"
-#include "cli/bench_methods_command.h"
-#include "cli/bench_queries_command.h"
-#include "cli/bench_sim_command.h"
-#include "cli/bench_stability_command.h"
-#include "cli/bench_verify_command.h"
+#include "cli/bench/bench_broad_command.h"
+#include "cli/bench/bench_ccd_command.h"
+#include "cli/bench/bench_methods_command.h"
+#include "cli/bench/bench_queries_command.h"
+#include "cli/bench/bench_sim_command.h"
+#include "cli/bench/bench_stability_command.h"
+#include "cli/bench/bench_verify_command.h"
 #include "cli/command.h"
 
 namespace selvage::cli {

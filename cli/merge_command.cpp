@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "cli/answer/merge_campaigns.h"
 #include "cli/answer/result.h"
 #include "cli/answer/verdict.h"
 #include "cli/arguments/output_check.h"
 #include "cli/command.h"
-#include "cli/merge_campaigns.h"
 #include "cli/page/report_page.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"

@@ -1,4 +1,4 @@
-// The bounding-box hierarchy (paper, section 6): leaves are faces; made once, refit each step.
+// The bounding-box hierarchy, a BVH (paper, section 6): leaves are faces; made once, refit each step.
 #pragma once
 
 #include <cstddef>

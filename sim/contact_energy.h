@@ -10,7 +10,7 @@
 
 namespace selvage::sim {
 
-/// Of a part of the cloth; stabilisers are left out, which are soft.
+/// The balance of one connected part of the cloth. Stabilisers, which are soft, are left out.
 struct ContactEnergy {
   double gain_j = 0;    ///< elastic, by the collision step
   double before_j = 0;  ///< elastic, and of motion beside what it met, after the dynamics

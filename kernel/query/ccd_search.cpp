@@ -49,7 +49,7 @@ class Search {
   [[nodiscard]] Polygon polygon(Tick tick) const { return polygon_at_tick(motion_, tick); }
   [[nodiscard]] bool limit_reached() const { return result_.intervals >= options_.max_intervals; }
 
-  /// False: what clear() says then.
+  /// Records a contact at this time; false, which is what clear() returns then.
   bool answer(Tick contact);
   bool clear(const TickInterval& interval);
   bool certify(const TickInterval& interval, const Polygon& at_begin, const Polygon& at_end);

@@ -1,5 +1,5 @@
-// Vertices that follow a script instead of the dynamics: rigid bodies, figures that a sequence animates, and pins of
-// cloth, which may hang on a body.
+// Vertices that follow a script instead of the dynamics (kinematic bodies): rigid bodies, figures that a sequence
+// animates, and pins of cloth, which may hang on a body.
 #pragma once
 
 #include <limits>
@@ -58,7 +58,7 @@ class Collider {
   /// vertices, of which what is carried looks where its body is. Throws io::Error where a frame of the sequence cannot
   /// be read any more.
   [[nodiscard]] Positions placed_at(double time_s, Precision precision, const Positions& x) const;
-  /// Of its vertices that cloth can meet, between two times.
+  /// How the vertices that cloth can meet leave straight lines between two times.
   struct Bend {
     double leaves_line_by_m = 0;  ///< how far they leave the straight lines from where they are first to where at last
     double off_by_m = 0;          ///< and are from where the dynamics of a step between has them (Passage)

@@ -26,7 +26,7 @@ class StartProximities {
   [[nodiscard]] std::vector<PairProximity> find(const Positions& V_t1, const Vec3& fall = Vec3::Zero(),
                                                 const Candidates& pressed = {});
 
-  /// Of the pairs of these no answer tells until the next start().
+  /// Until the next start() find() does not return the pairs of these.
   void leave_out(std::span<const RepulsionContact> contacts);
 
   /// Pairs since start() that repel but for that they need not be local.

@@ -60,7 +60,7 @@ class CentralDifferences : public Dynamics {
   /// Leaves the impulses of B at the new velocity in impulses_.
   void implicit_half_kick(double h, double residual);
   void march(const VelocitySystem& system, double time_s);
-  /// To which the velocity is found, for the shares that the springs have.
+  /// The relative residual at which the solution for the velocity ends, for the shares that the springs have.
   [[nodiscard]] double velocity_residual() const;
 
   CentralDifferencesOptions options_;

@@ -1,5 +1,5 @@
 // Which contacts may act at the same time. Contacts act one after the other, each on what those before it have done;
-// those that share no vertex may do so in any order, and so at once.
+// those that share no vertex may do so in any order, and so at once (a colouring of the graph of contacts).
 #pragma once
 
 #include <array>

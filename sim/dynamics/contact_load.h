@@ -1,4 +1,4 @@
-// What contacts bear, from one step of the dynamics to the next.
+// What contacts bear, from one step of the dynamics to the next: their warm start.
 #pragma once
 
 #include <array>

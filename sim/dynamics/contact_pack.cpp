@@ -237,7 +237,7 @@ void Press(const PackMotion& read, LaneMask asked, double relaxation, bool is_la
     const Vectors displacement = ReadFour(read.displacement, first);
     const PairLanes pair(ReadFour(pack.weights, first), ReadFour(pack.mobility, first));
     const Value lever_share = LeverShare(pair);
-    // Where it is limited once, or the limit would not hold.
+    // A contact whose lever is limited acts once: its limits would add up.
     if (!is_last) which = hn::And(which, hn::Eq(lever_share, Number(1)));
     const Value excess = Excess(pack, read, first), before = Read(pack.pressed, first);
     const Value least = hn::Neg(before);

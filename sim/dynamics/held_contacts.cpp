@@ -28,7 +28,7 @@ HeldContacts::HeldContacts(std::vector<RepulsionContact> contacts, const Contact
   });
 }
 
-void HeldContacts::bore(std::size_t i, const Load& load, bool has_repelled, bool has_rubbed) {
+void HeldContacts::set_load(std::size_t i, const Load& load, bool has_repelled, bool has_rubbed) {
   Borne& borne = borne_[i];
   borne.load = load;
   borne.has_repelled = borne.has_repelled || has_repelled;

@@ -68,7 +68,7 @@ class HeldContacts {
   /// What a contact bears: first what it begins with.
   [[nodiscard]] const Load& load(std::size_t i) const { return borne_[i].load; }
   /// What it bears from now on, and what it has done besides. Different contacts may be told at once.
-  void bore(std::size_t i, const Load& load, bool has_repelled, bool has_rubbed);
+  void set_load(std::size_t i, const Load& load, bool has_repelled, bool has_rubbed);
   /// The order in which all of them act, where it is not that in which they were given: of those of one pair the first
   /// one's load is kept.
   void act_in(std::vector<std::size_t> order) { order_ = std::move(order); }

@@ -23,7 +23,7 @@ StageContacts::StageContacts(HeldContacts& held, const Positions& x, std::span<c
     : held_(held), span_(span) {
   for (std::size_t i = 0; i < held.contacts().size(); ++i) {
     add_term(i, x, inverse_mass, resistance_kg);
-    held.bore(i, {}, false, false);
+    held.set_load(i, {}, false, false);
   }
   index_ends(x.rows());
   response_.resize(terms_.size());
@@ -268,7 +268,7 @@ void StageContacts::finish() {
   for (const Term& term : terms_) {
     const Vec3 borne_m_s2 = term.mobility_1_kg / (span_.h_s * span_.h_s) * term.borne;
     const HeldContacts::Load load{borne_m_s2[0], term.axes.bottomRows<2>().transpose() * borne_m_s2.tail<2>()};
-    held_.bore(term.held, load, load.along_m_s2 > 0, !load.friction_m_s2.isZero(0));
+    held_.set_load(term.held, load, load.along_m_s2 > 0, !load.friction_m_s2.isZero(0));
   }
 }
 

@@ -211,7 +211,7 @@ void SweptContacts::hold(const MidstepMotion& step, const std::function<void()>&
   copy(step.v, v_free_);
   copy(step.x_t1, x_free_);
   gains_.clear();
-  bear_all(motion);
+  bear_packs(motion);
   gains_.add_motion(v_free_, step.v);
   const bool may_be_too_much = gains_.exceed(borne_j_kg);
   limit();
@@ -225,7 +225,7 @@ void SweptContacts::hold(const MidstepMotion& step, const std::function<void()>&
       step.x_t1 = x_free_;
       forget_impulses();
       withhold_loads(borne_j_kg);
-      bear_all(motion);
+      bear_packs(motion);
       limit();
       backwards_ = backwards;
       sweep(motion);
@@ -253,10 +253,10 @@ void SweptContacts::forget_impulses() {
   });
 }
 
-void SweptContacts::bear_all(const ContactMotion& motion) {
+void SweptContacts::bear_packs(const ContactMotion& motion) {
   for (Kind* kind : {&vf_, &ee_}) {
     kind->groups.each(false, [&](std::size_t pack, LaneMask lanes, const Reach& reach) {
-      return bear(kind->first_pack + pack, lanes, reach, motion);
+      return bear_pack(kind->first_pack + pack, lanes, reach, motion);
     });
   }
 }
@@ -267,7 +267,7 @@ void SweptContacts::sweep(const ContactMotion& motion) {
       kind->groups.each(backwards_, [&](std::size_t pack, LaneMask lanes, const Reach& reach) {
         const std::size_t id = kind->first_pack + pack;
         if (left > held_.sweeps()) lanes &= that_take(left, packs_[id]);
-        return lanes == 0 ? Refused{} : hold(id, lanes, reach, left, motion);
+        return lanes == 0 ? Refused{} : press_pack(id, lanes, reach, left, motion);
       });
     }
     backwards_ = !backwards_;
@@ -307,8 +307,8 @@ VertexId SweptContacts::cloth_of(std::size_t place) const {
 }
 
 /// What they bore in the last step, before anything else, where they are now.
-SweptContacts::Refused SweptContacts::bear(std::size_t id, LaneMask lanes, const Reach& reach,
-                                           const ContactMotion& motion) {
+SweptContacts::Refused SweptContacts::bear_pack(std::size_t id, LaneMask lanes, const Reach& reach,
+                                                const ContactMotion& motion) {
   PackState& state = states_[id];
   fetch(id + 1, 0);
   lanes &= static_cast<LaneMask>(state.loaded & ~state.withheld);
@@ -328,8 +328,8 @@ SweptContacts::Refused SweptContacts::bear(std::size_t id, LaneMask lanes, const
 }
 
 /// What is missing; or takes back what was too much, down to nothing.
-SweptContacts::Refused SweptContacts::hold(std::size_t id, LaneMask lanes, const Reach& reach, int left,
-                                           const ContactMotion& motion) {
+SweptContacts::Refused SweptContacts::press_pack(std::size_t id, LaneMask lanes, const Reach& reach, int left,
+                                                 const ContactMotion& motion) {
   ContactPack& pack = packs_[id];
   fetch(backwards_ ? id - 1 : id + 1, offsetof(ContactPack, mobility));
   PackMotion read;
@@ -356,8 +356,8 @@ void SweptContacts::finish() {
       contact.normal = vector_in(pack.normal, lane);
       for (std::size_t k = 0; k < 4; ++k) contact.interaction.weights[k] = pack.weights[k][lane];
       contact.is_beyond = has_lane(states_[id].beyond, lane);
-      held_.bore(i, {pack.load_m_s2[lane], vector_in(pack.friction_m_s2, lane)}, has_lane(pack.ever_repelled, lane),
-                 has_lane(pack.ever_rubbed, lane));
+      held_.set_load(i, {pack.load_m_s2[lane], vector_in(pack.friction_m_s2, lane)}, has_lane(pack.ever_repelled, lane),
+                     has_lane(pack.ever_rubbed, lane));
     }
   });
   std::vector<std::size_t> order;

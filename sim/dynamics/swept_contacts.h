@@ -1,4 +1,5 @@
-// Held contacts under explicit dynamics: sweeps of impulses in every step of it, eight contacts at once.
+// Held contacts under explicit dynamics: sweeps of impulses in every step of it (projected Gauss-Seidel), eight
+// contacts at once.
 #pragma once
 
 #include <array>
@@ -98,7 +99,7 @@ class SweptContacts {
   void begin_with_loads();
   void begin_with(const HeldContacts::Load& load, std::size_t place);
 
-  void bear_all(const ContactMotion& motion);
+  void bear_packs(const ContactMotion& motion);
   void sweep(const ContactMotion& motion);
   void take_work_from_outside(const ContactMotion& motion);
   void withhold_loads(double borne_j_kg);
@@ -112,9 +113,9 @@ class SweptContacts {
   [[nodiscard]] LaneMask pressing(std::size_t pack) const;
   [[nodiscard]] ContactMotion motion_of(const MidstepMotion& step) const;
   [[nodiscard]] VertexId cloth_of(std::size_t place) const;
-  [[nodiscard]] Refused bear(std::size_t pack, LaneMask lanes, const Reach& reach, const ContactMotion& motion);
-  [[nodiscard]] Refused hold(std::size_t pack, LaneMask lanes, const Reach& reach, int left,
-                             const ContactMotion& motion);
+  [[nodiscard]] Refused bear_pack(std::size_t pack, LaneMask lanes, const Reach& reach, const ContactMotion& motion);
+  [[nodiscard]] Refused press_pack(std::size_t pack, LaneMask lanes, const Reach& reach, int left,
+                                   const ContactMotion& motion);
   /// Looks where the contacts are now; leaves in `lanes` those that can act.
   [[nodiscard]] Refused look_again(std::size_t pack, const Reach& reach, const ContactMotion& motion, PackMotion& read,
                                    LaneMask& lanes);

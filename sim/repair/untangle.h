@@ -31,7 +31,7 @@ struct UntangleOptions {
   ContactSurfaces surfaces = {};
 };
 
-/// Of its certified steps; nothing rubs.
+/// Options of the certified steps that untangle() takes; nothing rubs.
 [[nodiscard]] CollisionOptions step_options(const UntangleOptions& options);
 
 struct UntangleReport {

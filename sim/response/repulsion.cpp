@@ -45,7 +45,7 @@ RepulsionChange repel_contact(const RepulsionContact& contact, const Positions& 
   const double overlap = properties.thickness_m - contact.distance;
   const double approach = -displacement_n - room_to_approach(overlap);
   const double settled = sweep == 0 ? 0 : kSettledApproach * contact.distance;
-  // Where the lever is limited once, or the limit would not hold.
+  // A contact whose lever is limited acts once: its limits would add up.
   if (sweep == 0 || (approach > settled && lever_share(interaction) == 1)) {
     const Repulsion push = repulsion(overlap, displacement_n, contact.mobility * interaction.inverse_mass_scale,
                                      options, sweep == 0 ? dt_s : 0);

@@ -141,8 +141,8 @@ std::optional<StepLimiter::Conflict> StepLimiter::restrain(const CollisionTracke
     if (raise(pair, moving, raised)) continue;
     SELVAGE_ASSERT(!moving.empty());  // else all four vertices are frozen, and the tracker drops such pairs
     if (!conflict) conflict = Conflict{collision, {}, {}};
-    // Those of other places at once: one place after the other 160 of them took 36 s. What shares a group with these
-    // may find room when they wait.
+    // All conflicts that share no group wait at once: one after the other 160 of them took 36 s. What shares a group
+    // with these may find room when they wait.
     const auto is_named = [&](GroupId group) {
       return std::ranges::find(conflict->groups, group) != conflict->groups.end();
     };

@@ -25,9 +25,9 @@ TEST(HeldContacts, KnowWhatTheyBoreLastAndWhatTheyEverDid) {
   const TwoFaces scene;
   HeldContacts held({scene.one.contact}, {{{0, 0, 3}}, {}}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
   EXPECT_EQ(held.count().repulsions, 0) << "what it begins with it has not done";
-  held.bore(0, {5, Vec3(1, 2, 0)}, true, true);
+  held.set_load(0, {5, Vec3(1, 2, 0)}, true, true);
   EXPECT_EQ(held.loads(), (ContactLoads{{{0, 0, 5, {1, 2, 0}}}, {}}));
-  held.bore(0, {}, false, false);
+  held.set_load(0, {}, false, false);
   EXPECT_TRUE(held.loads().empty());
   EXPECT_EQ(held.count().repulsions, 1);
   EXPECT_EQ(held.count().frictions, 1);
@@ -38,8 +38,8 @@ TEST(HeldContacts, KeepTheLoadOfThePairsContactThatActsFirst) {
   const TwoFaces scene;
   const std::vector<RepulsionContact> twice{scene.one.contact, scene.one.contact};
   HeldContacts held(twice, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
-  held.bore(0, {5, Vec3::Zero()}, true, false);
-  held.bore(1, {3, Vec3::Zero()}, true, false);
+  held.set_load(0, {5, Vec3::Zero()}, true, false);
+  held.set_load(1, {3, Vec3::Zero()}, true, false);
   EXPECT_EQ(held.loads(), (ContactLoads{{{0, 0, 5}}, {}}));
   held.act_in({1, 0});
   EXPECT_EQ(held.loads(), (ContactLoads{{{0, 0, 3}}, {}}));
@@ -51,7 +51,7 @@ TEST(HeldContacts, GiveLoadsOfBothKindsOnInOrder) {
   for (const std::size_t i : {2U, 3U}) contacts[i].kind = PairKind::kEe;
   for (const std::size_t i : {0U, 2U}) contacts[i].first = 3;
   HeldContacts held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, kHeldStep, 1);
-  for (std::size_t i = 0; i < 4; ++i) held.bore(i, {double(i + 1), Vec3::Zero()}, true, false);
+  for (std::size_t i = 0; i < 4; ++i) held.set_load(i, {double(i + 1), Vec3::Zero()}, true, false);
   EXPECT_EQ(held.loads(), (ContactLoads{{{0, 0, 2}, {3, 0, 1}}, {{0, 0, 4}, {3, 0, 3}}}));
 }
 

@@ -1,4 +1,4 @@
-#include "cli/bench_methods_command.h"
+#include "cli/bench/bench_methods_command.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,8 +9,8 @@
 #include "bench/method_bench.h"
 #include "cli/answer/result.h"
 #include "cli/arguments/output_check.h"
+#include "cli/bench/hard_queries.h"
 #include "cli/command.h"
-#include "cli/hard_queries.h"
 #include "io/file/text.h"
 
 namespace selvage::cli {

@@ -1,4 +1,4 @@
-#include "cli/merge_campaigns.h"
+#include "cli/answer/merge_campaigns.h"
 
 #include <algorithm>
 

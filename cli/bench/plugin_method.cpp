@@ -1,4 +1,4 @@
-#include "cli/plugin_method.h"
+#include "cli/bench/plugin_method.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/hard_queries.h"
+#include "cli/bench/hard_queries.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/bench_sim_command.h"
+#include "cli/bench/bench_sim_command.h"
 
 #include <memory>
 

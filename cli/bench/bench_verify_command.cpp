@@ -1,4 +1,4 @@
-#include "cli/bench_verify_command.h"
+#include "cli/bench/bench_verify_command.h"
 
 #include <algorithm>
 #include <memory>

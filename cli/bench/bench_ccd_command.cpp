@@ -1,4 +1,4 @@
-#include "cli/bench_ccd_command.h"
+#include "cli/bench/bench_ccd_command.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -14,8 +14,8 @@
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/thread_limit.h"
+#include "cli/bench/plugin_method.h"
 #include "cli/command.h"
-#include "cli/plugin_method.h"
 #include "cli/process/terminal.h"
 
 namespace selvage::cli {

@@ -1,4 +1,4 @@
-#include "cli/bench_stability_command.h"
+#include "cli/bench/bench_stability_command.h"
 
 #include <algorithm>
 #include <memory>

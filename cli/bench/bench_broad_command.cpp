@@ -1,4 +1,4 @@
-#include "cli/bench_broad_command.h"
+#include "cli/bench/bench_broad_command.h"
 
 #include <algorithm>
 #include <cmath>
