@@ -5,11 +5,11 @@
 #include <optional>
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 
 #include "kernel/collisions.h"
 #include "sim/base/disjoint_sets.h"
 #include "sim/base/sorted_once.h"
+#include "sim/repair/spanning_membrane.h"
 
 namespace selvage::sim {
 namespace {
@@ -19,23 +19,10 @@ constexpr int kMaxGrowth = 3;       // rings by which a region may grow, where t
 
 constexpr std::size_t kMaxMet = 100'000;  // pairs with bodies that meet on a way: chosen; more say no more
 
-using Region = std::vector<VertexId>;  // sorted
-
-/// region.size() for a vertex that is not in it.
-std::size_t index_in(const Region& region, VertexId v) {
-  const auto found = std::ranges::lower_bound(region, v);
-  return found != region.end() && *found == v ? static_cast<std::size_t>(found - region.begin()) : region.size();
-}
-
 class ClothUntangler {
  public:
-  explicit ClothUntangler(UntangleState& state)
-      : state_(state), mesh_(state.mesh), neighbours_(static_cast<std::size_t>(mesh_.vertex_count)) {
+  explicit ClothUntangler(UntangleState& state) : state_(state), mesh_(state.mesh), neighbours_(neighbours_of(mesh_)) {
     for (VertexId v = 0; v < mesh_.vertex_count; ++v) is_of_body_.push_back(state.is_body(v) ? 1 : 0);
-    for (const auto& edge : mesh_.edges) {
-      neighbours_[static_cast<std::size_t>(edge[0])].push_back(edge[1]);
-      neighbours_[static_cast<std::size_t>(edge[1])].push_back(edge[0]);
-    }
   }
 
   bool run() {
@@ -53,7 +40,6 @@ class ClothUntangler {
   [[nodiscard]] std::vector<Region> regions() const;
   void grow(Region& region) const;
   void drop_what_has_no_ring(Region& region) const;
-  [[nodiscard]] std::optional<Positions> membrane(const Region& region) const;
   [[nodiscard]] std::vector<Region> crossings() const;
   bool improve() {
     way_through_.reset();
@@ -82,8 +68,8 @@ class ClothUntangler {
 
   UntangleState& state_;
   const Mesh& mesh_;
-  std::vector<std::vector<VertexId>> neighbours_;  ///< #V
-  std::vector<FacePair> pairs_;                    ///< at state_.x
+  Neighbours neighbours_;
+  std::vector<FacePair> pairs_;  ///< at state_.x
   BoxHierarchy hierarchy_{mesh_};
   std::vector<std::uint8_t> is_of_body_;  ///< #V
   std::optional<Better> way_through_;     ///< a body: taken where nothing else helps
@@ -165,30 +151,6 @@ void ClothUntangler::drop_what_has_no_ring(Region& region) const {
   region = std::move(kept);
 }
 
-/// Every vertex of the region at the mean of its neighbours, the ring around it where it is. PRE: all of it has one.
-std::optional<Positions> ClothUntangler::membrane(const Region& region) const {
-  const auto count = static_cast<Eigen::Index>(region.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  Positions right = Positions::Zero(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& around = neighbours_[static_cast<std::size_t>(region[static_cast<std::size_t>(i)])];
-    entries.emplace_back(i, i, static_cast<double>(around.size()));
-    for (const VertexId v : around) {
-      const auto j = static_cast<Eigen::Index>(index_in(region, v));
-      if (j < count) {
-        entries.emplace_back(i, j, -1.0);
-      } else {
-        right.row(i) += state_.x.row(v);
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> laplacian(count, count);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(laplacian);
-  if (factors.info() != Eigen::Success) return std::nullopt;  // solve() would leave what it returns unwritten
-  return factors.solve(Eigen::MatrixXd(right));
-}
-
 bool ClothUntangler::keep_if_better(const Positions& x, const std::function<bool(const FacePair&)>& must_end) {
   if (!(x.array().abs() <= kMaxCoordinate).all() || !state_.may_judge()) return false;
   std::vector<FacePair> pairs = judge(x);
@@ -217,7 +179,7 @@ bool ClothUntangler::draw_back(Region region) {
     std::erase_if(region, [&](VertexId v) { return state_.is_scripted(v); });
     drop_what_has_no_ring(region);
     if (region.empty()) return false;
-    const std::optional<Positions> flat = membrane(region);
+    const std::optional<Positions> flat = spanning_membrane(neighbours_, region, state_.x);
     if (!flat) return false;
     for (int halvings = 1; halvings <= kShapeHalvings; ++halvings) {
       Positions x = state_.x;
