@@ -12,6 +12,10 @@
 namespace selvage::sim {
 namespace {
 
+// Of the mean of a border's edges, for each: chosen. Folded between two rows, a sheet has edges without length, whose
+// ends stayed at one place.
+constexpr double kLeastEdge = 0.125;
+
 using PlanePoint = Eigen::Vector2d;
 
 struct LayoutPlane {
@@ -120,16 +124,19 @@ PlanePoint mirrored(const PlanePoint& a) { return {a.x(), -a.y()}; }
 /// the larger sum is nearer.
 std::vector<PlanePoint> border_circle(const std::vector<VertexId>& loop, const Positions& V, const Positions& x,
                                       const LayoutPlane& plane) {
-  const double length = loop_length(loop, V);
+  const double length = loop_length(loop, V), least = kLeastEdge * length / static_cast<double>(loop.size());
+  const auto room = [&](std::size_t i) { return std::max(edge_length(loop, i, V), least); };
+  double all_room = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) all_room += room(i);
   std::vector<PlanePoint> circle;
   std::array<PlanePoint, 2> sums{PlanePoint::Zero(), PlanePoint::Zero()};  // as it is, mirrored
   double way = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
-    circle.push_back(on_circle(way / length));
+    circle.push_back(on_circle(way / all_room));
     const PlanePoint here = plane.coordinates(x.row(loop[i]));
     sums[0] += turned(here, mirrored(circle[i]));
     sums[1] += turned(here, circle[i]);
-    way += edge_length(loop, i, V);
+    way += room(i);
   }
   const bool is_mirrored = sums[1].stableNorm() > sums[0].stableNorm();
   const PlanePoint& sum = sums[is_mirrored ? 1 : 0];
