@@ -108,7 +108,7 @@ TEST(SingleCloths, AreLaidFlatBesideOthers) {
 
 // Along a row of vertices, and between two, where faces have no area and border edges no length.
 TEST(SingleCloths, ComeApartWhereTheyAreFoldedExactlyFlat) {
-  for (const std::int32_t side : {9, 10}) {
+  for (const std::int32_t side : {5, 6}) {
     SCOPED_TRACE(side);
     StepScene scene;
     const StepScene::Part sheet = scene.add(make_sheet(side, side, 1, 1), Vec3::Zero());
