@@ -138,7 +138,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
   }
   const sim::StartRepair done{std::ssize(pairs), repaired.moved_vertices, repaired.largest_move_m,
                               repaired.largest_strain};
-  const std::string seams = opened_seams(world, simulation.x(), pairs);
+  const std::string note = note_on_freed(world, simulation.x(), pairs);
   sim::SimulationState state = simulation.state();
   state.x = std::move(repaired.x);
   simulation.restore(state);
@@ -146,7 +146,7 @@ sim::StartRepair require_clean_start(sim::Simulation& simulation, bool repair) {
       "{} steps eased what was strained, largest strain {:.2g}\n",
       pairs.size(), done.moved_vertices, world.cloth_vertex_count, done.largest_move_m, repaired.rounds,
       repaired.relax_steps, repaired.largest_strain);
-  if (!seams.empty()) say("note       {}\n", seams);
+  if (!note.empty()) say("note       {}\n", note);
   if (repaired.largest_strain > sim::kTornStrain) {
     say("note       contact or pins hold cloth at {:.2g} times its length, which will fly apart; move it off what "
         "goes through it in the program that wrote it\n",

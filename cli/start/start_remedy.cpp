@@ -92,7 +92,10 @@ std::string start_remedy(const sim::World& world, const Positions& x, std::span<
   return repair_failed ? seams : seams + ", or have --repair open them";
 }
 
-std::string opened_seams(const sim::World& world, const Positions& x, std::span<const sim::FacePair> pairs) {
+std::string note_on_freed(const sim::World& world, const Positions& x, std::span<const sim::FacePair> pairs) {
+  for (const sim::FacePair& pair : pairs) {
+    if (is_of_one_fan(world.triangles, pair)) return fan_remedy(pair) + ", or go on with another shape than it had";
+  }
   const auto [coincident, part] = find_seams(Faults(world, x), pairs);
   if (coincident.empty()) return {};
   return fmt::format(

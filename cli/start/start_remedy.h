@@ -15,8 +15,9 @@ namespace selvage::cli {
 [[nodiscard]] std::string start_remedy(const sim::World& world, const Positions& x,
                                        std::span<const sim::FacePair> pairs, bool repair_failed);
 
-/// Of such a start that a repair has freed: the seams that are open now, or nothing.
-[[nodiscard]] std::string opened_seams(const sim::World& world, const Positions& x,
-                                       std::span<const sim::FacePair> pairs);
+/// Of such a start that a repair has freed: what was wrong with the mesh, as a polygon that is laid out otherwise now,
+/// or seams that are open; or nothing.
+[[nodiscard]] std::string note_on_freed(const sim::World& world, const Positions& x,
+                                        std::span<const sim::FacePair> pairs);
 
 }  // namespace selvage::cli

@@ -103,7 +103,7 @@ void step_and_check(StepScene& scene, Noise& noise, int steps) {
       if (scene.body[v] == 0) scene.V_candidate.row(static_cast<Eigen::Index>(v)).z() += 1e-3 * step;
       if (scene.body[v] == 1) scene.V_candidate.row(static_cast<Eigen::Index>(v)).z() -= 1e-2;
     }
-    if (scene.options.precision == CollisionOptions::Precision::kFloat32) {
+    if (scene.options.precision == Precision::kFloat32) {
       scene.V_candidate = scene.V_candidate.unaryExpr([](double x) {
         constexpr double kMaxFloat = static_cast<double>(std::numeric_limits<float>::max());
         return static_cast<double>(static_cast<float>(std::clamp(x, -kMaxFloat, kMaxFloat)));
@@ -175,7 +175,7 @@ TEST(CollisionStepProperties, Float32ClothStaysFreeOnItsLattice) {
     StepScene scene;
     Noise noise(*rc::gen::arbitrary<std::uint64_t>());
     random_options(scene);
-    scene.options.precision = CollisionOptions::Precision::kFloat32;
+    scene.options.precision = Precision::kFloat32;
     add_layers(scene, integer_in(1, 4), noise);
     const double offset_m = integer_in(0, 2) == 0 ? 0 : magnitude(0, 8);
     scene.V_t0 = scene.V_t0.unaryExpr([=](double x) { return static_cast<double>(static_cast<float>(x + offset_m)); });

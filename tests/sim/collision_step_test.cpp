@@ -278,7 +278,7 @@ TEST(CollisionStep, FrictionHoldsASheetOnASlopeBelowItsCoefficient) {
 
 TEST(CollisionStep, ResultLiesOnTheFloat32Lattice) {
   StepScene scene;
-  scene.options.precision = CollisionOptions::Precision::kFloat32;
+  scene.options.precision = Precision::kFloat32;
   const auto lower = scene.add(sheet(7), Vec3(0, 0, 100));
   const auto upper = scene.add(sheet(7), Vec3(0.003, 0.002, 100.004));
   scene.V_t0 = scene.V_t0.cast<float>().cast<double>();
@@ -552,7 +552,7 @@ TEST(CollisionStep, CertifiesThatNothingMeetsBeforeTheEnd) {
 // What a zone moves by is not rounded to the lattice, as positions are.
 TEST(CollisionStep, ImpactZonesKeepMomentumOnACoarseLattice) {
   StepScene scene;
-  scene.options.precision = CollisionOptions::Precision::kFloat32;
+  scene.options.precision = Precision::kFloat32;
   const Vec3 far(1000, 2000, 0);
   scene.add(sheet(4), far);
   const auto upper = scene.add(sheet(4), far + Vec3(0, 0, 1e-2));

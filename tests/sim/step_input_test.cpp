@@ -52,7 +52,7 @@ TEST(StepInput, NamesTheDefect) {
   EXPECT_EQ(error_after([](Input& i) { i.V_candidate(1, 1) = 0x1.8p+1000; }), InputError::kNone);  // cut by the step
   EXPECT_EQ(error_after([](Input& i) { i.V_candidate(2, 1) = 0x1.8p+1000; }), InputError::kTooLarge);  // a script
   EXPECT_EQ(error_after([](Input& i) {
-              i.options.precision = CollisionOptions::Precision::kFloat32;
+              i.options.precision = Precision::kFloat32;
               i.V_candidate(2, 1) = 1e200;
             }),
             InputError::kTooLarge)
@@ -70,7 +70,7 @@ TEST(StepInput, NamesTheDefect) {
     EXPECT_EQ(error_after([=](Input& i) { i.dt_s = dt_s; }), InputError::kBadTimeStep);
   }
   EXPECT_EQ(error_after([](Input& i) {
-              i.options.precision = CollisionOptions::Precision::kFloat32;
+              i.options.precision = Precision::kFloat32;
               i.V_t0(0, 0) = 0.1;
             }),
             InputError::kOffLattice);

@@ -61,7 +61,7 @@ TEST(Untangle, WhatACollisionStepRefusesIsAskedBeforeAnythingMoves) {
   expect_refused([](StepScene& scene, UntangleOptions&) { scene.V_t0(0, 0) = 1e305; });
   expect_refused([](StepScene& scene, UntangleOptions& options) {
     scene.V_t0(0, 0) = 0.1;
-    options.precision = CollisionOptions::Precision::kFloat32;
+    options.precision = Precision::kFloat32;
   });
   expect_refused([](StepScene&, UntangleOptions& options) {
     options.surfaces.properties = {{}};
@@ -299,7 +299,7 @@ TEST(Untangle, Float32ResultsLieOnTheLattice) {
   StepScene scene;
   scene.add(make_sheet(9, 9, 0.3, 0.3), Vec3(0.003, 0.002, 0.07));
   scene.add(make_sphere(0.1, 1), Vec3::Zero(), 0);
-  scene.options.precision = CollisionOptions::Precision::kFloat32;
+  scene.options.precision = Precision::kFloat32;
   scene.V_t0 = scene.V_t0.cast<float>().cast<double>().eval();
   const UntangleResult result = untangle_scene(scene);
   EXPECT_TRUE(result.report.remaining.empty());

@@ -106,7 +106,7 @@ TEST(Repulsion, KeepsTheLimitOfALeverInAllItsSweeps) {
     contact.mobility = effective_mobility(contact.interaction);
     contact.properties = {kThickness, 1e-6, 0.5, 0.5};
     StepMotion motion;
-    motion.start(V, V_t1, CollisionOptions::Precision::kFloat64);
+    motion.start(V, V_t1, Precision::kFloat64);
     Contacts contacts;
     contacts.add(contact);
     contacts.repel(CollisionOptions{}, 1e-2, kRepulsionSweeps, motion);
@@ -163,7 +163,7 @@ TEST(Repulsion, SpringActsOnceThoughContactsAreSweptAgainWithOthers) {
   Positions V(4, 3);
   for (Eigen::Index i = 0; i < 4; ++i) V.row(i) = overlap.contact.x_t0[static_cast<std::size_t>(i)];
   StepMotion motion;
-  motion.start(V, V, CollisionOptions::Precision::kFloat64);
+  motion.start(V, V, Precision::kFloat64);
   Contacts contacts;
   contacts.add(overlap.contact);
   for (int call = 0; call < 3; ++call) {

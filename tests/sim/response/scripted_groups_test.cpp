@@ -53,7 +53,7 @@ TEST(ScriptedGroups, ABodyOfWhichOneVertexMovesMoves) {
   Positions V = Positions::Random(8, 3), V_t1 = V;
   V_t1(3, 0) += 1;
   StepMotion motion;
-  motion.start(V, V_t1, CollisionOptions::Precision::kFloat64);
+  motion.start(V, V_t1, Precision::kFloat64);
   groups.observe(motion);
   EXPECT_TRUE(groups.moves(0)) << "by its last vertex";
   EXPECT_FALSE(groups.moves(1));
@@ -66,7 +66,7 @@ TEST(ScriptedGroups, WhatDeformsMovesCarriedClothAsTheVerticesThatItMeets) {
   V_t1.row(4) += Eigen::RowVector3d(0, 0, 1);
   V_t1.row(5) += Eigen::RowVector3d(0, 2, 0);
   StepMotion motion;
-  motion.start(V, V_t1, CollisionOptions::Precision::kFloat64);
+  motion.start(V, V_t1, Precision::kFloat64);
   groups.observe(motion);
   for (const VertexId near : {4, 5, 6}) {
     const Vec3 moved = groups.rigid_motion(1, motion, Vertices{0, near, 2, 0}).displacement(V.row(near));

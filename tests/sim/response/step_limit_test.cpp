@@ -25,7 +25,7 @@ struct Tracked {
         all(static_cast<std::size_t>(mesh.vertex_count), 1),
         contacts(mesh, {}, {}),
         tracker(mesh, hierarchy, contacts, 4096, all) {
-    motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+    motion.start(scene.V_t0, scene.V_candidate, Precision::kFloat64);
     groups.observe(motion);
     tracker.start(motion);
   }

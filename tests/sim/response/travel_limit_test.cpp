@@ -99,7 +99,7 @@ TEST(TravelLimit, CutsWhatLeavesTheSceneByFarAndCountsIt) {
     scene.push(body, of_body);
     scene.V_candidate(cloth.begin, 0) += of_cloth_m;
     StepMotion motion;
-    motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+    motion.start(scene.V_t0, scene.V_candidate, Precision::kFloat64);
     const std::int64_t count = limit_travel(ScriptedGroups(scene.bodies()), motion);
     EXPECT_EQ(motion.displacement().topRows(3), (scene.V_candidate - scene.V_t0).topRows(3)) << "scripts are followed";
     return std::pair(count, motion.displacement().row(cloth.begin).norm());
@@ -119,7 +119,7 @@ TEST(TravelLimit, HalvesTheWayOfClothAndNoScript) {
   scene.push(body, Vec3(0, 0, 1));
   scene.V_candidate(cloth.begin, 2) += 8;
   StepMotion motion;
-  motion.start(scene.V_t0, scene.V_candidate, CollisionOptions::Precision::kFloat64);
+  motion.start(scene.V_t0, scene.V_candidate, Precision::kFloat64);
   EXPECT_EQ(halve_travel(ScriptedGroups(scene.bodies()), motion, 2), 1);
   scene.V_candidate(cloth.begin, 2) = scene.V_t0(cloth.begin, 2) + 2;
   EXPECT_EQ(motion.x(), scene.V_candidate);
