@@ -355,7 +355,7 @@ TEST(Parts, NothingMissingDoubleOrForeignIsJoined) {
       [](SequenceReport& report) { report.second_opinion = SecondOpinionScope::kAll; },
       [](SequenceReport& report) { report.bodies_checked = true; },
       [](SequenceReport& report) { report.gap_searched = true; },
-      [](SequenceReport& report) { report.welded.emplace(); },
+      [](SequenceReport& report) { report.welded = {1, 0}; },
       [](SequenceReport& report) { report.ignored.emplace_back(); },
       [](SequenceReport& report) { report.exempted.clear(); }};
   for (std::size_t i = 0; i < differences.size(); ++i) {
