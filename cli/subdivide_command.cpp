@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "cli/answer/polygon_fan.h"
+#include "cli/answer/mesh_faults.h"
 #include "cli/arguments/named_bodies.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
@@ -116,15 +117,12 @@ std::string pairs_intersect(std::int64_t count) {
 std::string remedy(const io::MeshData& mesh, const std::array<std::int32_t, 2>& faces) {
   if (faces[0] == faces[1]) return "take it out of the mesh";
   if (is_of_one_fan(mesh.triangles, faces)) return fan_remedy(faces);
-  const auto corners = [&](std::int32_t face) { return mesh.triangles[static_cast<std::size_t>(face)]; };
-  for (const std::int32_t a : corners(faces[0])) {
-    for (const std::int32_t b : corners(faces[1])) {
-      if (a == b || mesh.points[static_cast<std::size_t>(a)] != mesh.points[static_cast<std::size_t>(b)]) continue;
-      return fmt::format(
-          "vertices {} and {} lie at one place, as where a mesh is split at seams: weld them (merge by distance 0) in "
-          "the program that wrote it; else free the frame",
-          a, b);
-    }
+  const std::set<std::int32_t> at_seam = coincident_corners(mesh.triangles, mesh.points, faces);
+  if (!at_seam.empty()) {
+    return fmt::format(
+        "corners of them lie at one place, such as vertex {}, as where a mesh is split at seams: weld them (merge by "
+        "distance 0) in the program that wrote it; else free the frame",
+        *at_seam.begin());
   }
   return "free the frame";
 }

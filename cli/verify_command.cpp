@@ -8,7 +8,7 @@
 
 #include "cli/answer/case_output.h"
 #include "cli/answer/enclosed_cloth.h"
-#include "cli/answer/polygon_fan.h"
+#include "cli/answer/mesh_faults.h"
 #include "cli/answer/result.h"
 #include "cli/answer/verdict.h"
 #include "cli/answer/verify_progress.h"

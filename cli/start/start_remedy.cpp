@@ -6,15 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "cli/answer/mesh_faults.h"
 #include "cli/answer/part_name.h"
-#include "cli/answer/polygon_fan.h"
+#include "sim/base/points.h"
 
 namespace selvage::cli {
 namespace {
 
 class Faults {
  public:
-  Faults(const sim::World& world, const Positions& x) : world_(world), x_(x) {}
+  Faults(const sim::World& world, const Positions& x) : world_(world), points_(sim::points_of(x)) {}
 
   [[nodiscard]] static bool is_without_area(const sim::FacePair& pair) { return pair[0] == pair[1]; }
 
@@ -24,14 +25,8 @@ class Faults {
 
   /// Corners of both, if of one part, that lie, to the bit, where one of the other face lies.
   [[nodiscard]] std::set<VertexId> coincident(const sim::FacePair& pair) const {
-    std::set<VertexId> found;
-    if (part_with_face(world_, pair[0]) != part_with_face(world_, pair[1])) return found;
-    for (const VertexId a : corners(pair[0])) {
-      for (const VertexId b : corners(pair[1])) {
-        if (a != b && x_.row(a) == x_.row(b)) found.insert({a, b});
-      }
-    }
-    return found;
+    if (part_with_face(world_, pair[0]) != part_with_face(world_, pair[1])) return {};
+    return coincident_corners(world_.triangles, points_, pair);
   }
 
   [[nodiscard]] std::string name_of_part(FaceId face) const { return part_of_face(world_, face); }
@@ -42,7 +37,7 @@ class Faults {
   }
 
   const sim::World& world_;
-  const Positions& x_;
+  const io::Points points_;
 };
 
 struct Seams {

@@ -35,6 +35,12 @@ void collect(const nlohmann::json& value, const std::string& path, Keys& keys) {
   }
 }
 
+Keys keys_of(const std::filesystem::path& json) {
+  Keys keys;
+  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  return keys;
+}
+
 /// What is in backquotes in the first column of the table under `heading`.
 Keys documented(const std::string& heading) {
   const std::string page = slurp(SELVAGE_SOURCE_DIR "/docs/formats.md");
@@ -77,8 +83,7 @@ TEST(ReportKeys, OfVerifyAreDocumented) {
                                  "--group", "b=4:5", "--exempt", "a,a", "--ignore", "b"})
                 .exit_code,
             1);
-  Keys keys;
-  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  const Keys keys = keys_of(json);
   EXPECT_TRUE(keys.contains("violations[].t")) << "a frame";
   EXPECT_TRUE(keys.contains("violations[].t.lower")) << "a motion";
   EXPECT_EQ(keys, documented("The report of `selvage verify --json`"));
@@ -99,8 +104,7 @@ TEST(ReportKeys, OfReplayAreDocumented) {
   const auto replayed =
       run_program(folder, {"replay", cases, kept_cases, "--json", json, "--plugin", SELVAGE_TEXTBOOK_PLUGIN});
   ASSERT_EQ(replayed.exit_code, 1) << "the textbook misses some of those kept" << replayed.err;
-  Keys keys;
-  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  const Keys keys = keys_of(json);
   EXPECT_EQ(keys, documented("The report of `selvage replay --json`"));
 }
 
@@ -125,8 +129,7 @@ TEST(ReportKeys, OfBenchQueriesAreDocumented) {
                                  SELVAGE_TEXTBOOK_PLUGIN})
                 .exit_code,
             0);
-  Keys keys;
-  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  const Keys keys = keys_of(json);
   EXPECT_TRUE(keys.contains("methods.plugin.false_positives_beyond_gap"));
   expect_in_tables(keys, "| keys of `bench queries` |", "| keys of `bench ccd` |");
 }
@@ -138,8 +141,7 @@ TEST(ReportKeys, OfBenchCcdAreDocumented) {
                                  SELVAGE_KERNEL_PLUGIN})
                 .exit_code,
             0);
-  Keys keys;
-  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  const Keys keys = keys_of(json);
   EXPECT_TRUE(keys.contains("methods.plugin.toi_examined"));
   expect_in_tables(keys, "| keys of `bench queries` |", "The others hold lists of the rows that they print");
 }
@@ -148,8 +150,7 @@ TEST(ReportKeys, OfDoctorAreDocumented) {
   const TemporaryFolder folder;
   const auto json = folder.path() / "report.json";
   ASSERT_EQ(run_program(folder, {"doctor", "--json", json}).exit_code, 0);
-  Keys keys;
-  collect(nlohmann::json::parse(slurp(json)), "", keys);
+  const Keys keys = keys_of(json);
   EXPECT_EQ(keys, documented("The report of `selvage doctor --json`"));
 }
 

@@ -247,7 +247,7 @@ TEST(SubdivideCommand, AFrameThatIntersectsSaysWhatIsWrongWithItsMesh) {
   const auto mesh = folder.path() / "mesh.obj";
   const std::string second = "f 1 2 3\nv 0 0 0\nv 4 0 0\nv 2 -3 1\nf 4 5 6\n";
   for (const auto& [text, words] :
-       {std::pair{"v 0 0 0\nv 4 0 0\nv 2 3 0\n" + second, "vertices 0 and 3 lie at one place"},
+       {std::pair{"v 0 0 0\nv 4 0 0\nv 2 3 0\n" + second, "corners of them lie at one place, such as vertex 0"},
         {std::string("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.5 0\nv 0 2 0\nf 1 2 3 4 5\n"),
          "faces 0 and 1 go around one corner, as those of a polygon do"},
         {std::string("v 0 0 0\nv 4 0 0\nv 2 3 0\nf 1 2 3\nv 1 1 1\nv 1 1 -1\nv 5 5 0\nf 4 5 6\n"), "free the frame"}}) {

@@ -1,4 +1,4 @@
-#include "cli/answer/polygon_fan.h"
+#include "cli/answer/mesh_faults.h"
 
 #include <algorithm>
 
@@ -20,6 +20,17 @@ std::string fan_remedy(const std::array<std::int32_t, 2>& faces) {
       "faces {} and {} go around one corner, as those of a polygon do, which is split into triangles around its first: "
       "one that is not convex overlaps itself then; export triangles instead",
       faces[0], faces[1]);
+}
+
+std::set<std::int32_t> coincident_corners(const io::Triangles& triangles, const io::Points& x,
+                                          const std::array<std::int32_t, 2>& faces) {
+  std::set<std::int32_t> found;
+  for (const std::int32_t a : triangles[static_cast<std::size_t>(faces[0])]) {
+    for (const std::int32_t b : triangles[static_cast<std::size_t>(faces[1])]) {
+      if (a != b && x[static_cast<std::size_t>(a)] == x[static_cast<std::size_t>(b)]) found.insert({a, b});
+    }
+  }
+  return found;
 }
 
 std::optional<std::string> note_on_polygons(const io::SequenceReader& sequence, const verify::SequenceReport& report) {
