@@ -151,6 +151,14 @@ TEST(FlatLayout, OfNothingWithoutABorderOnItsOwn) {
   three_faces.add(fins, Vec3::Zero());
   EXPECT_FALSE(lay_flat(three_faces));
 
+  StepScene finned;  // on an inner edge: the border is a loop all the same
+  Shape fin = sheet(4);
+  fin.x.conservativeResize(17, 3);
+  fin.x.row(16) = fin.x.row(5) + Eigen::RowVector3d(0, 0, 1e-3);
+  fin.triangles.push_back({5, 6, 16});
+  finned.add(fin, Vec3::Zero());
+  EXPECT_FALSE(lay_flat(finned));
+
   StepScene bow_tie;  // its border visits the middle twice
   Shape tie{Positions(5, 3), {{0, 1, 2}, {0, 3, 4}}};
   tie.x << 0, 0, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0;
