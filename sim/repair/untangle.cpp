@@ -8,7 +8,7 @@
 #include "sim/contact/contact_table.h"
 #include "sim/repair/approach_start.h"
 #include "sim/repair/body_return.h"
-#include "sim/repair/membrane.h"
+#include "sim/repair/draw_back.h"
 #include "sim/step_input.h"
 
 namespace selvage::sim {

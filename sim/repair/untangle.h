@@ -1,5 +1,5 @@
 // Moves cloth that starts intersecting until nothing intersects: the repair of a start, not a part of any step.
-//   1. Cloth against cloth (membrane.h): what has come through is drawn back to the side that most of it is on.
+//   1. Cloth against cloth (draw_back.h): what has come through is drawn back to the side that most of it is on.
 //   2. Cloth against bodies (body_return.h): the bodies shrink, or step aside, until they are free of the cloth, and
 //      come back in certified steps that push the cloth out of their way.
 //   3. Certified steps take what was moved as near to where it was as it can go.

@@ -1,6 +1,7 @@
-#include "sim/repair/membrane.h"
+#include "sim/repair/draw_back.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
