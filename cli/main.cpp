@@ -13,6 +13,7 @@
 #include "cli/process/exit_code.h"
 #include "cli/process/fp_state.h"
 #include "cli/process/interrupt.h"
+#include "cli/process/memory_limit.h"
 #include "cli/process/version.h"
 #include "cli/render_command.h"
 #include "cli/replay_command.h"
@@ -79,5 +80,6 @@ int main(int argc, char** argv) {
     };
   }
   make_size_limits_errors();
+  make_lack_of_memory_an_error();
   return static_cast<int>(run_guarded(job));
 }

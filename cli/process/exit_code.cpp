@@ -44,7 +44,7 @@ Failure failure_of(const std::exception_ptr& exception) {
     if (std::ferror(stdout) != 0) return {ExitCode::kFile, kLostOutput};  // thrown where it is printed
     return {ExitCode::kInternal, error.what()};
   } catch (const std::bad_alloc&) {
-    return {ExitCode::kLimit, "out of memory: nothing is known about the rest"};
+    return {ExitCode::kLimit, "out of memory: nothing is known about the rest; a coarser mesh or a shard needs less"};
   } catch (const std::exception& error) {
     return {ExitCode::kInternal, error.what()};
   }

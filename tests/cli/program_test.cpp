@@ -319,7 +319,24 @@ TEST(Program, WhatNeedsMoreMemoryThanThereIsEndsAtALimit) {
   EXPECT_EQ(verify(), 0) << testing::slurp(folder.path() / "err.txt");
   fs::resize_file(folder.path() / "a.obj", std::uintmax_t{1} << 31);
   EXPECT_EQ(verify(), 5);
-  EXPECT_EQ(testing::slurp(folder.path() / "err.txt"), "selvage: out of memory: nothing is known about the rest\n");
+  EXPECT_EQ(testing::slurp(folder.path() / "err.txt"),
+            "selvage: out of memory: nothing is known about the rest; a coarser mesh or a shard needs less\n");
+}
+
+// What that is, `memory_limit_test.cpp` has. The kernel would hand out more, and kill what uses it.
+TEST(Program, MayNotAskForMoreMemoryThanThereIs) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "a.obj", pipe = folder.path() / "pipe";
+  spit(mesh, "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);  // nobody reads it: the command does not end by itself
+  const pid_t child = testing::start_program(folder.path(), {"view", mesh, "-o", pipe});
+  const auto says = [&] { return testing::slurp("/proc/" + std::to_string(child) + "/limits"); };
+  constexpr const char* kNone = "Max data size             unlimited ";
+  for (int i = 0; i < 1000 && says().find(kNone) != std::string::npos; ++i) usleep(10'000);
+  EXPECT_NE(says().find("Max data size"), std::string::npos);
+  EXPECT_EQ(says().find(kNone), std::string::npos);
+  kill(child, SIGKILL);
+  testing::wait_for_program(folder.path(), child);
 }
 
 TEST(Program, CommandsThatCannotStopInBetweenDieOfTheSignal) {
