@@ -32,3 +32,11 @@ foreach(off IN LISTS switches)
     message(FATAL_ERROR "without ${off}: ${programs} are built")
   endif()
 endforeach()
+
+# What is off with it is named, for whoever had it on by default as well.
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/by_default -G Ninja -DCMAKE_CXX_COMPILER=${COMPILER}
+  -DSELVAGE_SIM=OFF -DSELVAGE_TESTS=OFF OUTPUT_VARIABLE output ERROR_VARIABLE output)
+string(REGEX MATCHALL "SELVAGE_[A-Z]+ is off" named "${output}")
+if(NOT named STREQUAL "SELVAGE_FUZZ is off;SELVAGE_CLI is off")
+  message(FATAL_ERROR "without the simulator it is said of '${named}' that it is off:\n${output}")
+endif()
