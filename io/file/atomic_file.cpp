@@ -64,6 +64,10 @@ AtomicFile::~AtomicFile() {
   if (!is_committed_) ::unlink(file_.path().c_str());
 }
 
+void AtomicFile::take_permissions(fs::perms permissions) const {
+  (void)::fchmod(file_.descriptor(), static_cast<mode_t>(permissions & fs::perms::all));
+}
+
 void AtomicFile::commit() {
   file_.sync();
   file_.close();
@@ -118,6 +122,7 @@ void write_atomically(const fs::path& file, std::string_view bytes) {
   const fs::file_status found = fs::status(file, status);
   if (fs::exists(found) && !fs::is_regular_file(found)) return write_in_place(file, bytes);
   AtomicFile temporary(behind_links(file));
+  if (fs::exists(found)) temporary.take_permissions(found.permissions());
   temporary.write(bytes);
   temporary.commit();
 }

@@ -26,6 +26,9 @@ class AtomicFile {
   void write(std::string_view bytes) { file_.write(bytes); }
   /// Replaces bytes that were written already.
   void overwrite(std::uint64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
+  /// Of the file that is to be replaced, before anything is written: what was made private is at no time readable by
+  /// others. A file system that has none is no error.
+  void take_permissions(std::filesystem::perms permissions) const;
   /// Replaces the target; on disk when it returns.
   void commit();
   /// As commit(), but in nothing's place: throws Error(kFile) where something has the target's name by then, which
@@ -49,9 +52,10 @@ void require_nameable(const std::filesystem::path& file);
 /// Throws Error(kFile) if `file` is there, or can have no such name.
 void require_absent(const std::filesystem::path& file);
 
-/// Replaces `file` by `bytes`; on disk when it returns. On failure throws Error(kFile) and leaves the old file intact.
-/// A kill leaves at most a file "NAME.tmp-..." beside it. A link is followed, to what is not there yet as well. What is
-/// no regular file (a pipe, a device) cannot be replaced and is written in place.
+/// Replaces `file` by `bytes`, with the permissions of the file that was there; on disk when it returns. On failure
+/// throws Error(kFile) and leaves the old file intact. A kill leaves at most a file "NAME.tmp-..." beside it. A link is
+/// followed, to what is not there yet as well. What is no regular file (a pipe, a device) cannot be replaced and is
+/// written in place.
 void write_atomically(const std::filesystem::path& file, std::string_view bytes);
 
 /// Whether `name` is what a killed write_atomically("NAME") leaves behind.

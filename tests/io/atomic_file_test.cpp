@@ -101,6 +101,15 @@ TEST(AtomicFile, UnwritableFolderLeavesTheOldFile) {
   EXPECT_EQ(slurp(folder / "a"), "old");
 }
 
+TEST(AtomicFile, WhatIsReplacedKeepsItsPermissions) {
+  const TemporaryFolder folder;
+  spit(folder / "a", "old");
+  fs::permissions(folder / "a", fs::perms::owner_read | fs::perms::owner_write);
+  write_atomically(folder / "a", "new");
+  EXPECT_EQ(slurp(folder / "a"), "new");
+  EXPECT_EQ(fs::status(folder / "a").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
 TEST(AtomicFile, FullDeviceIsAnErrorAndTheDeviceStays) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   expect_error(ErrorKind::kFile, "No space left", [] { write_atomically("/dev/full", "x"); });
