@@ -121,7 +121,8 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
     const auto row = static_cast<Eigen::Index>(v);
     const double moved_m = (step.motion.x().row(row) - scene.V_t0.row(row)).norm();
     EXPECT_LE(moved_m, 1.001 * kBallShare * distance[v]) << v;
-    if (v >= 3) EXPECT_GE(moved_m, 0.999 * kBallShare * distance[v]) << "it would go farther";
+    if (v < 3) continue;
+    EXPECT_GE(moved_m, 0.999 * kBallShare * distance[v]) << "it would go farther";
   }
 }
 
