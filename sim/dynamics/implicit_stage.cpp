@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/assert.h"
+#include "sim/base/keep_largest.h"
 #include "sim/base/parallel.h"
 #include "sim/dynamics/stage_contacts.h"
 
@@ -203,9 +204,7 @@ double ImplicitStage::line_search(const StageEquations& equations, const Positio
 double ImplicitStage::residual_m(const StageEquations& equations) const {
   double largest_m = 0;
   for (Eigen::Index i = 0; i < gradient_.rows(); ++i) {
-    const double residual = equations.inverse_mass[static_cast<std::size_t>(i)] * gradient_.row(i).norm();
-    // Written so that NaN stays.
-    if (!(residual <= largest_m)) largest_m = residual;
+    keep_largest(equations.inverse_mass[static_cast<std::size_t>(i)] * gradient_.row(i).norm(), largest_m);
   }
   return largest_m;
 }

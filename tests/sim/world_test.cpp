@@ -1,5 +1,6 @@
 #include "sim/world.h"
 
+#include <array>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -26,6 +27,37 @@ TEST(World, PartsAreInOrderAndPinsAreColliders) {
   EXPECT_NEAR(1 / world.inverse_mass[0], 0.3 * 0.49 / 196, 1e-15);
   EXPECT_EQ(world.inverse_mass.back(), 0);
   EXPECT_EQ(world.body_count, 2);
+}
+
+TEST(World, SpringsAndStabilisersOfEveryClothAreBetweenItsOwnVertices) {
+  const std::string head = "[time]\nframes = 1\n";
+  const auto sheet = [](int side, double z) {
+    return "[[cloth]]\nname = \"of " + std::to_string(side) + "\"\nsheet = {nx = " + std::to_string(side) +
+           ", ny = 3, width_m = 0.3, height_m = 0.2}\nposition_m = [0, 0, " + std::to_string(z) +
+           "]\ndensity_kg_m2 = 0.3\nstretch_n_m = 40\nbend_n_m = 0.5\nstabilize_n_m = 0.2\n";
+  };
+  const auto build = [&](const std::string& cloths) { return build_world(parse_scene(head + cloths, "cloths.toml")); };
+  const World both = build(sheet(4, 0) + sheet(5, 1));
+  std::size_t spring = 0, stabilizer = 0;
+  VertexId begin = 0;
+  for (const World& alone : {build(sheet(4, 0)), build(sheet(5, 1))}) {
+    for (const Spring& own : alone.springs.springs()) {
+      const Spring& found = both.springs.springs().at(spring++);
+      EXPECT_EQ((std::array{found.a, found.b}), (std::array{begin + own.a, begin + own.b}));
+    }
+    for (const Stabilizer& own : alone.stabilizers.stabilizers()) {
+      const Stabilizer& found = both.stabilizers.stabilizers().at(stabilizer++);
+      EXPECT_EQ(found.weights, own.weights);
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (own.weights[k] == 0) continue;
+        EXPECT_EQ(found.vertices[k], begin + own.vertices[k]);
+      }
+    }
+    begin += alone.cloth_vertex_count;
+  }
+  EXPECT_EQ(both.springs.springs().size(), spring);
+  EXPECT_EQ(both.stabilizers.stabilizers().size(), stabilizer);
+  EXPECT_GT(stabilizer, 10U);
 }
 
 TEST(World, DescriptionNamesOnlyWhatIsModelled) {

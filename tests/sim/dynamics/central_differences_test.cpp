@@ -78,6 +78,49 @@ TEST(CentralDifferences, DampedOscillatorDecaysAsItShould) {
   EXPECT_NEAR(-hanging.motion.x(1, 2) - hanging.rest(), expected, 2e-6);
 }
 
+// v(n+1/2) = v + h/2 a(x, v), x + h v(n+1/2), and v(n+1) = v(n+1/2) + h/2 a(x(n+1), v(n+1)), along the line.
+TEST(CentralDifferences, AStepIsThatOfThePaper) {
+  const double damping = 0.4, h = 4e-3, speed = 0.7, length = 1.05;
+  Hanging hanging(length, damping);
+  hanging.motion.v(1, 2) = -speed;
+  hanging.run(hanging.options(h), h);
+  const double m = hanging.m, k = hanging.k;
+  const auto pull = [&](double at) { return 9.81 - k / m * (at - 1); };
+  const double mid = speed + h / 2 * (pull(length) - damping / m * speed), end = length + h * mid;
+  const double expected = (mid + h / 2 * pull(end)) / (1 + h / 2 * damping / m);
+  EXPECT_NEAR(-hanging.motion.x(1, 2), end, 1e-14);
+  EXPECT_NEAR(-hanging.motion.v(1, 2), expected, 1e-4 * (mid - expected)) << "as far as it is solved for";
+}
+
+// Two masses that part at 2 m/s: without a limit their spring would be 1.2 and 1.4 times as long after one and two
+// steps.
+TEST(CentralDifferences, LimitsHoldInEveryStep) {
+  const SpringSystem springs({Spring{0, 1, SpringKind::kStructural, 0.1, 0.1, 0}}, 2);
+  const std::vector<double> inverse_mass{1, 1};
+  Motion start{Positions::Zero(2, 3), Positions::Zero(2, 3)};
+  start.x(1, 0) = 0.1;
+  start.v(0, 0) = -1;
+  start.v(1, 0) = 1;
+  const auto length_after = [&](const StrainLimits& limits, int steps) {
+    CentralDifferencesOptions options;
+    options.strain = limits;
+    options.step_s = 0.01;
+    Motion motion = start;
+    CentralDifferences(springs, options).advance(motion, start.x, inverse_mass, 0.01 * steps);
+    return motion.x(1, 0) - motion.x(0, 0);
+  };
+  EXPECT_NEAR(length_after({.strain = 0, .strain_rate = 0}, 2), 0.14, 1e-3);
+  EXPECT_NEAR(length_after({.strain = 0.1, .strain_rate = 0}, 2), 0.11, 1e-4);
+  EXPECT_NEAR(length_after({.strain = 0, .strain_rate = 0.1}, 1), 0.11, 1e-5);
+
+  CentralDifferencesOptions options;
+  options.strain = {.strain = 0, .strain_rate = 0.1};
+  options.step_s = 0.01;
+  Motion end = start;
+  CentralDifferences(springs, options).final_velocity(end, inverse_mass, 0.01);
+  EXPECT_NEAR(end.v(1, 0) - end.v(0, 0), 0.1 * 0.1 / 0.01, 1e-3) << "nor may it leave with more";
+}
+
 TEST(CentralDifferences, HangsAtRestWhereForcesBalance) {
   Hanging hanging(0);
   hanging.motion.x(1, 2) = -hanging.rest();
@@ -204,6 +247,7 @@ TEST(CentralDifferences, StepsThatHoldContactsAreShorterWhereSpringsAreStretched
   EXPECT_FALSE(is_more_than_one(9, 0.0034, 0.01));
   EXPECT_TRUE(is_more_than_one(9, 0.0036, 0.01));
   EXPECT_FALSE(is_more_than_one(9, 0.0089, 0.1)) << "they are short";
+  EXPECT_TRUE(is_more_than_one(9, 0.0091, 0.1)) << "and no longer";
 }
 
 TEST(CentralDifferences, FinalVelocityIsTheHalfKickForShortSteps) {
@@ -213,6 +257,26 @@ TEST(CentralDifferences, FinalVelocityIsTheHalfKickForShortSteps) {
   const double dt_s = 1e-5, acceleration = -9.81 + hanging.k / hanging.m * 0.01;
   CentralDifferences(hanging.springs, hanging.options(1e-3)).final_velocity(hanging.motion, hanging.inverse_mass, dt_s);
   EXPECT_NEAR(hanging.motion.v(1, 2), 0.3 + dt_s / 2 * acceleration, 1e-8);
+}
+
+// Of what falls, whose half kick does not depend on where it is; the second is held, and goes down by a script.
+TEST(CentralDifferences, FinalVelocityAfterSeveralStepsIsTheirsAndWhatContactChanged) {
+  const SpringSystem none({}, 2);
+  const std::vector<double> inverse_mass{2, 0};
+  CentralDifferencesOptions options;
+  options.fields.gravity_m_s2 = {0, 0, -9.81};
+  options.step_s = 0.11;
+  const double dt_s = 0.3;
+  CentralDifferences dynamics(none, options);
+  Motion motion{Positions::Zero(2, 3), Positions::Zero(2, 3)};
+  const Positions script = Positions::Constant(2, 3, -0.07);
+  dynamics.advance(motion, script, inverse_mass, dt_s);
+  const Eigen::RowVector3d change(0.1, 0.2, 0.5);
+  Motion end{motion.x, motion.x / dt_s};
+  end.v.rowwise() += change;
+  dynamics.final_velocity(end, inverse_mass, dt_s);
+  EXPECT_LE((end.v.row(0) - change - Eigen::RowVector3d(0, 0, -9.81 * dt_s)).norm(), 1e-12);
+  EXPECT_EQ(end.v.row(1), Eigen::RowVector3d(motion.x.row(1) / dt_s) + change) << "scripted: to the bit";
 }
 
 TEST(CentralDifferences, FinalVelocityStaysBoundedForLongSteps) {

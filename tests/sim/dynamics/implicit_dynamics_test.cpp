@@ -1,5 +1,6 @@
 #include "sim/dynamics/implicit_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -45,7 +46,12 @@ double total_energy(const testing::RandomCloth& cloth, const SpringSystem& sprin
 
 TEST(ImplicitStage, SolutionIsWhereTheForcesOfTheSpringsPutIt) {
   const auto cloth = random_cloth(3);
-  const std::vector<Stabilizer> flat = testing::sheet_stabilizers(9, 3, 0.02);
+  std::vector<Stabilizer> flat = testing::sheet_stabilizers(9, 3, 0.02);
+  for (std::size_t n = 0; n < flat.size(); ++n) {
+    flat[n].stiffness_n_m *= 1 + 0.5 * double(n % 3);
+    flat[n].damping_n_s_m *= 1 + 0.5 * double(n % 4);
+    flat[n].straight_m = 0.02;
+  }
   const StabilizerSystem stabilizers(flat, 81);
   const FieldForces fields{{0.3, 0, -9.81}, 0.7, 1.1};
   std::vector<double> w = cloth.inverse_mass;
@@ -98,6 +104,27 @@ TEST(ImplicitStage, SaysThatItDidNotConverge) {
   EXPECT_EQ(totals.largest_strain_at_s, 2);
   EXPECT_EQ(totals.largest_strain_from, 3);
   EXPECT_EQ(totals.largest_strain_to, 5);
+}
+
+// The forces on the middle one are no number; the last one, which is held, must not hide it.
+TEST(ImplicitStage, WhatIsNoNumberIsNoSolution) {
+  const SpringSystem springs(
+      {Spring{0, 1, SpringKind::kStructural, 1, 1e300, 0}, Spring{1, 2, SpringKind::kStructural, 1, 1e300, 0}}, 3);
+  const std::vector<double> inverse_mass = {0, 1, 0};
+  Positions x(3, 3), v = Positions::Zero(3, 3), acceleration;
+  x << -1e10, 0, 0, 0, 0, 0, 1e10, 0, 0;
+  const Positions origin = x;
+  EXPECT_FALSE(ImplicitStage(springs, nullptr, {}).solve({origin, v, inverse_mass, 1}, x, acceleration).converged);
+}
+
+TEST(ImplicitStage, ASpringOfLengthZeroPullsAtNeitherEnd) {
+  const SpringSystem springs({Spring{0, 1, SpringKind::kStructural, 1, 20, 0.5}}, 2);
+  const std::vector<double> inverse_mass = {2, 2};  // alike, or what rounding parts the spring would push away
+  const Positions at = Positions::Constant(2, 3, 0.5), v = Positions::Zero(2, 3);
+  Positions x = at, acceleration;
+  ASSERT_TRUE(
+      ImplicitStage(springs, nullptr, {{0, 0, -9.81}}).solve({at, v, inverse_mass, kFrame}, x, acceleration).converged);
+  EXPECT_LE((x.col(2).array() - 0.5 + 9.81 * kFrame * kFrame).abs().maxCoeff(), 1e-9);
 }
 
 // What the stiffest springs round away must hide neither that cloth falls, nor that nothing was solved.
@@ -200,6 +227,29 @@ TEST(ImplicitDynamics, HeldVerticesFollowTheirScripts) {
   EXPECT_LE((motion.v.topRows(9).rowwise() - Eigen::RowVector3d(0.18, -0.42, 0.6)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(ImplicitDynamics, FinalVelocityIsThatOfTheLastStepAndWhatContactChanged) {
+  const auto cloth = random_cloth(4);
+  std::vector<double> w = cloth.inverse_mass;
+  w[5] = 0;
+  ImplicitDynamicsOptions o = options(kFrame / 3);
+  o.fields.gravity_m_s2 = {0, 0, -9.81};
+  ImplicitDynamics dynamics(cloth.springs, o);
+  Motion motion{cloth.x, cloth.v};
+  dynamics.advance(motion, cloth.x, w, kFrame);
+  const Positions mean_v = (motion.x - cloth.x) / kFrame, change = 0.1 * cloth.v;
+  EXPECT_GT((motion.v - mean_v).norm(), 0.1);
+  Motion end{motion.x, mean_v + change};
+  dynamics.final_velocity(end, w, kFrame);
+  for (Eigen::Index i = 0; i < cloth.x.rows(); ++i) {
+    if (i == 5) {
+      EXPECT_EQ(end.v.row(i), mean_v.row(i) + change.row(i)) << "scripted: to the bit";
+    } else {
+      EXPECT_LE((end.v.row(i) - motion.v.row(i) - change.row(i)).norm(), 1e-13) << i;
+    }
+  }
+  EXPECT_EQ(end.x, motion.x);
+}
+
 TEST(ImplicitDynamics, SameBitsForAnyThreadCount) {
   const auto cloth = random_cloth(1, 40, 0.2);  // more than one grain of vertices
   Motion reference;
@@ -213,6 +263,42 @@ TEST(ImplicitDynamics, SameBitsForAnyThreadCount) {
   }
 }
 
+TEST(ImplicitDynamics, APinThatMovesOnDoesAsOneAtRest) {
+  const auto cloth = random_cloth(6);
+  std::vector<double> w = cloth.inverse_mass;
+  w[0] = w[40] = 0;
+  const Eigen::RowVector3d drift_m(0.3, -0.2, 0.1);
+  Motion at_rest{cloth.x, cloth.v}, drifts{cloth.x, cloth.v.rowwise() + drift_m / kFrame};
+  ImplicitDynamics(cloth.springs, options(kFrame / 2)).advance(at_rest, cloth.x, w, kFrame);
+  ImplicitDynamics(cloth.springs, options(kFrame / 2)).advance(drifts, cloth.x.rowwise() + drift_m, w, kFrame);
+  EXPECT_LE(((drifts.x.rowwise() - drift_m) - at_rest.x).norm(), 1e-8);
+  EXPECT_LE(((drifts.v.rowwise() - drift_m / kFrame) - at_rest.v).norm(), 1e-6);
+}
+
+TEST(ImplicitDynamics, ReportsAllThatItSolvedFor) {
+  const auto cloth = random_cloth(3);
+  const double step_s = 1.0 / 128;
+  ImplicitDynamics dynamics(cloth.springs, options(step_s));
+  Motion one_by_one{cloth.x, cloth.v}, at_once = one_by_one;
+  const DynamicsReport first = dynamics.advance(one_by_one, cloth.x, cloth.inverse_mass, step_s);
+  const DynamicsReport second = dynamics.advance(one_by_one, cloth.x, cloth.inverse_mass, step_s);
+  const DynamicsReport both = dynamics.advance(at_once, cloth.x, cloth.inverse_mass, 2 * step_s);
+  EXPECT_EQ(at_once.x, one_by_one.x);
+  EXPECT_EQ(both.solves, 4) << "two stages each";
+  EXPECT_EQ(both.newton_rounds, first.newton_rounds + second.newton_rounds);
+  EXPECT_EQ(both.cg_iterations, first.cg_iterations + second.cg_iterations);
+  EXPECT_EQ(both.residual_m, std::max(first.residual_m, second.residual_m));
+  EXPECT_GE(first.newton_rounds, 4);
+  EXPECT_GE(first.cg_iterations, first.newton_rounds);
+
+  const SpringSystem too_stiff({Spring{0, 1, SpringKind::kStructural, 1, 1e300, 0}}, 2);
+  Motion lost{Positions::Zero(2, 3), Positions::Zero(2, 3)};
+  lost.x(1, 0) = 3;
+  const DynamicsReport none =
+      ImplicitDynamics(too_stiff, options(1)).advance(lost, lost.x, std::vector<double>{1e10, 1e10}, 2);
+  EXPECT_EQ(none.unconverged, none.solves);
+}
+
 TEST(ImplicitDynamics, StrainLimitHolds) {
   // Two masses that part at 1 m/s against a weak spring: without the limit it would be a third longer after the step.
   const SpringSystem springs({Spring{0, 1, SpringKind::kStructural, 0.1, 0.1, 0}}, 2);
@@ -222,8 +308,11 @@ TEST(ImplicitDynamics, StrainLimitHolds) {
   motion.x(1, 0) = 0.1;
   motion.v(0, 0) = -1;
   motion.v(1, 0) = 1;
+  Motion free = motion;
   ImplicitDynamics(springs, o).advance(motion, motion.x, std::vector<double>{1, 1}, kFrame);
   EXPECT_NEAR(motion.x(1, 0) - motion.x(0, 0), 0.11, 1e-4 * 0.03);  // of what would be too much
+  ImplicitDynamics(springs, options(kFrame)).advance(free, free.x, std::vector<double>{1, 1}, kFrame);
+  EXPECT_LE(((motion.v - free.v) - (motion.x - free.x) / kFrame).norm(), 1e-12) << "as the mean velocity";
 }
 
 // Once a spring was limited anywhere, all cloth went on with its mean velocity: it fell with half of gravity.

@@ -9,6 +9,13 @@ namespace {
 
 constexpr double kStageThickness = 0.25, kStageStep = 0.125;
 
+/// How bodies move in the collision step, and the part of it that the stage is.
+struct StageMotion {
+  Vec3 bodies = Vec3::Zero();  ///< m, in all of the collision step
+  StageSpan span{0, 1, kStageStep};
+  Vec3 cloth_before = Vec3::Zero();  ///< m, before the span
+};
+
 /// One contact of four vertices, of which the first `cloth_count` are cloth, and what a stage adds for it.
 struct OneStageContact {
   Mesh mesh = make_mesh(4, Faces{{1, 2, 3}});
@@ -16,7 +23,7 @@ struct OneStageContact {
   VertexFaces faces{mesh};
   ContactTable properties{mesh, {}, {}};
   std::vector<double> inverse_mass, resistance_kg;
-  Positions x, x_t1;
+  Positions x, x_t1, cloth_x;
   HeldContacts held;
   StageContacts stage;
 
@@ -25,14 +32,17 @@ struct OneStageContact {
       : OneStageContact(pair, cloth_count, friction, ContactLoads{{{0, 0, load_m_s2}}, {}}, is_beyond) {}
   OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, const ContactLoads& loads,
                   bool is_beyond = false)
+      : OneStageContact(pair, cloth_count, contact(pair, friction, is_beyond), loads, {}) {}
+  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, const RepulsionContact& contact,
+                  const ContactLoads& loads, const StageMotion& motion)
       : inverse_mass(pair.inverse_mass.begin(), pair.inverse_mass.end()),
         resistance_kg(resistances(pair)),
         x(rows(pair.x_t0)),
-        x_t1(x),
-        held({contact(pair, friction, is_beyond)}, loads,
-             HeldSurface{mesh, parts, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()}, x, x_t1,
-             kStageStep, 1),
-        stage(held, x.topRows(cloth_count), inverse_mass, resistance_kg, {0, 1, kStageStep}) {}
+        x_t1(x.rowwise() + motion.bodies.transpose()),
+        cloth_x(x.topRows(cloth_count).rowwise() + motion.cloth_before.transpose()),
+        held({contact}, loads, HeldSurface{mesh, parts, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()},
+             x, x_t1, kStageStep, 1),
+        stage(held, cloth_x, inverse_mass, resistance_kg, motion.span) {}
 
   static std::vector<double> resistances(const RandomPair& pair) {
     std::vector<double> result;
@@ -132,6 +142,27 @@ TEST(StageContacts, PropForcesAndMatrixAreThoseOfOneConvexPotential) {
   });
 }
 
+/// It is the sum of what the halves of a way change, wherever this leads: off each other, and out of the cone.
+TEST(StageContacts, PropThePotentialDependsOnThePlaceAlone) {
+  selvage::testing::check_property(300, 16, [] {
+    OneStageContact one(pressed_pair(), 4, number_between(0, 1), number_between(0, 100));
+    const Positions u = random_displacements(4, 0.2), step = random_displacements(4, 0.4);
+    std::vector<double> whole, first, second;
+    for (int round = 0; round < 2; ++round) {
+      (void)one.forces(u);
+      one.stage.changes(step, 1, whole);
+      one.stage.changes(step, 0.5, first);
+      (void)one.forces(u + 0.5 * step);
+      one.stage.changes(step, 0.5, second);
+      const double magnitude = std::abs(whole[0]) + std::abs(first[0]) + std::abs(second[0]);
+      RC_CLASSIFY(magnitude > 0);
+      RC_ASSERT(std::abs(first[0] + second[0] - whole[0]) <= 1e-12 * magnitude);
+      (void)one.forces(u);
+      (void)one.stage.update();
+    }
+  });
+}
+
 TEST(StageContacts, PropForcesKeepBothMomenta) {
   selvage::testing::check_property(500, 12, [] {
     const RandomPair pair = pressed_pair();
@@ -171,6 +202,137 @@ TEST(StageContacts, MultipliersFindWhatHoldsAVertex) {
     EXPECT_NEAR(one.held.loads().vf.front().acceleration_m_s2, 0.35 / (kStageStep * kStageStep), 1e-6);
     EXPECT_EQ(one.held.count().repulsions, 1);
     EXPECT_EQ(one.held.count().frictions, friction > 0 ? 1 : 0);
+  }
+}
+
+/// What is nearer than the thickness at the start stays as near at least, and what is farther comes as near as that.
+TEST(StageContacts, PropOneThatBoreNothingActsOnlyBelowTheThicknessOrWhereItWas) {
+  selvage::testing::check_property(300, 14, [] {
+    const RandomPair pair = pressed_pair();
+    OneStageContact one(pair, 4, number_between(0, 1), 0);
+    const RepulsionContact& contact = one.held.contacts().front();
+    const double room_m = std::max(0.0, contact.distance - kStageThickness);
+    const auto approach = [&](double by_m) {
+      const PairVectors moved = distribute(pair.interaction, -by_m * contact.normal);
+      return OneStageContact::rows(moved);
+    };
+    RC_CLASSIFY(room_m > 0);
+    RC_ASSERT(one.forces(Positions::Zero(4, 3)).isZero(0));
+    RC_ASSERT(one.forces(approach(-0.1)).isZero(0));
+    RC_ASSERT(one.forces(approach(room_m - 1e-9)).isZero(0));
+    const Positions pressed = one.forces(approach(room_m + 1e-9));
+    RC_ASSERT(!pressed.isZero(0));
+    // It never pulls, nor remembers how far apart they were.
+    (void)one.forces(approach(-0.1));
+    (void)one.stage.update();
+    RC_ASSERT(one.forces(approach(room_m + 1e-9)) == pressed);
+    one.stage.finish();
+    RC_ASSERT(one.held.count().repulsions == 0 && one.held.loads().empty());
+  });
+}
+
+/// A contact that bears, and one that does not beside it: what is known of both.
+TEST(StageContacts, WhatTheyBearIsThatOfAllOfThem) {
+  Positions x(6, 3);
+  x << 0, 0, kStageThickness, 5, 0, 0.3, -1, -1, 0, 1, -1, 0, 0, 1, 0, 9, 9, 9;
+  const Mesh mesh = make_mesh(6, Faces{{2, 3, 4}});
+  const SurfaceParts parts(mesh);
+  const VertexFaces faces(mesh);
+  const ContactTable properties(mesh, {}, {});
+  const std::vector<double> inverse_mass{4, 2, 0, 0, 0, 0}, resistance_kg{1, 1};
+  std::vector<RepulsionContact> contacts(2);
+  for (const VertexId vertex : {0, 1}) {
+    RepulsionContact& contact = contacts[static_cast<std::size_t>(vertex)];
+    contact.first = vertex;
+    contact.interaction = make_interaction(PairKind::kVf, {vertex, 2, 3, 4}, {1, 0.25, 0.25, 0.5}, inverse_mass);
+    contact.normal = Vec3::UnitZ();
+    contact.distance = x(vertex, 2);
+    contact.properties.thickness_m = kStageThickness;
+    contact.properties.friction_static = contact.properties.friction_kinetic = 0.5;
+  }
+  const double load_m_s2 = 8, load_m = load_m_s2 * kStageStep * kStageStep;
+  HeldContacts held(contacts, {{{0, 0, load_m_s2}}, {}},
+                    HeldSurface{mesh, parts, faces, properties, inverse_mass, 2, -Vec3::UnitZ()}, x, x, kStageStep, 1);
+  StageContacts stage(held, x.topRows(2), inverse_mass, resistance_kg, {0, 1, kStageStep});
+  Positions u = Positions::Zero(2, 3);
+  stage.look(u);
+  const ForceChange at_rest = stage.update();
+  EXPECT_EQ(at_rest.change_m, 0);
+  EXPECT_NEAR(at_rest.largest_m, load_m, 1e-15);
+  u(0, 0) = 1e-3;
+  stage.look(u);
+  const ForceChange rubs = stage.update();
+  EXPECT_NEAR(rubs.change_m, 4 * 1e-3, 1e-15) << "1 kg resists, of a mass of a quarter of that";
+  EXPECT_NEAR(rubs.largest_m, load_m, 1e-15);
+  EXPECT_TRUE(stage.forget());
+  EXPECT_FALSE(stage.forget());
+}
+
+TEST(StageContacts, AChangeIsTakenAsAShareOfTheLargestOfAll) {
+  EXPECT_EQ((ForceChange{0.5, 2}.share(0.1)), 0.25);
+  EXPECT_EQ((ForceChange{2, 0.5}.share(0.1)), 1);
+  EXPECT_EQ((ForceChange{0.1, 0}.share(0.1)), 0) << "not known that well";
+}
+
+/// How far bodies have come before the span, and how far they go in it, counts as if the cloth had gone the other way:
+/// in the gap, and in the slip what is within the span.
+TEST(StageContacts, PropOnlyMotionRelativeToBodiesCounts) {
+  selvage::testing::check_property(300, 15, [] {
+    const RandomPair pair = vertex_above_a_face();
+    RepulsionContact contact = OneStageContact::contact(pair, 0.3);
+    const ContactLoads loads{{{0, 0, number_between(0, 20), {number_between(-2, 2), number_between(-2, 2), 0}}}, {}};
+    const double begin = number_between(0, 0.5), end = number_between(0.5, 1);
+    const StageSpan span{begin, end, (end - begin) * kStageStep};
+    const Vec3 way = vector_within(0.3), cloth_before = vector_within(0.1);
+    OneStageContact moves(pair, 1, contact, loads, {way, span, cloth_before});
+    OneStageContact rests(pair, 1, contact, loads, {Vec3::Zero(), span, cloth_before - begin * way});
+    const Vec3 u = vector_within(0.2), u_beside = u - (end - begin) * way;
+    for (int round = 0; round < 2; ++round) {
+      const Positions forces = moves.forces(u.transpose()), beside = rests.forces(u_beside.transpose());
+      RC_CLASSIFY(!forces.isZero(0));
+      RC_ASSERT((forces - beside).norm() <= 1e-12 * (1 + beside.norm()));
+      (void)moves.stage.update();
+      (void)rests.stage.update();
+    }
+  });
+}
+
+/// Pushed as in MultipliersFindWhatHoldsAVertex, by 0.35 m too far and to the side.
+TEST(StageContacts, StickAsFarAsTheStaticConeAndSlideUnderTheKineticOne) {
+  const RandomPair pair = vertex_above_a_face();
+  const double mass = 0.5, friction_static = 0.5, friction_kinetic = 0.2;
+  RepulsionContact contact = OneStageContact::contact(pair, friction_static);
+  contact.properties.friction_kinetic = friction_kinetic;
+  for (const double aside_m : {0.17, 0.18}) {  // the border of the cone is at 0.175
+    SCOPED_TRACE(aside_m);
+    OneStageContact one(pair, 1, contact, {}, {});
+    const auto find = [&] {
+      Vec3 u = Vec3::Zero();
+      double left = 1;
+      for (int round = 0; round < 60 && left > 1e-12; ++round) {
+        for (int i = 0; i < 200; ++i) {
+          const Vec3 force = one.forces(u.transpose()).row(0);
+          u += (force - mass * (u - Vec3(aside_m, 0, -0.4))) / (4 * mass);
+        }
+        left = one.stage.update().share(0);
+      }
+      return u;
+    };
+    const bool slides = aside_m > friction_static * 0.35;
+    EXPECT_NEAR(find().x(), slides ? aside_m - friction_static * 0.35 : 0, 1e-9);
+    OneStageContact known_no_better(pair, 1, contact, {}, {});
+    (void)known_no_better.forces(Eigen::RowVector3d(aside_m, 0, -0.4));
+    (void)known_no_better.stage.update();
+    EXPECT_FALSE(known_no_better.stage.let_slide(1)) << "it does, by less than is known";
+    EXPECT_EQ(one.stage.let_slide(1e-10), slides);
+    EXPECT_FALSE(one.stage.let_slide(1e-10)) << "it does already";
+    EXPECT_NEAR(find().x(), slides ? aside_m - friction_kinetic * 0.35 : 0, 1e-9);
+    one.stage.finish();
+    const ContactLoad load = one.held.loads().vf.front();
+    const double borne_m_s2 = Vec3(load.friction_m_s2.data()).norm();
+    EXPECT_NEAR(borne_m_s2 * kStageStep * kStageStep, slides ? friction_kinetic * 0.35 : aside_m, 1e-9);
+    (void)one.stage.forget();
+    EXPECT_NEAR(find().x(), slides ? aside_m - friction_static * 0.35 : 0, 1e-9) << "it begins again";
   }
 }
 
@@ -224,6 +386,110 @@ TEST(StageContacts, WhatWasNotSolvedGoesNoFartherThanItDid) {
   EXPECT_TRUE(motion.v.allFinite());
   EXPECT_EQ(motion.v, Positions((motion.x - one.x) / kStageStep));
   EXPECT_TRUE(one.held.loads().empty());
+}
+
+/// In steps of backward Euler it is after the first one where the body lets it be, and in the last one it has the
+/// body's velocity and is borne.
+TEST(StageContacts, WhatLiesOnABodyGoesWithIt) {
+  const RandomPair pair = vertex_above_a_face();
+  const double gravity_m_s2 = 10;
+  for (const int steps : {1, 2, 5}) {
+    SCOPED_TRACE(steps);
+    const Vec3 way(0.01, -0.005, 0.1);
+    OneStageContact one(pair, 1, OneStageContact::contact(pair, 1), {}, {way});
+    ImplicitDynamicsOptions options;
+    options.fields.gravity_m_s2 = {0, 0, -gravity_m_s2};
+    options.step_s = 1.001 * kStageStep / steps;
+    const SpringSystem none({}, 1);
+    Motion motion{one.x.topRows(1), Positions::Zero(1, 3)};
+    motion.v(0, 2) = -1;
+    const DynamicsReport report =
+        ImplicitDynamics(none, options).advance(motion, one.x.topRows(1), one.inverse_mass, kStageStep, &one.held);
+    EXPECT_EQ(report.unconverged, 0);
+    EXPECT_EQ(report.solves, steps);
+    const double known_m = 1e-4;  // what contacts bear is found to a ten-thousandth
+    EXPECT_NEAR(motion.x(0, 2), kStageThickness + way.z(), known_m);
+    if (steps == 1) {
+      EXPECT_NEAR(motion.v(0, 2), (motion.x(0, 2) - 0.3) / kStageStep, 1e-7);
+    } else {
+      EXPECT_LT((motion.v.row(0).transpose() - way / kStageStep).norm(), steps * known_m / kStageStep);
+      ASSERT_EQ(one.held.loads().vf.size(), 1U);
+      const double load_m_s2 = one.held.loads().vf.front().acceleration_m_s2;
+      if (steps == 5) EXPECT_NEAR(load_m_s2, gravity_m_s2, 0.01 * gravity_m_s2);
+    }
+  }
+}
+
+/// Two vertices on a spring swing beside the one that lies on the face, at their own accuracy.
+TEST(StageContacts, ClothThatMeetsNothingTakesTwoStagesBesideOthersThatDo) {
+  Positions x(6, 3);
+  x << 0, 0, 0.3, 5, 0, 0, 6.1, 0, 0, -1, -1, 0, 1, -1, 0, 0, 1, 0;
+  const Mesh mesh = make_mesh(6, Faces{{3, 4, 5}});
+  const SurfaceParts parts(mesh);
+  const VertexFaces faces(mesh);
+  const ContactTable properties(mesh, {}, {});
+  const std::vector<double> inverse_mass{2, 2, 3, 0, 0, 0};
+  RepulsionContact contact;
+  contact.interaction = make_interaction(PairKind::kVf, {0, 3, 4, 5}, {1, 0.25, 0.25, 0.5}, inverse_mass);
+  contact.normal = Vec3::UnitZ();
+  contact.distance = 0.3;
+  contact.properties.thickness_m = kStageThickness;
+  HeldContacts held({contact}, {}, HeldSurface{mesh, parts, faces, properties, inverse_mass, 3, -Vec3::UnitZ()}, x, x,
+                    kStageStep, 1);
+  const SpringSystem springs({Spring{1, 2, SpringKind::kStructural, 1, 20, 0}}, 3);
+  ImplicitDynamicsOptions options;
+  options.strain = {.strain = 0, .strain_rate = 0};
+  options.step_s = kStageStep / 3;
+  Motion alone{x.topRows(3), Positions::Zero(3, 3)};
+  alone.v(0, 2) = -1;
+  alone.v(2, 1) = 0.3;
+  Motion beside = alone;
+  const PositionsRef script = x.topRows(3);
+  ImplicitDynamics(springs, options).advance(alone, script, inverse_mass, kStageStep);
+  ImplicitDynamics(springs, options).advance(beside, script, inverse_mass, kStageStep, &held);
+  EXPECT_NEAR(beside.x(0, 2), kStageThickness, 1e-4);
+  EXPECT_NEAR(alone.x(0, 2), 0.3 - kStageStep, 1e-7);
+  EXPECT_LT((beside.x - alone.x).bottomRows(2).norm(), 1e-8);
+  EXPECT_LT((beside.v - alone.v).bottomRows(2).norm(), 1e-7);
+}
+
+/// A pin, a vertex on a spring at it, and a body below: in a frame that moves with all of them they do the same.
+TEST(StageContacts, PinsGoOnWhileOthersAreInContact) {
+  const auto moved = [](const Vec3& drift_m, double limit) {
+    Positions x(5, 3);
+    x << 0, 0, 0.3, 1, 0, 0.3, -1, -1, 0, 1, -1, 0, 0, 1, 0;
+    const Positions x_t1 = x.rowwise() + drift_m.transpose();
+    const Mesh mesh = make_mesh(5, Faces{{2, 3, 4}});
+    const SurfaceParts parts(mesh);
+    const VertexFaces faces(mesh);
+    const ContactTable properties(mesh, {}, {});
+    const std::vector<double> inverse_mass{2, 0, 0, 0, 0};
+    RepulsionContact contact;
+    contact.interaction = make_interaction(PairKind::kVf, {0, 2, 3, 4}, {1, 0.25, 0.25, 0.5}, inverse_mass);
+    contact.normal = Vec3::UnitZ();
+    contact.distance = 0.3;
+    contact.properties.thickness_m = kStageThickness;
+    HeldContacts held({contact}, {}, HeldSurface{mesh, parts, faces, properties, inverse_mass, 2, -Vec3::UnitZ()}, x,
+                      x_t1, kStageStep, 1);
+    const SpringSystem springs({Spring{0, 1, SpringKind::kStructural, 1, 3, 0.1}}, 2);
+    ImplicitDynamicsOptions options;
+    options.strain = {.strain = limit, .strain_rate = 0};
+    options.step_s = kStageStep / 2;
+    Motion motion{x.topRows(2), Positions::Zero(2, 3)};
+    motion.v.row(0) << -1, 0, -1;
+    motion.v.rowwise() += drift_m.transpose() / kStageStep;
+    ImplicitDynamics(springs, options).advance(motion, x_t1.topRows(2), inverse_mass, kStageStep, &held);
+    motion.x.rowwise() -= drift_m.transpose();
+    motion.v.rowwise() -= drift_m.transpose() / kStageStep;
+    return motion;
+  };
+  const Motion at_rest = moved(Vec3::Zero(), 0), drifts = moved({0.4, -0.3, 0.2}, 0);
+  EXPECT_NEAR(at_rest.x(0, 2), kStageThickness, 1e-4);
+  EXPECT_GT((at_rest.x.row(1) - at_rest.x.row(0)).norm(), 1.08);
+  EXPECT_LT((drifts.x - at_rest.x).norm(), 1e-4);
+  EXPECT_LT((drifts.v - at_rest.v).norm(), 2e-3);
+  const Motion limited = moved(Vec3::Zero(), 0.05);
+  EXPECT_NEAR((limited.x.row(1) - limited.x.row(0)).norm(), 1.05, 1e-3);
 }
 
 /// The only corner that can move has a small weight: left to the collision step, and its load does not wait for later.

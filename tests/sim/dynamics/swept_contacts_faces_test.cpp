@@ -50,15 +50,20 @@ TEST(SweptContacts, AreGivenOnAsTheyWereLastLookedAt) {
 }
 
 TEST(SweptContacts, GoOnToTheFaceOnWhichAVertexSlides) {
-  // Over the border, then down.
-  for (const double to_x : {0.0, 1.5, -2.5}) {
-    SCOPED_TRACE(to_x);
+  // Over the border, then down; on a body at rest, and on one that goes on by `drift_m` in every step.
+  using Case = std::pair<double, double>;
+  for (const auto& [to_x, drift_m] : {Case{0, 0}, {1.5, 0}, {-2.5, 0}, {0, 2.4}, {1.5, -2.4}, {-2.5, 2.4}}) {
+    SCOPED_TRACE(::testing::Message() << to_x << " m, on a body that goes on by " << drift_m);
+    const Eigen::RowVector3d drift(0, drift_m, 0);
     TwoFaces scene;
     OneContact& one = scene.one;
     const std::vector<RepulsionContact> contacts{one.contact};
-    Swept held(contacts, {}, scene.ground.surface(1), scene.V, scene.V, 3 * kHeldStep, 1);
-    move_and_hold(one, held, {to_x / kHeldStep, -2.5 / kHeldStep, 0}, 1.0 / 3);
-    for (const double share : {2.0 / 3, 1.0}) move_and_hold(one, held, {0, 0, -0.5}, share);
+    const Positions V_t1 = scene.V.rowwise() + 3 * drift;
+    Swept held(contacts, {}, scene.ground.surface(1), scene.V, V_t1, 3 * kHeldStep, 1);
+    move_and_hold(one, held, (Eigen::RowVector3d(to_x, -2.5, 0) + drift) / kHeldStep, 1.0 / 3);
+    for (const double share : {2.0 / 3, 1.0}) {
+      move_and_hold(one, held, Eigen::RowVector3d(0, 0, -0.5) + drift / kHeldStep, share);
+    }
     if (to_x == -2.5) {  // beside both faces: 0.6 m to the border, nothing holds it
       EXPECT_EQ(held.count().repulsions, 0);
       continue;

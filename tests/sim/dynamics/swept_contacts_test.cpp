@@ -1,7 +1,10 @@
 // What contacts that are swept over press, rub, bear and learn.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "sim/dynamics/central_differences.h"
 #include "tests/property.h"
 #include "tests/sim/dynamics/swept_contact_scenes.h"
 
@@ -291,6 +294,48 @@ TEST(SweptContacts, ActAgainWithTheLoadsOfOtherCloth) {
   EXPECT_NEAR(column.v.row(0).z(), 0, 1e-9);
 }
 
+TEST(SweptContacts, ActAgainWhereTheyAddMoreThanAFallOf100StepsOfTheDynamics) {
+  // The load v of the first vertex pushes it, half of which the second gets; then it gets the velocity r of the body,
+  // which does the work of both impulses. Left is 3/8 m v^2 - m v r / 2 - m r^2 / 2.
+  Positions V(5, 3);
+  V << 0, 0, kHeldThickness, 5, 0, 0, -2, -2, 0, 2, -2, 0, 0, 4, 0;
+  const Ground ground(Faces{{2, 3, 4}}, {3, 3, 0, 0, 0});
+  RepulsionContact contact;
+  contact.interaction =
+      make_interaction(PairKind::kVf, {0, 2, 3, 4}, {1, 1.0 / 3, 1.0 / 3, 1.0 / 3}, ground.inverse_mass);
+  contact.normal = Vec3::UnitZ();
+  contact.properties.thickness_m = kHeldThickness;
+  const double fall_m_s = 100 * kHeldStep;
+  for (const auto& [steps, rises_m_s] : {std::pair{1, 0.0}, {2, 0.0}, {1, 6.0}}) {
+    SCOPED_TRACE(::testing::Message() << steps << " steps, rises by " << rises_m_s);
+    const double squares = rises_m_s * rises_m_s + fall_m_s * fall_m_s;
+    const double most_m_s = (rises_m_s / 2 + std::sqrt(rises_m_s * rises_m_s / 4 + 0.75 * squares)) / 0.75;
+    Positions V_t1 = V;
+    V_t1.bottomRows(3).col(2).array() += steps * kHeldStep * rises_m_s;
+    for (const double share_of_most : {0.99, 1.01}) {
+      LaneVectors x, v;
+      x.copy(V.topRows(2));
+      v.resize(2);
+      v.set_zero();
+      Swept held({contact}, {{{0, 0, share_of_most * most_m_s / kHeldStep}}, {}}, ground.surface(2), V, V_t1,
+                 steps * kHeldStep, 1);
+      for (int step = 1; step <= steps; ++step) {
+        for (const Eigen::Index i : {0, 1}) x.row(i) += kHeldStep * v.row(i);
+        int count = 0;
+        held.hold({kHeldStep, double(step) / steps, x, v}, [&] {
+          ++count;
+          const double mean = (v.row(0).z() + v.row(1).z()) / 2;
+          for (const Eigen::Index i : {0, 1}) {
+            x.row(i).z() += kHeldStep * (mean - v.row(i).z());
+            v.row(i).z() = mean;
+          }
+        });
+        EXPECT_EQ(count, step == 1 && share_of_most > 1 ? 2 : 1) << "step " << step << ", " << share_of_most;
+      }
+    }
+  }
+}
+
 TEST(SweptContacts, KeepLoadsWhereTheEnergyIsWhatABodyBrings) {
   Column column;
   EXPECT_EQ(limits_in_steps(1, column, 400), std::vector{1});
@@ -387,6 +432,18 @@ TEST(SweptContacts, StickWithinTheConeAndSlideBeyond) {
   EXPECT_EQ(Eigen::RowVector3d(leaves.v.row(0)), Eigen::RowVector3d(0.9, 0, 1));
 }
 
+TEST(SweptContacts, WhatCreepsIsAskedOfStepsOfTheDynamicsHoweverManyThereAre) {
+  for (const int steps : {1, 2, 8}) {
+    for (const auto& [slips_m_s, rubbed_m_s] : {std::pair{0.89, 0.5}, {0.91, 0.4}}) {
+      OneContact one = vertex_over_body({slips_m_s, 0, -1});  // it falls for four steps to 0.5 m/s
+      const Ground ground = one_face();
+      Swept held({one.contact}, {}, ground.surface(1), one.V_t0, one.V_t1, steps * kHeldStep, 1);
+      move_and_hold(one, held, one.v.row(0), 1.0 / steps);
+      EXPECT_NEAR(one.v.row(0).x(), slips_m_s - rubbed_m_s, 1e-14) << steps;
+    }
+  }
+}
+
 // Of a body's vertex, which remembers no friction to begin with.
 TEST(SweptContacts, RubInEveryStepAsMuchAsInTheFirst) {
   Positions V(4, 3);
@@ -415,6 +472,45 @@ TEST(SweptContacts, RubInEveryStepAsMuchAsInTheFirst) {
     for (Eigen::Index i = 0; i < 3; ++i) {
       EXPECT_LT((v.row(i) - Eigen::RowVector3d(1.9 - 0.4, 0, 0)).norm(), 1e-14) << share;
     }
+  }
+}
+
+TEST(SweptContacts, FollowABodyOnABentWayInEveryStep) {
+  constexpr int kSteps = 5;
+  OneContact one = vertex_over_body({0, 0, 0}, Vec3(0, 0, 0.3));
+  const Ground ground = one_face();
+  Positions bow_m = Positions::Zero(3, 3);
+  bow_m.col(2).setConstant(0.25);
+  HeldSurface surface = ground.surface(1);
+  surface.bow_m = &bow_m;
+  Swept held({one.contact}, {}, surface, one.V_t0, one.V_t1, kSteps * kHeldStep, 1);
+  double before_m = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const double share = double(step) / kSteps, rises_m = share * 0.3 - share * (1 - share) * 0.25;
+    move_and_hold(one, held, {0, 0, -1}, share);
+    EXPECT_NEAR(one.v.row(0).z(), (rises_m - before_m) / kHeldStep, 1e-13) << step;
+    EXPECT_NEAR(one.x.row(0).z(), kHeldThickness + rises_m, 1e-14) << step;
+    before_m = rises_m;
+  }
+}
+
+TEST(SweptContacts, HoldClothOnABodyInEveryStepOfCentralDifferences) {
+  constexpr int kSteps = 8;
+  for (const double rises_m : {0.0, 0.3}) {
+    const OneContact one = vertex_over_body({0, 0, 0}, Vec3(0, 0, rises_m));
+    const Ground ground = one_face();
+    HeldContacts held({one.contact}, {}, ground.surface(1), one.V_t0, one.V_t1, kHeldStep, 1);
+    CentralDifferencesOptions options;
+    options.fields.gravity_m_s2 = -Vec3::UnitZ();
+    options.step_s = 1.001 * kHeldStep / kSteps;
+    const SpringSystem none({}, 1);
+    Motion motion{one.V_t0.topRows(1), Positions::Zero(1, 3)};
+    CentralDifferences(none, options).advance(motion, one.V_t0.topRows(1), std::array<double, 1>{1}, kHeldStep, &held);
+    EXPECT_NEAR(motion.x(0, 2), kHeldThickness + rises_m, 1e-14);
+    EXPECT_NEAR(motion.v(0, 2), rises_m / kHeldStep - kHeldStep / kSteps / 2, 1e-12) << "half a step of gravity";
+    ASSERT_EQ(held.loads().vf.size(), 1U);
+    if (rises_m > 0) continue;  // which it has learnt as well
+    EXPECT_NEAR(held.loads().vf.front().acceleration_m_s2, 1, 0.01);
   }
 }
 

@@ -62,6 +62,20 @@ TEST(Clearance, IsTheLeastDistanceToWhatAVertexMustNotMeet) {
   for (std::size_t v = 1; v < 6; ++v) EXPECT_EQ(flagged[v], 1);
 }
 
+TEST(Clearance, OfALoneFaceIsItsLeastAltitudeWhicheverThatIs) {
+  for (int first = 0; first < 3; ++first) {
+    Shape shape = lone_triangle(1);
+    shape.triangles = {{first, (first + 1) % 3, (first + 2) % 3}};
+    StepScene scene;
+    scene.add(shape, Vec3::Zero());
+    const Mesh mesh = scene.mesh();
+    BoxHierarchy hierarchy(mesh);
+    for (const double distance : clearance(mesh, hierarchy, scene.V_t0, 2, std::vector<std::uint8_t>(3, 1))) {
+      EXPECT_NEAR(distance, 1 / std::sqrt(2), 1e-12) << first;
+    }
+  }
+}
+
 TEST(Clearance, VerticesWithinABallOfHalfOfItNeverTouch) {
   // The claim behind kLimited, played with the exact checker at almost the full half.
   selvage::testing::check_property(60, 71, [] {
@@ -105,8 +119,25 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
   for (std::size_t v = 0; v < collides.size(); ++v) {
     if (collides[v] == 0) continue;
     const auto row = static_cast<Eigen::Index>(v);
-    EXPECT_LE((step.motion.x().row(row) - scene.V_t0.row(row)).norm(), 1.001 * kBallShare * distance[v]) << v;
+    const double moved_m = (step.motion.x().row(row) - scene.V_t0.row(row)).norm();
+    EXPECT_LE(moved_m, 1.001 * kBallShare * distance[v]) << v;
+    if (v < 3) continue;
+    EXPECT_GE(moved_m, 0.999 * kBallShare * distance[v]) << "it would go farther";
   }
+}
+
+TEST(FailSafe, WhatEndsTooNearIsNotHeldBack) {
+  StepScene scene;
+  scene.add(lone_triangle(1), Vec3::Zero());
+  const StepScene::Part above = scene.add(lone_triangle(0.5), Vec3(0.1, 0.1, 0.05));
+  scene.push(above, Vec3(0, 0, 0.5 * scene.options.tolerance_m - 0.05));
+  Tracked step(scene);
+  ASSERT_FALSE(step.tracker.collisions().empty());
+  ASSERT_FALSE(step.tracker.has_motion_collision());
+  StepLimiter limiter(step.mesh, step.hierarchy, step.groups, 1);
+  EXPECT_FALSE(limiter.restrain(step.tracker, step.motion));
+  EXPECT_TRUE(limiter.restrained().empty());
+  EXPECT_EQ(step.motion.x(), scene.V_candidate);
 }
 
 TEST(FailSafe, BodiesOfAllPlacesWithoutRoomAreNamedAtOnce) {
@@ -120,7 +151,10 @@ TEST(FailSafe, BodiesOfAllPlacesWithoutRoomAreNamedAtOnce) {
     for (VertexId v = pinned.begin; v < pinned.end; ++v) scene.inverse_mass[static_cast<std::size_t>(v)] = 0;
     moving.push_back(scene.add(lone_triangle(0.5), at + Vec3(0.1, 0.1, 0.05), place));
   }
+  scene.add(lone_triangle(1), Vec3(-10, 0, 0));
+  const StepScene::Part falls = scene.add(lone_triangle(0.5), Vec3(-9.9, 0.1, 0.05));
   for (const StepScene::Part& part : moving) scene.push(part, Vec3(0, 0, -0.1));
+  scene.push(falls, Vec3(0, 0, -0.1));
   Tracked step(scene);
   StepLimiter limiter(step.mesh, step.hierarchy, step.groups, 1);
   const auto conflict = limiter.restrain(step.tracker, step.motion);
@@ -129,6 +163,11 @@ TEST(FailSafe, BodiesOfAllPlacesWithoutRoomAreNamedAtOnce) {
   for (const GroupId group : conflict->groups) named.push_back(step.groups.body(group));
   std::ranges::sort(named);
   EXPECT_EQ(named, (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_FALSE(conflict->vertices.empty());
+  for (const VertexId v : conflict->vertices) {
+    EXPECT_GE(scene.body[static_cast<std::size_t>(v)], 0) << "pins are at rest, cloth is not scripted";
+  }
+  EXPECT_EQ(step.motion.x(), scene.V_candidate) << "other cloth is not held back yet";
 }
 
 TEST(FailSafe, LimitsOnlyWhatCollides) {

@@ -181,6 +181,34 @@ TEST(SpringLanes, DiagonalAndRowSumAreThoseOfTheMatrix) {
   }
 }
 
+TEST(SpringLanes, StiffnessOpposesAsDampingOfItsShareDoes) {
+  AnyNumbering any(6, 9, true);
+  for (std::size_t n = 0; n < any.stabilizers.size(); ++n) any.stabilizers[n].stiffness_n_m *= 1 + double(n % 5);
+  const ImpulseShares shares{0.3, 0.05};
+  const auto product = [&](const std::vector<Spring>& springs, const std::vector<Stabilizer>& stabilizers,
+                           const ImpulseShares& of) {
+    const StabilizerSystem system(stabilizers, 81);
+    SpringLanes lanes(SpringSystem(springs, 81), &system);
+    const LaneVectors x = testing::to_lanes(any.cloth.x);
+    LaneVectors force, result;
+    lanes.set_shares(of, std::vector<double>(81, 1e9));
+    lanes.look(x, force);
+    lanes.multiply(x, testing::to_lanes(any.cloth.v), result);
+    return testing::from_lanes(result);
+  };
+  std::vector<Spring> springs = any.cloth.springs.springs();
+  std::vector<Stabilizer> stabilizers = any.stabilizers;
+  const auto put_into_damping = [&](auto& all) {
+    for (auto& one : all)
+      one.damping_n_s_m = shares.damping_s * one.damping_n_s_m + shares.stiffness_s2 * one.stiffness_n_m;
+  };
+  put_into_damping(springs);
+  put_into_damping(stabilizers);
+  const Positions by_damping = product(springs, stabilizers, {1, 0});
+  EXPECT_LE((product(any.cloth.springs.springs(), any.stabilizers, shares) - by_damping).norm(),
+            1e-14 * by_damping.norm());
+}
+
 TEST(LengthCheck, FindsTheSpringsThatOneByOneAreOutside) {
   for (const bool scrambled : {false, true}) {
     const AnyNumbering any(7, 30, scrambled);

@@ -54,6 +54,13 @@ TEST(Stabilizer, PullsTheMiddleNodeBackBetweenItsNeighbours) {
   EXPECT_NEAR(forces(one, x, x).elastic(1, 0), 4, 1e-15);
 }
 
+TEST(Stabilizer, RowSumIsThatOfTheMagnitudesOfTheMatrix) {
+  const StabilizerSystem one({{{1, 0, 2, 0}, {1, -0.5, -0.5, 0}, 4, 0, 0}}, 4);
+  EXPECT_EQ(one.row_sum_n_m(1), 4 + 2 + 2);
+  EXPECT_EQ(one.row_sum_n_m(0), 1 + 2 + 1);
+  EXPECT_EQ(one.row_sum_n_m(3), 0);
+}
+
 TEST(Stabilizer, ForcesAreMinusTheGradientOfTheEnergyAndKeepMomenta) {
   const auto cloth = testing::random_cloth(11, 7);
   const std::vector<Stabilizer> stabilizers = testing::sheet_stabilizers(7, 2, 0);
