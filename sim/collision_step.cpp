@@ -92,7 +92,9 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   ScriptedGroups groups(bodies);
   CollisionAttempt attempt(*impl_, bodies, groups, dt_s, patience, held);
   auto conflict = attempt.run(V_t0, V_candidate);
+  std::vector<Blockage> blockages;
   while (conflict && bodies.policy == SqueezePolicy::kYield) {
+    blockages.insert(blockages.end(), conflict->blockages.begin(), conflict->blockages.end());
     groups.wait(conflict->groups, conflict->vertices);  // of which one at least moved till now: so this ends
     conflict = attempt.run(V_t0, V_candidate);
   }
@@ -101,6 +103,7 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
   result.met = std::move(attempt.met());
   result.report.waiting_bodies = groups.waiting_bodies();
   result.report.waiting_vertices = groups.waiting_vertices();
+  result.report.blockages = std::move(blockages);
   result.report.without_room = std::move(attempt.without_room());
   keep_sorted_once(result.report.without_room);
   if (result.report.status != StepStatus::kSafe) return result;

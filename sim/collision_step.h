@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/kernel.h"
+#include "sim/base/blockage.h"
 #include "sim/base/phase_times.h"
 #include "sim/contact/collision_bodies.h"
 #include "sim/contact/collision_options.h"
@@ -58,7 +59,9 @@ struct CollisionStepReport {
   CollisionPhases phases;
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
   std::vector<VertexId> waiting_vertices;    ///< sorted; theirs: all, or some where they deform
-  std::vector<Collision> below_tolerance;    ///< free of touch, but not proved farther than tolerance at the end (S2)
+  /// What bodies had to wait for, as far as it is known: of all tries.
+  std::vector<Blockage> blockages;
+  std::vector<Collision> below_tolerance;  ///< free of touch, but not proved farther than tolerance at the end (S2)
   /// Those of them in which nothing moved, and which cannot be told from touching: free of touch because V_t0 is, at
   /// which the step does not look. Not 0 where V_t0 touches, against PRE, or comes within rounding of that: ask
   /// verify::check_frame, which names all that intersects.

@@ -7,8 +7,8 @@
 #include "sim/bodies/catch_up.h"
 
 namespace selvage::sim {
-
-ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world) : scene_(scene), world_(world) {
+ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world)
+    : scene_(scene), world_(world), blocked_(scene.collision.thickness_m) {
   std::set<std::int32_t> cloth_surfaces;
   if (!world.contacts.properties.empty()) {
     const auto surfaces = std::span(world.contacts.surface_of_vertex);
@@ -42,7 +42,10 @@ ScriptedMotion::Thickness ScriptedMotion::thickness_with_cloth(const Collider& c
   return result;
 }
 
-void ScriptedMotion::start_step() { waits_.assign(static_cast<std::size_t>(world_.x_t0.rows()), 0); }
+void ScriptedMotion::start_step(double time_s) {
+  waits_.assign(static_cast<std::size_t>(world_.x_t0.rows()), 0);
+  blocked_.start_step(time_s);
+}
 
 Eigen::AlignedBox3d ScriptedMotion::box_of_cloth(const Positions& x, const Positions& v, double dt_s) const {
   const Vec3 fall = dt_s * dt_s / 2 * scene_.gravity_m_s2;
@@ -90,6 +93,7 @@ Positions ScriptedMotion::follow(const Positions& x, const StepClock& clock) {
   scripted_ = scripted_at(world_, clock.time_s());
   Positions x_t1 = x;
   bow_m_.setZero(x.rows() - world_.cloth_vertex_count, 3);
+  is_led_.assign(static_cast<std::size_t>(x.rows()), 0);
   for (const Collider& collider : world_.colliders) {
     if (collider.holds(clock.time_s())) follow(collider, x, clock, x_t1);
   }
@@ -110,11 +114,25 @@ void ScriptedMotion::follow(const Collider& collider, const Positions& x_t0, con
       script_t1 = catch_script(now, script_t0, script_t1, clock.dt_s(), least_speed_m_s);
     }
   }
+  is_on_script = !lead_round(collider, x_t0, clock.dt_s(), script_t1) && is_on_script;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (waits_[static_cast<std::size_t>(vertices[i])] == 0)
       x.row(vertices[i]) = script_t1.row(static_cast<Eigen::Index>(i));
   }
   if (is_on_script) set_bow(collider, clock);
+}
+
+bool ScriptedMotion::lead_round(const Collider& collider, const Positions& x_t0, double dt_s, Positions& x_t1) {
+  const std::vector<VertexId>& vertices = collider.vertices();
+  if (blocked_.all().empty() || vertices.empty()) return false;
+  const std::int32_t body = scripted_.body[static_cast<std::size_t>(vertices.front())];
+  const Positions straight = x_t1;
+  if (!blocked_.lead_round(body, vertices, x_t0(vertices, Eigen::all), dt_s, x_t1)) return false;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (x_t1.row(row) != straight.row(row)) is_led_[static_cast<std::size_t>(vertices[i])] = 1;
+  }
+  return true;
 }
 
 void ScriptedMotion::set_bow(const Collider& collider, const StepClock& clock) {
@@ -127,16 +145,18 @@ void ScriptedMotion::set_bow(const Collider& collider, const StepClock& clock) {
   }
 }
 
-void ScriptedMotion::stand_still(std::span<const VertexId> waiting) {
-  for (const VertexId v : waiting) waits_[static_cast<std::size_t>(v)] = 1;
+void ScriptedMotion::wait(const CollisionStepReport& report) {
+  if (blocked_.add(report.blockages)) return;
+  for (const VertexId v : report.waiting_vertices) waits_[static_cast<std::size_t>(v)] = 1;
 }
 
 std::pair<std::vector<std::int32_t>, std::vector<VertexId>> ScriptedMotion::waiting() const {
   std::set<std::int32_t> bodies;
   std::vector<VertexId> vertices;
   for (VertexId v = 0; v < static_cast<VertexId>(waits_.size()); ++v) {
-    if (waits_[static_cast<std::size_t>(v)] == 0) continue;
-    bodies.insert(scripted_.body[static_cast<std::size_t>(v)]);
+    const auto row = static_cast<std::size_t>(v);
+    if (waits_[row] == 0 && is_led_[row] == 0) continue;
+    bodies.insert(scripted_.body[row]);
     vertices.push_back(v);
   }
   return {std::vector<std::int32_t>(bodies.begin(), bodies.end()), std::move(vertices)};

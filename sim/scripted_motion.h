@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "sim/bodies/blocked_ways.h"
+#include "sim/collision_step.h"
 #include "sim/scene/scene.h"
 #include "sim/step_clock.h"
 #include "sim/world.h"
@@ -21,7 +23,9 @@ class ScriptedMotion {
   ScriptedMotion(const Scene& scene, const World& world);
 
   /// A step begins, in which nothing had to wait yet.
-  void start_step();
+  void start_step(double time_s);
+  /// It is taken.
+  void end_step(double dt_s) { blocked_.end_step(dt_s); }
   /// How the bodies that may come near cloth move in a step, the worst of them. Bent: one leaves the straight lines on
   /// which the step takes its vertices by more than the thickness of their contacts, the least of them, so that what it
   /// passes on its way would not be met, or turns so far that it may come back to where it was. Uneven: it keeps to its
@@ -35,12 +39,16 @@ class ScriptedMotion {
   /// away from the middle of its line, m (Passage). #V less those of cloth by 3; null where no body does. 0 for those
   /// that wait, or are not where their scripts have them.
   [[nodiscard]] const Positions* bow_m() const { return bow_m_.isZero(0) ? nullptr : &bow_m_; }
-  /// Bodies that had to wait in a try are known before the next one, which starts from the same state: so the dynamics
-  /// sees them stand still. Where it saw them move, cloth took up a motion that never was: pinched between two spheres
-  /// that stood it came to 70 m/s.
-  void stand_still(std::span<const VertexId> waiting);
-  /// Who stands still in the step: bodies and vertices, as in CollisionStepReport.
+  /// Who had to wait in a try is known before the next one, which starts from the same state: so the dynamics sees it
+  /// stand still. Where it saw it move, cloth took up a motion that never was: pinched between two spheres that stood
+  /// it came to 70 m/s. Rigid bodies try to go on along what blocks them before they stand still.
+  void wait(const CollisionStepReport& report);
+  /// Who is kept from its script in the step: bodies and vertices, as in CollisionStepReport.
   [[nodiscard]] std::pair<std::vector<std::int32_t>, std::vector<VertexId>> waiting() const;
+
+  /// What lasts from step to step.
+  [[nodiscard]] const std::vector<BlockedWay>& blocked_ways() const { return blocked_.all(); }
+  void restore(const std::vector<BlockedWay>& blocked) { blocked_.restore(blocked); }
 
   /// #V, 1/kg, in the last motion; 0 for scripted vertices.
   [[nodiscard]] const std::vector<double>& inverse_mass() const { return scripted_.inverse_mass; }
@@ -59,6 +67,8 @@ class ScriptedMotion {
   /// Of its path in a step of dt_s, with and without gravity.
   [[nodiscard]] Eigen::AlignedBox3d box_of_cloth(const Positions& x, const Positions& v, double dt_s) const;
   void follow(const Collider& collider, const Positions& x_t0, const StepClock& clock, Positions& x);
+  /// Whether anything blocks the collider on its way from x_t0 to x_t1, rows of its own, which is led round it then.
+  bool lead_round(const Collider& collider, const Positions& x_t0, double dt_s, Positions& x_t1);
   void set_bow(const Collider& collider, const StepClock& clock);
 
   const Scene& scene_;
@@ -67,6 +77,8 @@ class ScriptedMotion {
   std::vector<std::vector<std::size_t>> carried_by_;  ///< likewise: the pins that hang on it
   ScriptedVertices scripted_;
   std::vector<std::uint8_t> waits_;  ///< #V
+  BlockedWays blocked_;
+  std::vector<std::uint8_t> is_led_;  ///< #V: round what blocks it, in the last motion
   Positions bow_m_;
 };
 

@@ -67,7 +67,7 @@ StepResult Simulation::step() {
   StepResult result;
   result.is_bent = !shorten_for_scripts();
   shortest_s_ = lengths_.shortest_s(0);
-  script_.start_step();
+  script_.start_step(clock_.time_s());
   Try tried = find_good_try(result);
   result.dt_s = clock_.dt_s();
   result.end_s = clock_.end_s();
@@ -109,7 +109,7 @@ Simulation::Try Simulation::find_good_try(StepResult& result) {
       ++result.halvings;
     } else if (!report.waiting_vertices.empty()) {
       std::ranges::copy(report.without_room, std::back_inserter(without_room));
-      script_.stand_still(report.waiting_vertices);
+      script_.wait(report);
       clock_.restore(meant);
     } else {
       std::tie(report.waiting_bodies, report.waiting_vertices) = script_.waiting();
@@ -262,6 +262,7 @@ void Simulation::commit(Try& tried) {
       if (is_changed[static_cast<std::size_t>(i)] != 0) v_.row(i) = end.v.row(i);
     }
   }
+  script_.end_step(dt_s);
   pressed_ = std::move(tried.pressed);
   for (const RepulsionContact& contact : safe.met) add_pair(contact, pressed_);
   sort_pairs(pressed_);
@@ -276,6 +277,7 @@ void Simulation::restore(const SimulationState& state) {
   clock_.restore(state.clock);
   loads_ = state.loads;
   pressed_ = state.pressed;
+  script_.restore(state.blocked);
 }
 
 }  // namespace selvage::sim

@@ -30,6 +30,7 @@ struct SimulationState {
   StepClock::State clock;
   ContactLoads loads;  ///< at x
   Candidates pressed;  ///< the pairs that pressed in the last step
+  std::vector<BlockedWay> blocked;
 };
 
 struct StepResult {
@@ -63,7 +64,9 @@ class Simulation {
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const Positions& x() const { return x_; }
   [[nodiscard]] const StepClock& clock() const { return clock_; }
-  [[nodiscard]] SimulationState state() const { return {x_, v_, clock_.state(), loads_, pressed_}; }
+  [[nodiscard]] SimulationState state() const {
+    return {x_, v_, clock_.state(), loads_, pressed_, script_.blocked_ways()};
+  }
   void restore(const SimulationState& state);
 
  private:

@@ -98,4 +98,13 @@ RigidMotion best_fit_motion(std::span<const Vec3> x_t0, std::span<const Vec3> x_
   return result;
 }
 
+RigidMotion best_fit_motion(const Positions& x_t0, const Positions& x_t1) {
+  std::vector<Vec3> start, end;
+  for (Eigen::Index i = 0; i < x_t0.rows(); ++i) {
+    start.emplace_back(x_t0.row(i));
+    end.emplace_back(x_t1.row(i));
+  }
+  return best_fit_motion(start, end);
+}
+
 }  // namespace selvage::sim

@@ -32,5 +32,7 @@ inline constexpr double kMaxZoneAngle = 2.0943951023931953;  // 2 pi / 3
 /// The rotation and translation that carry x_t0 to x_t1 best in least squares (Kabsch 1976); where the points leave a
 /// rotation open (on a line, or one point), the least turn. Exact up to rounding for rigid scripts.
 [[nodiscard]] RigidMotion best_fit_motion(std::span<const Vec3> x_t0, std::span<const Vec3> x_t1);
+/// Of all rows; as many.
+[[nodiscard]] RigidMotion best_fit_motion(const Positions& x_t0, const Positions& x_t1);
 
 }  // namespace selvage::sim

@@ -1,7 +1,6 @@
 #include "sim/bodies/catch_up.h"
 
 #include <algorithm>
-#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -11,12 +10,6 @@ namespace selvage::sim {
 namespace {
 
 double farthest(const Positions& from, const Positions& to) { return (to - from).rowwise().stableNorm().maxCoeff(); }
-
-std::vector<Vec3> rows_of(const Positions& x) {
-  std::vector<Vec3> rows;
-  for (Eigen::Index i = 0; i < x.rows(); ++i) rows.emplace_back(x.row(i));
-  return rows;
-}
 
 /// How far they may go in the step.
 double allowed_m(const Positions& x, const Positions& script_t0, const Positions& script_t1, double dt_s,
@@ -31,7 +24,7 @@ Positions catch_up(const Positions& x, const Positions& script_t0, const Positio
   const double allowed = allowed_m(x, script_t0, script_t1, dt_s, least_speed_m_s), distance = farthest(x, script_t1);
   if (!(distance > allowed)) return script_t1;
   const double share = allowed / distance;
-  const RigidMotion whole = best_fit_motion(rows_of(x), rows_of(script_t1));
+  const RigidMotion whole = best_fit_motion(x, script_t1);
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(whole.turn + Eigen::Matrix3d::Identity()));
   const Eigen::Matrix3d part = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
   const Eigen::RowVector3d center = whole.center.transpose();

@@ -6,16 +6,25 @@
 namespace selvage::sim {
 namespace {
 
-/// How many of a pair's vertices belong to its first feature.
-std::size_t first_feature_size(PairKind kind) { return kind == PairKind::kEe ? 2 : 1; }
+std::size_t vertex_count(PairKind kind) { return kind == PairKind::kSelf ? 3 : 4; }
 
 }  // namespace
 
+bool is_in_first_feature(PairKind kind, std::size_t i) { return i < (kind == PairKind::kEe ? 2U : 1U); }
+
+std::array<double, 4> signed_weights(PairKind kind, const std::array<double, 4>& weights) {
+  std::array<double, 4> result{};
+  for (std::size_t i = 0; i < vertex_count(kind); ++i) {
+    result[i] = is_in_first_feature(kind, i) ? weights[i] : -weights[i];
+  }
+  return result;
+}
+
 Interaction make_interaction(PairKind kind, const std::array<VertexId, 4>& vertices,
                              const std::array<double, 4>& weights, std::span<const double> inverse_mass) {
-  Interaction result{.vertices = vertices, .vertex_count = kind == PairKind::kSelf ? 3U : 4U};
+  Interaction result{
+      .vertices = vertices, .weights = signed_weights(kind, weights), .vertex_count = vertex_count(kind)};
   for (std::size_t i = 0; i < result.vertex_count; ++i) {
-    result.weights[i] = i < first_feature_size(kind) ? weights[i] : -weights[i];
     result.mobility[i] = inverse_mass[static_cast<std::size_t>(vertices[i])];
   }
   result.inverse_mass_scale = *std::ranges::max_element(result.mobility);

@@ -29,6 +29,11 @@ struct Interaction {
 /// 2^-100: beside a vertex 10^30 times as light the heavy one's change is far below its own rounding.
 inline constexpr double kLeastMobility = 0x1p-100;
 
+/// Of the pair's vertex i.
+[[nodiscard]] bool is_in_first_feature(PairKind kind, std::size_t i);
+/// As in Interaction, of `weights` as in Proximity and CcdResult.
+[[nodiscard]] std::array<double, 4> signed_weights(PairKind kind, const std::array<double, 4>& weights);
+
 /// `weights` as in Proximity and CcdResult.
 [[nodiscard]] Interaction make_interaction(PairKind kind, const std::array<VertexId, 4>& vertices,
                                            const std::array<double, 4>& weights, std::span<const double> inverse_mass);

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian: add byte swaps here");
 
-constexpr std::string_view kMagic = "selvage-checkpoint 14\n";
+constexpr std::string_view kMagic = "selvage-checkpoint 15\n";
 
 template <class Number>
 void put(std::string& bytes, const Number& number) {
@@ -23,6 +23,15 @@ void put(std::string& bytes, const Number& number) {
 void put(std::string& bytes, const Positions& x) {
   put(bytes, static_cast<std::int64_t>(x.rows()));
   bytes += bytes_of(x);
+}
+
+void put(std::string& bytes, const BlockedWay& way) {
+  put(bytes, way.blockage.body);
+  put(bytes, way.blockage.vertex);
+  for (const double number : way.blockage.at_m) put(bytes, number);
+  for (const double number : way.blockage.direction) put(bytes, number);
+  put(bytes, way.until_s);
+  put(bytes, way.back_m);
 }
 
 template <class Item>
@@ -103,6 +112,14 @@ class Source {
     get_all(loads.vf);
     get_all(loads.ee);
   }
+  void get(BlockedWay& way) {
+    get(way.blockage.body);
+    get(way.blockage.vertex);
+    for (double& number : way.blockage.at_m) get(number);
+    for (double& number : way.blockage.direction) get(number);
+    get(way.until_s);
+    get(way.back_m);
+  }
   void get(Candidates& pairs) {
     get_all(pairs.vf);
     get_all(pairs.ee);
@@ -131,6 +148,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   put(bytes, checkpoint.state.v);
   put(bytes, checkpoint.state.loads);
   put(bytes, checkpoint.state.pressed);
+  put_all(bytes, checkpoint.state.blocked);
   for_each_total(checkpoint.totals, [&](const char*, const auto& field) { put(bytes, field); });
   put_all(bytes, checkpoint.waits);
   put(bytes, fnv1a(bytes));
@@ -156,6 +174,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file) {
   source.get(checkpoint.state.v);
   source.get(checkpoint.state.loads);
   source.get(checkpoint.state.pressed);
+  source.get_all(checkpoint.state.blocked);
   for_each_total(checkpoint.totals, [&](const char*, auto& field) { source.get(field); });
   source.get_all(checkpoint.waits);
   std::uint64_t checksum = 0;

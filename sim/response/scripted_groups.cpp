@@ -22,7 +22,8 @@ ScriptedGroups::ScriptedGroups(const CollisionBodies& bodies)
     for (const VertexId v : vertices) group_[static_cast<std::size_t>(v)] = count();
     const bool deforms = body && static_cast<std::size_t>(*body) < bodies.deforms.size() &&
                          bodies.deforms[static_cast<std::size_t>(*body)] != 0;
-    groups_.push_back({body.value_or(-1), std::move(vertices), deforms});
+    const bool is_body = body && *body < bodies.first_pin;
+    groups_.push_back({body.value_or(-1), std::move(vertices), is_body, deforms});
   }
 }
 

@@ -27,6 +27,8 @@ class ScriptedGroups {
   [[nodiscard]] std::int32_t body(GroupId group) const { return at(group).body; }
 
   [[nodiscard]] bool deforms(GroupId group) const { return at(group).deforms; }
+  /// And no pin.
+  [[nodiscard]] bool is_body(GroupId group) const { return at(group).is_body; }
 
   /// Makes vertices keep their start positions for this step: all of the rigid ones of `groups`, and those of
   /// `vertices` that belong to any group that deforms; where all of these wait, all of `groups`. Asserts that one at
@@ -51,6 +53,7 @@ class ScriptedGroups {
   struct Group {
     std::int32_t body;
     std::vector<VertexId> vertices;
+    bool is_body = false;
     bool deforms = false;
     bool moves = false;
   };

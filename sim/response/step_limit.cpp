@@ -8,7 +8,6 @@
 #include "sim/base/sorted_once.h"
 
 namespace selvage::sim {
-
 std::vector<double> clearance(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V, double reach,
                               std::span<const std::uint8_t> flagged) {
   std::vector<double> result(flagged.size(), reach);
@@ -51,12 +50,21 @@ StepLimiter::Restrained StepLimiter::at_start_of_round(VertexId vertex, const st
   return {static_cast<Restraint>(static_cast<int>(state_[v].level) - 1), ScriptedGroups::kCloth, {}};
 }
 
-std::vector<GroupId> StepLimiter::moving_groups(const std::array<VertexId, 4>& pair,
-                                                const std::vector<std::uint8_t>& raised) const {
+std::array<Mover, 4> StepLimiter::movers(const std::array<VertexId, 4>& pair,
+                                         const std::vector<std::uint8_t>& raised) const {
+  std::array<Mover, 4> result;
+  std::ranges::transform(pair, result.begin(), [&](VertexId v) -> Mover {
+    const Restrained own = at_start_of_round(v, raised);
+    if (own.level == Restraint::kCarried) return {own.carrier, own.met};
+    return {groups_.group(v), {v, v, v, v}};
+  });
+  return result;
+}
+
+std::vector<GroupId> StepLimiter::moving_groups(const std::array<Mover, 4>& movers) const {
   std::vector<GroupId> result;
-  for (const VertexId v : pair) {
-    const GroupId group = groups_.is_scripted(v) ? groups_.group(v) : at_start_of_round(v, raised).carrier;
-    if (group != ScriptedGroups::kCloth && groups_.moves(group)) result.push_back(group);
+  for (const Mover& mover : movers) {
+    if (mover.group != ScriptedGroups::kCloth && groups_.moves(mover.group)) result.push_back(mover.group);
   }
   keep_sorted_once(result);
   return result;
@@ -137,10 +145,12 @@ std::optional<StepLimiter::Conflict> StepLimiter::restrain(const CollisionTracke
   for (const Collision& collision : tracker.collisions()) {
     if (collision.ccd.cause == CcdCause::kEnd) continue;
     const std::array<VertexId, 4> pair = tracker.vertices(collision);
-    const std::vector<GroupId> moving = moving_groups(pair, raised);
+    const std::array<Mover, 4> movers = this->movers(pair, raised);
+    const std::vector<GroupId> moving = moving_groups(movers);
     if (raise(pair, moving, raised)) continue;
     SELVAGE_ASSERT(!moving.empty());  // else all four vertices are frozen, and the tracker drops such pairs
-    if (!conflict) conflict = Conflict{collision, {}, {}};
+    if (!conflict) conflict = Conflict{collision, {}, {}, {}};
+    add_blockages(collision, pair, movers, groups_, motion, conflict->blockages);
     // All conflicts that share no group wait at once: one after the other 160 of them took 36 s. What shares a group
     // with these may find room when they wait.
     const auto is_named = [&](GroupId group) {
@@ -149,10 +159,9 @@ std::optional<StepLimiter::Conflict> StepLimiter::restrain(const CollisionTracke
     if (std::ranges::none_of(moving, is_named)) {
       conflict->groups.insert(conflict->groups.end(), moving.begin(), moving.end());
     }
-    for (const VertexId v : pair) {
-      const Restrained own = at_start_of_round(v, raised);
-      for (const VertexId mover : own.level == Restraint::kCarried ? own.met : std::array{v, v, v, v}) {
-        if (groups_.is_scripted(mover) && motion.moves(mover)) conflict->vertices.push_back(mover);
+    for (const Mover& mover : movers) {
+      for (const VertexId v : mover.vertices) {
+        if (groups_.is_scripted(v) && motion.moves(v)) conflict->vertices.push_back(v);
       }
     }
   }

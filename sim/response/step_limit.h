@@ -17,6 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/blockage.h"
+#include "sim/response/blocked_bodies.h"
 #include "sim/response/collision_tracker.h"
 #include "sim/response/scripted_groups.h"
 
@@ -39,9 +41,10 @@ class StepLimiter {
  public:
   /// Collisions in which nothing can be held back.
   struct Conflict {
-    Collision collision;             ///< the first
-    std::vector<GroupId> groups;     ///< that move in it, and in those that have none of these; not empty
-    std::vector<VertexId> vertices;  ///< scripted ones that move in any of them, or carry what is in it
+    Collision collision;              ///< the first
+    std::vector<GroupId> groups;      ///< that move in it, and in those that have none of these; not empty
+    std::vector<VertexId> vertices;   ///< scripted ones that move in any of them, or carry what is in it
+    std::vector<Blockage> blockages;  ///< in all of them
   };
 
   /// `reach`: how far clearances are looked for; a limited vertex moves at most kBallShare of it.
@@ -60,8 +63,10 @@ class StepLimiter {
   };
   /// Levels and carriers are those at the start of the round, so that the order of pairs does not matter.
   [[nodiscard]] Restrained at_start_of_round(VertexId vertex, const std::vector<std::uint8_t>& raised) const;
-  [[nodiscard]] std::vector<GroupId> moving_groups(const std::array<VertexId, 4>& pair,
-                                                   const std::vector<std::uint8_t>& raised) const;
+  [[nodiscard]] std::array<Mover, 4> movers(const std::array<VertexId, 4>& pair,
+                                            const std::vector<std::uint8_t>& raised) const;
+  /// Those of their groups that move.
+  [[nodiscard]] std::vector<GroupId> moving_groups(const std::array<Mover, 4>& movers) const;
   /// The pair, or, where the carrier is in it by what it carries alone, the pair that this met.
   [[nodiscard]] std::array<VertexId, 4> met_by(GroupId carrier, const std::array<VertexId, 4>& pair,
                                                const std::vector<std::uint8_t>& raised) const;

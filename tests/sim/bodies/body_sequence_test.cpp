@@ -249,6 +249,62 @@ sequence = {file = "jaws_*.obj", frames_per_s = 30}
   EXPECT_EQ(lag, 0) << "back to the bit";
 }
 
+// A foot that steps 3.5 mm too deep on a hem, and slides on. What was in the way stood still, and the foot was drawn
+// out to 0.27 m.
+TEST_F(BodySequenceTest, GoesOnAlongWhatBlocksIt) {
+  const Shape foot = make_sphere(0.03, 2);
+  for (int i = 0; i <= 24; ++i) {
+    const double t = i / 30.0, down = std::min(t / 0.2, 1.0), up = std::max(0.0, (t - 0.6) / 0.1);
+    const Vec3 at(0.1 + 0.75 * std::clamp(t - 0.3, 0.0, 0.3), 0, 0.06 - 0.0335 * down + 0.1 * up);
+    std::string text;
+    for (Eigen::Index v = 0; v < foot.x.rows(); ++v) {
+      const Vec3 x = foot.x.row(v).transpose() + at;
+      text += fmt::format("v {} {} {}\n", x.x(), x.y(), x.z());
+    }
+    for (const auto& f : foot.triangles) text += fmt::format("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    spit("foot_" + std::to_string(i) + ".obj", text);
+  }
+  spit("hem.toml", R"(squeeze = "yield"
+gravity_m_s2 = [0, 0, -9.81]
+[time]
+frames_per_s = 30
+frames = 24
+max_step_s = 0.0167
+[collision]
+thickness_m = 0.004
+friction_static = 0.5
+friction_kinetic = 0.4
+[[cloth]]
+sheet = {nx = 16, ny = 16, width_m = 0.4, height_m = 0.4}
+position_m = [0, 0, 0.0045]
+density_kg_m2 = 0.2
+stretch_n_m = 60
+shear_n_m = 20
+damping_ratio = 0.1
+[[body]]
+name = "foot"
+sequence = {file = "foot_*.obj", frames_per_s = 30}
+[[body]]
+name = "ground"
+sheet = {nx = 2, ny = 2, width_m = 20, height_m = 20}
+)");
+  Simulation simulation(read_scene(folder_.path() / "hem.toml"));
+  const Collider& body = simulation.world().colliders.front();
+  double farthest_behind_m = 0;
+  std::int64_t waits = 0;
+  testing::run_exactly_free(simulation, 24, [&](const StepResult& step) {
+    waits += std::ssize(step.report.waiting_bodies);
+    EXPECT_EQ(step.report.fail_safe_vertices, 0);
+    const Positions script = body.placed_at(simulation.clock().time_s(), Precision::kFloat64, simulation.x());
+    const Positions now = simulation.x()(body.vertices(), Eigen::all);
+    farthest_behind_m = std::max(farthest_behind_m, (script - now).rowwise().norm().maxCoeff());
+  });
+  EXPECT_GT(waits, 10);
+  EXPECT_LT(farthest_behind_m, 0.02);
+  EXPECT_EQ(Positions(simulation.x()(body.vertices(), Eigen::all)),
+            body.placed_at(simulation.clock().time_s(), Precision::kFloat64, simulation.x()));
+}
+
 TEST_F(BodySequenceTest, ThatChangesIsAnotherScene) {
   write_frames();
   const Scene same = scene();

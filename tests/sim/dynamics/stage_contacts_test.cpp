@@ -415,7 +415,9 @@ TEST(StageContacts, WhatLiesOnABodyGoesWithIt) {
       EXPECT_LT((motion.v.row(0).transpose() - way / kStageStep).norm(), steps * known_m / kStageStep);
       ASSERT_EQ(one.held.loads().vf.size(), 1U);
       const double load_m_s2 = one.held.loads().vf.front().acceleration_m_s2;
-      if (steps == 5) EXPECT_NEAR(load_m_s2, gravity_m_s2, 0.01 * gravity_m_s2);
+      if (steps == 5) {
+        EXPECT_NEAR(load_m_s2, gravity_m_s2, 0.01 * gravity_m_s2);
+      }
     }
   }
 }

@@ -71,6 +71,7 @@ TEST_F(RecorderTest, KeepsTheStateInCheckpoints) {
   }
   Checkpoint written;
   written.state = simulation.state();
+  written.state.blocked = {{{.body = 3, .vertex = 5, .at_m = {0.5, -2, 1e-9}, .direction = {0.6, 0, 0.8}}, 0.25, 1e-3}};
   const SimulationState& state = written.state;
   const std::filesystem::path file = folder_.path() / "checkpoint.bin";
   write_checkpoint(file, written);
@@ -84,6 +85,7 @@ TEST_F(RecorderTest, KeepsTheStateInCheckpoints) {
     EXPECT_EQ(kept.clock, state.clock);
     EXPECT_EQ(kept.loads, state.loads);
     EXPECT_EQ(kept.pressed, state.pressed);
+    EXPECT_EQ(kept.blocked, state.blocked);
   }
 }
 

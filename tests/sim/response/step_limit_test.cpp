@@ -1,5 +1,6 @@
 #include "sim/response/step_limit.h"
 
+#include "sim/base/sorted_once.h"
 #include "tests/property.h"
 #include "tests/sim/mechanics.h"
 #include "tests/sim/step_scene.h"
@@ -15,6 +16,12 @@ Shape lone_triangle(double size_m) {
   return shape;
 }
 
+std::vector<std::uint8_t> flags_of(const StepScene& scene) {
+  std::vector<std::uint8_t> is_cloth;
+  for (const std::int32_t body : scene.body) is_cloth.push_back(static_cast<std::uint8_t>(body < 0));
+  return is_cloth;
+}
+
 /// What the fail-safe begins with: the motion of a scene, and what collides in it.
 struct Tracked {
   explicit Tracked(const StepScene& scene)
@@ -22,9 +29,9 @@ struct Tracked {
         hierarchy(mesh),
         bodies(scene.bodies()),
         groups(bodies),
-        all(static_cast<std::size_t>(mesh.vertex_count), 1),
+        is_cloth(flags_of(scene)),
         contacts(mesh, {}, {}),
-        tracker(mesh, hierarchy, contacts, 4096, all) {
+        tracker(mesh, hierarchy, contacts, 4096, is_cloth) {
     motion.start(scene.V_t0, scene.V_candidate, Precision::kFloat64);
     groups.observe(motion);
     tracker.start(motion);
@@ -33,7 +40,7 @@ struct Tracked {
   BoxHierarchy hierarchy;
   CollisionBodies bodies;
   ScriptedGroups groups;
-  std::vector<std::uint8_t> all;
+  std::vector<std::uint8_t> is_cloth;  ///< or a pin: two bodies do not meet
   ContactTable contacts;
   CollisionTracker tracker;
   StepMotion motion;
@@ -115,7 +122,7 @@ TEST(FailSafe, ARoundLimitsEveryVertexOfACollidingPair) {
   StepLimiter limiter(step.mesh, step.hierarchy, step.groups, 1);
   ASSERT_FALSE(limiter.restrain(step.tracker, step.motion));
   EXPECT_EQ(std::ssize(limiter.restrained()), std::ranges::count(collides, 1));
-  const std::vector<double> distance = clearance(step.mesh, step.hierarchy, scene.V_t0, 1, step.all);
+  const std::vector<double> distance = clearance(step.mesh, step.hierarchy, scene.V_t0, 1, step.is_cloth);
   for (std::size_t v = 0; v < collides.size(); ++v) {
     if (collides[v] == 0) continue;
     const auto row = static_cast<Eigen::Index>(v);
@@ -169,6 +176,80 @@ TEST(FailSafe, BodiesOfAllPlacesWithoutRoomAreNamedAtOnce) {
   }
   EXPECT_EQ(step.motion.x(), scene.V_candidate) << "other cloth is not held back yet";
 }
+
+namespace {
+
+/// What blocks the bodies of a scene in which nothing can give way any more.
+std::vector<Blockage> blockages_of(const StepScene& scene, std::int32_t first_pin = 100) {
+  Tracked step(scene);
+  step.bodies.first_pin = first_pin;
+  const ScriptedGroups groups = [&] {
+    ScriptedGroups of_bodies(step.bodies);
+    of_bodies.observe(step.motion);
+    return of_bodies;
+  }();
+  StepLimiter limiter(step.mesh, step.hierarchy, groups, 1);
+  for (;;) {
+    if (const auto conflict = limiter.restrain(step.tracker, step.motion)) return conflict->blockages;
+    step.tracker.update(step.motion);
+    if (!step.tracker.has_motion_collision()) return {};
+  }
+}
+
+/// A body above cloth, and one below.
+StepScene pressed_cloth(double upper_z, double lower_z) {
+  StepScene scene;
+  scene.add(lone_triangle(0.2), Vec3(0.1, 0.1, 0));
+  const StepScene::Part upper = scene.add(lone_triangle(1), Vec3(0, 0, 0.05), 0);
+  const StepScene::Part lower = scene.add(lone_triangle(1), Vec3(0, 0, -0.05), 1);
+  scene.push(upper, Vec3(0, 0, upper_z));
+  scene.push(lower, Vec3(0, 0, lower_z));
+  return scene;
+}
+
+}  // namespace
+
+TEST(FailSafe, SaysInWhichDirectionABodyCannotGoOn) {
+  const std::vector<Blockage> found = blockages_of(pressed_cloth(-0.2, 0));
+  ASSERT_FALSE(found.empty());
+  for (const Blockage& blockage : found) {
+    EXPECT_EQ(blockage.body, 0) << "the other one does not move";
+    EXPECT_EQ(blockage.vertex, Blockage::kWholeBody);
+    EXPECT_LT((blockage.direction - Vec3::UnitZ()).norm(), 1e-9);
+    EXPECT_GT(blockage.at_m.x(), 0.09) << "where the cloth is";
+    EXPECT_LT(blockage.at_m.x(), 0.31);
+  }
+}
+
+TEST(FailSafe, SaysItOfBothThatCloseAndOfNoneThatGoesAway) {
+  bool of_upper = false, of_lower = false;
+  for (const Blockage& blockage : blockages_of(pressed_cloth(-0.2, 0.3))) {
+    (blockage.body == 0 ? of_upper : of_lower) = true;
+    EXPECT_LT((blockage.direction - (blockage.body == 0 ? 1 : -1) * Vec3::UnitZ()).norm(), 1e-9);
+  }
+  EXPECT_TRUE(of_upper);
+  EXPECT_TRUE(of_lower);
+  // The lower one comes from behind.
+  const std::vector<Blockage> pursued = blockages_of(pressed_cloth(0.1, 0.5));
+  ASSERT_FALSE(pursued.empty());
+  for (const Blockage& blockage : pursued) EXPECT_EQ(blockage.body, 1);
+}
+
+TEST(FailSafe, SaysWhichVerticesOfABodyThatDeformsCannotGoOn) {
+  StepScene scene = pressed_cloth(-0.2, 0);
+  scene.deforms = {1, 0};
+  std::vector<VertexId> vertices;
+  for (const Blockage& blockage : blockages_of(scene)) {
+    EXPECT_EQ(blockage.body, 0);
+    EXPECT_LT((blockage.direction - Vec3::UnitZ()).norm(), 1e-9);
+    EXPECT_EQ(blockage.at_m, Vec3(scene.V_t0.row(blockage.vertex)));
+    vertices.push_back(blockage.vertex);
+  }
+  keep_sorted_once(vertices);
+  EXPECT_EQ(vertices, (std::vector<VertexId>{3, 4, 5})) << "all of the face that presses";
+}
+
+TEST(FailSafe, SaysNothingOfPins) { EXPECT_TRUE(blockages_of(pressed_cloth(-0.2, 0), 0).empty()); }
 
 TEST(FailSafe, LimitsOnlyWhatCollides) {
   // One vertex is thrown through the other sheet; without responses only the vertices it meets are held back.
