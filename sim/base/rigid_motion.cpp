@@ -42,6 +42,13 @@ Centered centered(std::span<const Vec3> x, std::span<const double> share) {
   return result;
 }
 
+template <class Function>
+Vec3 weighted_sum(std::span<const double> weights, std::span<const Vec3> vectors, const Function& function) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < vectors.size(); ++i) sum += weights[i] * function(vectors[i]);
+  return sum;
+}
+
 /// Masses over their sum.
 std::vector<double> mass_shares(std::span<const double> inverse_mass) {
   const double least_inverse = *std::ranges::min_element(inverse_mass);  // of the heaviest node
@@ -62,7 +69,9 @@ RigidMotion momentum_motion(std::span<const Vec3> x, std::span<const Vec3> displ
   const std::vector<double> mass = mass_shares(inverse_mass);
   const Centered position = centered(x, mass);
   const Centered motion = centered(displacement, mass);
-  RigidMotion result{position.mean, motion.mean};
+  // The mean is rounded as displacement[0] is, of which a light node's may be the largest of all by far.
+  const Vec3 rest = weighted_sum(mass, displacement, [&](const Vec3& d) -> Vec3 { return d - motion.mean; });
+  RigidMotion result{position.mean, motion.mean + rest};
   Vec3 angular_momentum = Vec3::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -78,6 +87,9 @@ RigidMotion momentum_motion(std::span<const Vec3> x, std::span<const Vec3> displ
   const double sine_of_half = std::sin(angle / 2);
   // Rodrigues: R - 1 = sin(angle) [a] + (1 - cos(angle)) [a]^2, with 1 - cos written without cancellation.
   result.turn = std::sin(angle) * axis + 2 * sine_of_half * sine_of_half * axis * axis;
+  // About the true center the turn would not move the mean. About the rounded one it does, by a position's rounding,
+  // which far from the origin was 10^-10 of the momentum, and as every product is rounded.
+  result.translation -= weighted_sum(mass, x, [&](const Vec3& node) { return result.turned(node); });
   return result;
 }
 

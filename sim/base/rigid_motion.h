@@ -13,7 +13,8 @@ struct RigidMotion {
   Vec3 translation = Vec3::Zero();
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();  ///< R - 1: exactly zero where nothing turns
 
-  [[nodiscard]] Vec3 displacement(const Vec3& x) const { return translation + turn * (x - center); }
+  [[nodiscard]] Vec3 turned(const Vec3& x) const { return turn * (x - center); }  ///< what the turn moves x by
+  [[nodiscard]] Vec3 displacement(const Vec3& x) const { return translation + turned(x); }
 };
 
 /// A zone turns by at most this angle, 120 degrees. On straight paths the zone is mapped by (1-t) 1 + t R, whose least

@@ -63,6 +63,13 @@ TEST(MomentumMotion, TurnsByNoMoreThan120Degrees) {
   });
 }
 
+// Light nodes may be as far out and as fast as heavy ones.
+TEST(MomentumMotion, KeepsLinearMomentumAndDistancesFarFromTheOrigin) {
+  for (const ZoneShape shape : {ZoneShape::kSpread, ZoneShape::kLine, ZoneShape::kPoint}) {
+    check_property(400, 47, [&] { prop_far_zone_keeps_distances_and_momentum(shape); });
+  }
+}
+
 TEST(BestFitMotion, FindsARigidScript) {
   check_property(200, 45, [] {
     Nodes nodes = random_nodes(ZoneShape::kSpread, 1);

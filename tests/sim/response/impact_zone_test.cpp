@@ -1,6 +1,7 @@
 #include "sim/response/impact_zone.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -98,6 +99,44 @@ TEST(ImpactZones, WeighTheirVerticesByMass) {
     return displacement.row(1) + 2 * displacement.row(2) + 4 * displacement.row(3);
   };
   EXPECT_LT((momentum(scene.motion.displacement()) - momentum(before)).norm(), 1e-14);
+}
+
+// Positions are stored as the lattice can say them; displacements, and with them velocities, are as near the origin.
+TEST(ImpactZones, KeepLinearMomentumFarFromTheOrigin) {
+  const std::vector<double> inverse_mass{1e6, 1, 30, 1e3, 1, 1e4, 0, 0};
+  for (const double distance : {0.0, 1e3, 1e6, 1e9}) {
+    ZoneScene scene;
+    Positions V_t0(8, 3), V_t1(8, 3);
+    for (Eigen::Index v = 0; v < 8; ++v) {
+      const auto k = static_cast<double>(v);
+      V_t0.row(v) << distance + std::sin(k), distance / 3 + std::cos(2 * k), std::sin(3 * k) - distance;
+      const double speed = v == 0 ? 1 : 1e-3;  // the lightest is the fastest
+      V_t1.row(v) = V_t0.row(v) + speed * Eigen::RowVector3d(std::cos(5 * k), std::sin(7 * k), std::cos(11 * k));
+    }
+    scene.motion.start(V_t0, V_t1, Precision::kFloat64);
+    ImpactZones zones(8, scene.groups);
+    const Positions before = scene.motion.displacement();
+    ASSERT_TRUE(zones.merge({0, 1, 2, 3}));
+    ASSERT_TRUE(zones.merge({3, 4, 5, 5}));
+    zones.move_grown(before, inverse_mass, scene.motion);
+    const Positions& after = scene.motion.displacement();
+    Eigen::RowVector3d gained = Eigen::RowVector3d::Zero();
+    double scale = 0;
+    for (Eigen::Index v = 0; v < 6; ++v) {
+      const double mass = 1 / inverse_mass[static_cast<std::size_t>(v)];
+      gained += mass * (after.row(v) - before.row(v));
+      scale += mass * before.row(v).norm();
+    }
+    EXPECT_LE(gained.norm(), 1e-13 * scale) << distance;
+    const double ulp = 2.3e-16 * (distance + 2);
+    for (Eigen::Index v = 0; v < 6; ++v) {
+      for (Eigen::Index w = 0; w < v; ++w) {
+        const double length_t0 = (V_t0.row(v) - V_t0.row(w)).norm();
+        const double length_t1 = (scene.motion.x().row(v) - scene.motion.x().row(w)).norm();
+        EXPECT_NEAR(length_t1, length_t0, 2 * ulp) << distance;
+      }
+    }
+  }
 }
 
 // A zone that grows takes the motion from before all zones: by the last one it would have lost what a chord loses.

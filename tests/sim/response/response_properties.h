@@ -21,6 +21,7 @@ void prop_impulse_does_what_is_asked();
 void prop_repulsion_ends_the_approach();
 void prop_friction_keeps_momenta_and_the_cone();
 void prop_zone_keeps_distances_and_momentum(ZoneShape shape);
+void prop_far_zone_keeps_distances_and_momentum(ZoneShape shape);
 void prop_zone_keeps_angular_momentum(ZoneShape shape);
 
 }  // namespace selvage::sim::testbed
