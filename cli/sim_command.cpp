@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -72,6 +73,14 @@ void print_witness(const sim::Simulation& simulation, const sim::CollisionStepRe
     }
     if (has_pin) movers = has_body ? "bodies and pins" : "pins";
     say("; witness: {} at vertices {}", name_of_pair(pair.kind), parts);
+  }
+  std::set<std::int32_t> named;
+  for (const sim::Blockage& blockage : report.blockages) {
+    if (!named.insert(blockage.body).second) continue;
+    const sim::Collider& body = simulation.world().colliders[static_cast<std::size_t>(blockage.body)];
+    const Vec3& at = blockage.at_m;
+    say("; {} cannot go on at ({:.4g}, {:.4g}, {:.4g})", part_of_vertex(simulation.world(), body.vertices().front()),
+        at.x(), at.y(), at.z());
   }
   say("\nmove the {} apart, or set squeeze = \"yield\" to let them wait\n", movers);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -91,12 +92,11 @@ CollisionStepResult CollisionStep::operator()(const PositionsRef& V_t0, const Po
 
   ScriptedGroups groups(bodies);
   CollisionAttempt attempt(*impl_, bodies, groups, dt_s, patience, held);
-  auto conflict = attempt.run(V_t0, V_candidate);
   std::vector<Blockage> blockages;
-  while (conflict && bodies.policy == SqueezePolicy::kYield) {
-    blockages.insert(blockages.end(), conflict->blockages.begin(), conflict->blockages.end());
+  while (const auto conflict = attempt.run(V_t0, V_candidate)) {
+    std::ranges::copy(conflict->blockages, std::back_inserter(blockages));
+    if (bodies.policy == SqueezePolicy::kStop) break;
     groups.wait(conflict->groups, conflict->vertices);  // of which one at least moved till now: so this ends
-    conflict = attempt.run(V_t0, V_candidate);
   }
 
   result.report = std::move(attempt.report());

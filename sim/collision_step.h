@@ -59,7 +59,7 @@ struct CollisionStepReport {
   CollisionPhases phases;
   std::vector<std::int32_t> waiting_bodies;  ///< sorted; -1: the scripted vertices that belong to no body
   std::vector<VertexId> waiting_vertices;    ///< sorted; theirs: all, or some where they deform
-  /// What bodies had to wait for, as far as it is known: of all tries.
+  /// What bodies had to wait for, or the step had to stop for, as far as it is known: of all tries.
   std::vector<Blockage> blockages;
   std::vector<Collision> below_tolerance;  ///< free of touch, but not proved farther than tolerance at the end (S2)
   /// Those of them in which nothing moved, and which cannot be told from touching: free of touch because V_t0 is, at

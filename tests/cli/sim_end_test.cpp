@@ -103,6 +103,7 @@ TEST_F(SimCommand, SqueezedClothStopsTheRunOrTheBodiesWait) {
   const auto stopped = sim(scene(6, 0.2, 0.34));
   EXPECT_EQ(stopped.exit_code, 1);
   EXPECT_NE(stopped.err.find("stopped at"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("; ball cannot go on at ("), std::string::npos) << stopped.err;
   EXPECT_NE(stopped.err.find("(sheet)"), std::string::npos) << stopped.err;
   const auto end = nlohmann::json::parse(slurp(path("out") + "/run.json"));
   EXPECT_EQ(end["end"], "stopped");
