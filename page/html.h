@@ -23,7 +23,7 @@ struct Html {
 using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
 /// The text with &, <, >, " and ' escaped, fit for content and for quoted attributes. A byte that is not part of valid
-/// UTF-8, or a control character that HTML forbids, becomes U+FFFD.
+/// UTF-8, or a character that HTML or XML forbids (controls, U+FFFE, U+FFFF), becomes U+FFFD.
 [[nodiscard]] Html text(std::string_view plain);
 /// <tag name="value" ...>content</tag>. Tag and attribute names are literals of the caller.
 [[nodiscard]] Html element(std::string_view tag, Attributes attributes, const Html& content);

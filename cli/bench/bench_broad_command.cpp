@@ -11,6 +11,8 @@
 #include "cli/arguments/list_option.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
+#include "cli/bench/bench_figures.h"
+#include "cli/bench/bench_outputs.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
 
@@ -18,9 +20,10 @@ namespace selvage::cli {
 namespace {
 
 struct BroadArguments {
-  std::string frame_t0, frame_t1, json;
+  std::string frame_t0, frame_t1;
   int largest = 100'000;
   std::vector<double> pleat_advances{0.1};
+  BenchOutputs outputs;
   bench::BroadBenchOptions options;
 };
 
@@ -59,7 +62,7 @@ std::vector<int> sheet_sides(int largest) {
 }
 
 ExitCode bench_broad(const BroadArguments& arguments) {
-  require_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
+  require_outputs({arguments.frame_t0, arguments.frame_t1}, arguments.outputs.files());
   const auto rivals = bench::load_rivals(bench::rivals_beside_program());
   for (const bench::LoadedRival& rival : rivals) {
     if (!rival.create) say("selvage: without {}: {}\n", rival.name, rival.absent);
@@ -68,7 +71,7 @@ ExitCode bench_broad(const BroadArguments& arguments) {
   const auto run = [&](const std::string& name, const bench::MeshMotion& motion) {
     reports.push_back(bench::run_broad_bench(motion, rivals, arguments.options));
     reports.back().motion = name;
-    print_result(table(reports.back()), {arguments.json});
+    print_result(table(reports.back()), arguments.outputs.files());
   };
   if (!arguments.frame_t0.empty()) {
     if (arguments.frame_t1.empty()) throw UsageError("a motion needs two frames: add FRAME_T1");
@@ -83,8 +86,9 @@ ExitCode bench_broad(const BroadArguments& arguments) {
   }
   print_result(fmt::format("processor time of all threads, and wall time of the query; best of {} passes; reach 0\n",
                            arguments.options.repeat),
-               {arguments.json});
-  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports, rivals));
+               arguments.outputs.files());
+  if (!arguments.outputs.json.empty()) write_report(arguments.outputs.json, bench::to_json(reports, rivals));
+  if (!arguments.outputs.svg.empty()) write_report(arguments.outputs.svg, plot::to_svg(figure_of(reports)));
   const auto wrong = [](const bench::BroadMotionReport& report) { return bench::is_wrong(report); };
   return std::ranges::any_of(reports, wrong) ? ExitCode::kViolation : ExitCode::kClean;
 }
@@ -114,7 +118,7 @@ void add_bench_broad_command(CLI::App& bench, Job& job) {
   broad.add_option("--sample", arguments->options.sampled, "Vertices and edges compared with brute force")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  broad.add_option("--json", arguments->json, "Also write the report to this file");
+  add_outputs(broad, arguments->outputs);
   broad.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

@@ -14,6 +14,8 @@
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/thread_limit.h"
+#include "cli/bench/bench_figures.h"
+#include "cli/bench/bench_outputs.h"
 #include "cli/bench/plugin_method.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
@@ -22,10 +24,11 @@ namespace selvage::cli {
 namespace {
 
 struct CcdArguments {
-  std::string frame_t0, frame_t1, json;
+  std::string frame_t0, frame_t1;
   std::vector<std::vector<std::string>> truth;
   int sheet = 160;
   PluginArguments plugin;
+  BenchOutputs outputs;
   bench::CcdBenchOptions options;
 };
 
@@ -71,7 +74,7 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   for (const std::vector<std::string>& files : arguments.truth) inputs.insert(inputs.end(), files.begin(), files.end());
   const bool has_plugin = !arguments.plugin.library.empty();
   if (has_plugin) inputs.emplace_back(arguments.plugin.library);
-  require_outputs(inputs, {arguments.json});
+  require_outputs(inputs, arguments.outputs.files());
   const bench::MeshMotion motion = from_files ? bench::read_mesh_motion(arguments.frame_t0, arguments.frame_t1)
                                               : bench::crumpled_sheet(arguments.sheet);
   std::vector<bench::LabelledPair> labels;
@@ -94,8 +97,9 @@ ExitCode bench_ccd(const CcdArguments& arguments) {
   }
   bench::CcdBenchReport report = bench::run_ccd_bench(motion, std::move(candidates), labels, arguments.options, guest);
   report.motion = from_files ? arguments.frame_t0 + " -> " + arguments.frame_t1 : "crumpled sheet";
-  print_result(table(report), {arguments.json});
-  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
+  print_result(table(report), arguments.outputs.files());
+  if (!arguments.outputs.json.empty()) write_report(arguments.outputs.json, bench::to_json(report));
+  if (!arguments.outputs.svg.empty()) write_report(arguments.outputs.svg, plot::to_svg(figure_of(report)));
   const auto is_wrong = [](const bench::CcdMethodReport& method) {
     const bool must_be_safe = method.name.starts_with("kernel") || method.name == bench::kGuestRow;
     return must_be_safe && (method.false_negatives > 0 || method.toi.late > 0);
@@ -125,7 +129,7 @@ void add_bench_ccd_command(CLI::App& bench, Job& job) {
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
   add_plugin(ccd, arguments->plugin);
-  ccd.add_option("--json", arguments->json, "Also write the report to this file");
+  add_outputs(ccd, arguments->outputs);
   ccd.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

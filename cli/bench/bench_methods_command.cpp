@@ -9,6 +9,8 @@
 #include "bench/method_bench.h"
 #include "cli/answer/result.h"
 #include "cli/arguments/output_check.h"
+#include "cli/bench/bench_figures.h"
+#include "cli/bench/bench_outputs.h"
 #include "cli/bench/hard_queries.h"
 #include "cli/command.h"
 #include "io/file/text.h"
@@ -17,8 +19,9 @@ namespace selvage::cli {
 namespace {
 
 struct MethodsArguments {
-  std::string frame_t0, frame_t1, json;
+  std::string frame_t0, frame_t1;
   int sheet = 60, hard = 2000, most = 100'000;
+  BenchOutputs outputs;
   bench::MethodBenchOptions options;
 };
 
@@ -36,14 +39,15 @@ std::string table(const bench::SetReport& report) {
 }
 
 ExitCode bench_methods(const MethodsArguments& arguments) {
-  require_outputs({arguments.frame_t0, arguments.frame_t1}, {arguments.json});
+  require_outputs({arguments.frame_t0, arguments.frame_t1}, arguments.outputs.files());
   std::vector<bench::SetReport> reports;
   const auto run = [&](const bench::QuerySet& set) {
     if (set.queries.empty()) {
-      return print_result(fmt::format("{}: no candidate pairs, so nothing is asked\n", set.name), {arguments.json});
+      return print_result(fmt::format("{}: no candidate pairs, so nothing is asked\n", set.name),
+                          arguments.outputs.files());
     }
     reports.push_back(bench::run_method_bench(set, arguments.options));
-    print_result(table(reports.back()), {arguments.json});
+    print_result(table(reports.back()), arguments.outputs.files());
   };
   const auto most = static_cast<std::size_t>(arguments.most);
   if (!arguments.frame_t0.empty()) {
@@ -64,8 +68,9 @@ ExitCode bench_methods(const MethodsArguments& arguments) {
                            "says "
                            "the truth; times of impact as shares of the step\n",
                            arguments.options.repeat, bench::kBaselineMethod, bench::kBaselineSetting),
-               {arguments.json});
-  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports));
+               arguments.outputs.files());
+  if (!arguments.outputs.json.empty()) write_report(arguments.outputs.json, bench::to_json(reports));
+  if (!arguments.outputs.svg.empty()) write_report(arguments.outputs.svg, plot::to_svg(figure_of(reports)));
   return std::any_of(reports.begin(), reports.end(), bench::breaks_promise) ? ExitCode::kViolation : ExitCode::kClean;
 }
 
@@ -94,7 +99,7 @@ void add_bench_methods_command(CLI::App& bench, Job& job) {
   methods.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  methods.add_option("--json", arguments->json, "Also write the report to this file");
+  add_outputs(methods, arguments->outputs);
   methods.callback([arguments, &job] { job = [arguments] { return bench_methods(*arguments); }; });
 }
 

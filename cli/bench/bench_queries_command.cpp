@@ -15,6 +15,8 @@
 #include "cli/answer/result.h"
 #include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
+#include "cli/bench/bench_figures.h"
+#include "cli/bench/bench_outputs.h"
 #include "cli/bench/plugin_method.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
@@ -24,8 +26,9 @@ namespace {
 
 struct QueriesArguments {
   std::vector<std::string> files;
-  std::string kind, json;
+  std::string kind;
   PluginArguments plugin;
+  BenchOutputs outputs;
   bench::QueryBenchOptions options;
 };
 
@@ -81,7 +84,7 @@ void print_contradicted(const std::vector<std::string>& places) {
 ExitCode bench_queries(const QueriesArguments& arguments) {
   std::vector<std::filesystem::path> inputs = {arguments.files.begin(), arguments.files.end()};
   if (!arguments.plugin.library.empty()) inputs.emplace_back(arguments.plugin.library);
-  require_outputs(inputs, {arguments.json});
+  require_outputs(inputs, arguments.outputs.files());
   std::vector<bench::QueryFile> files;
   std::size_t count = 0;
   for (const std::string& name : arguments.files) {
@@ -99,8 +102,9 @@ ExitCode bench_queries(const QueriesArguments& arguments) {
     guest = std::move(measured.method);
   }
   const bench::QueryBenchReport report = bench::run_query_bench(files, arguments.options, guest);
-  print_result(table(report), {arguments.json});
-  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
+  print_result(table(report), arguments.outputs.files());
+  if (!arguments.outputs.json.empty()) write_report(arguments.outputs.json, bench::to_json(report));
+  if (!arguments.outputs.svg.empty()) write_report(arguments.outputs.svg, plot::to_svg(figure_of(report)));
   print_contradicted(report.contradicted);
   const auto must_be_safe = [](const bench::MethodReport& method) {
     return method.name == "kernel" || method.name == bench::kGuestRow;
@@ -127,7 +131,7 @@ void add_bench_queries_command(CLI::App& bench, Job& job) {
   queries.add_option("--kind", arguments->kind, "vf or ee, for files whose names do not say")
       ->check(CLI::IsMember({"vf", "ee"}));
   add_plugin(queries, arguments->plugin);
-  queries.add_option("--json", arguments->json, "Also write the report to this file");
+  add_outputs(queries, arguments->outputs);
   queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

@@ -10,13 +10,15 @@
 #include "cli/arguments/choice.h"
 #include "cli/arguments/list_option.h"
 #include "cli/arguments/output_check.h"
+#include "cli/bench/bench_figures.h"
+#include "cli/bench/bench_outputs.h"
 #include "cli/command.h"
 
 namespace selvage::cli {
 namespace {
 
 struct SimBenchArguments {
-  std::string json;
+  BenchOutputs outputs;
   bench::SimBenchOptions options;
 };
 
@@ -66,13 +68,14 @@ std::string tables(const bench::SimBenchReport& report) {
 }
 
 ExitCode bench_sim(const SimBenchArguments& arguments) {
-  require_outputs({}, {arguments.json});
+  require_outputs({}, arguments.outputs.files());
   const bench::SimBenchReport report = bench::run_sim_bench(arguments.options);
-  print_result(tables(report), {arguments.json});
+  print_result(tables(report), arguments.outputs.files());
   print_result(
       fmt::format("processor time of all threads, best of {} runs (growth: one run)\n", arguments.options.repeat),
-      {arguments.json});
-  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(report));
+      arguments.outputs.files());
+  if (!arguments.outputs.json.empty()) write_report(arguments.outputs.json, bench::to_json(report));
+  if (!arguments.outputs.svg.empty()) write_report(arguments.outputs.svg, plot::to_svg(figure_of(report)));
   return ExitCode::kClean;
 }
 
@@ -108,7 +111,7 @@ void add_bench_sim_command(CLI::App& bench, Job& job) {
   sim.add_option("--repeat", options.repeat, "Runs of each short scene")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  sim.add_option("--json", arguments->json, "Also write the report to this file");
+  add_outputs(sim, arguments->outputs);
   sim.callback([arguments, &job] { job = [arguments] { return bench_sim(*arguments); }; });
 }
 

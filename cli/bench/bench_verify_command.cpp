@@ -9,6 +9,8 @@
 #include "cli/answer/result.h"
 #include "cli/arguments/list_option.h"
 #include "cli/arguments/output_check.h"
+#include "cli/bench/bench_figures.h"
+#include "cli/bench/bench_outputs.h"
 #include "cli/command.h"
 #include "cli/process/terminal.h"
 
@@ -16,7 +18,7 @@ namespace selvage::cli {
 namespace {
 
 struct VerifyBenchArguments {
-  std::string json;
+  BenchOutputs outputs;
   bench::VerifyBenchOptions options;
 };
 
@@ -42,17 +44,18 @@ std::string table(const bench::VerifySheetReport& report) {
 }
 
 ExitCode bench_verify(const VerifyBenchArguments& arguments) {
-  require_outputs({}, {arguments.json});
+  require_outputs({}, arguments.outputs.files());
   const bench::LoadedFrameRival rival = bench::load_frame_rival(bench::rivals_beside_program());
   if (!rival.create) say("selvage: without CGAL: {}\n", rival.absent);
   const std::vector<bench::VerifySheetReport> reports = bench::run_verify_bench(rival, arguments.options);
-  for (const bench::VerifySheetReport& report : reports) print_result(table(report), {arguments.json});
+  for (const bench::VerifySheetReport& report : reports) print_result(table(report), arguments.outputs.files());
   print_result(fmt::format("each method in a process of its own; processor time of all threads and wall time, best of "
                            "{} passes; /frame: "
                            "processor time over that of the frame check in the same run\n",
                            arguments.options.repeat),
-               {arguments.json});
-  if (!arguments.json.empty()) write_report(arguments.json, bench::to_json(reports, rival));
+               arguments.outputs.files());
+  if (!arguments.outputs.json.empty()) write_report(arguments.outputs.json, bench::to_json(reports, rival));
+  if (!arguments.outputs.svg.empty()) write_report(arguments.outputs.svg, plot::to_svg(figure_of(reports)));
   const auto wrong = [](const bench::VerifySheetReport& report) { return bench::is_wrong(report); };
   return std::ranges::any_of(reports, wrong) ? ExitCode::kViolation : ExitCode::kClean;
 }
@@ -78,7 +81,7 @@ void add_bench_verify_command(CLI::App& bench, Job& job) {
   verify.add_option("--repeat", arguments->options.repeat, "Timed passes")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  verify.add_option("--json", arguments->json, "Also write the report to this file");
+  add_outputs(verify, arguments->outputs);
   verify.callback([arguments, &job] { job = [arguments] { return bench_verify(*arguments); }; });
 }
 

@@ -190,6 +190,7 @@ TEST(Options, ANameThatNoFileCanHaveIsFourBeforeTheWork) {
       {"doctor", "--json", json},
       {"bench", "queries", queries, "--json", json},
       {"bench", "ccd", "--sheet", "10", "--json", json},
+      {"bench", "ccd", "--sheet", "10", "--svg", json},
       {"bench", "broad", "--largest", "100", "--repeat", "1", "--json", json},
       {"bench", "methods", "--sheet", "2", "--hard", "10", "--repeat", "1", "--json", json},
       {"bench", "verify", "--faces", "100", "--repeat", "1", "--json", json},

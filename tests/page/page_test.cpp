@@ -28,6 +28,7 @@ TEST(PageHtml, BytesThatAreNoTextAreReplaced) {
   EXPECT_EQ(text("\xC0\xAF").code, replacement + replacement) << "a longer form of a slash";
   EXPECT_EQ(text("\xED\xA0\x80").code, replacement + replacement + replacement) << "half a surrogate pair";
   EXPECT_EQ(text(std::string("a\0\x1b\x7f\n", 5)).code, "a" + replacement + replacement + replacement + "\n");
+  EXPECT_EQ(text("\xEF\xBF\xBE\xEF\xBF\xBF").code, replacement + replacement) << "no characters, to XML";
 }
 
 TEST(Page, IsOneFileThatForbidsToLoadAnything) {
