@@ -27,8 +27,8 @@ bool is_named(const fs::path& file, std::span<const char* const> extensions) {
   return std::ranges::any_of(extensions, [&](const char* extension) { return io::has_extension(file, extension); });
 }
 
-/// A slip of the hand: reports are named .json, .html or .png, and replace what they were before. Nothing else may go,
-/// under whatever link.
+/// A slip of the hand: reports are named .json, .html, .png or .svg, and replace what they were before. Nothing else
+/// may go, under whatever link.
 void require_replaceable(const fs::path& output) {
   constexpr auto kKept = std::to_array({".toml", ".csv", ".jsonl", ".bin"});
   std::error_code absent;

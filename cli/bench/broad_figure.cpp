@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/bench/bench_figures.h"
+#include "cli/bench/series_name.h"
 
 namespace selvage::cli {
 
@@ -22,7 +23,7 @@ plot::Figure figure_of(const std::vector<bench::BroadMotionReport>& reports) {
     const auto count = static_cast<double>(report->vf + report->ee);
     const std::string motion = fmt::format("{}, {} faces", report->motion, report->faces);
     for (const bench::BroadMethodReport& method : report->methods) {
-      const std::string name = fmt::format("{}, {} threads", method.name, method.thread_count);
+      const std::string name = series_name(method.name, method.thread_count);
       const std::string words = fmt::format(
           "{}\nbuild {:.1f} ms, refit {:.1f} ms, query {:.1f} ms, on the wall {:.1f} ms\n{} pairs missing, {} extra",
           motion, method.build.cpu * 1e-6, method.refit.cpu * 1e-6, method.query.cpu * 1e-6, method.query.wall * 1e-6,

@@ -8,6 +8,7 @@
 
 #include "bench/sim_scenes.h"
 #include "cli/bench/bench_figures.h"
+#include "cli/bench/series_name.h"
 #include "cli/plot/scale.h"
 
 namespace selvage::cli {
@@ -69,7 +70,7 @@ void add_growth(plot::Figure& figure, const std::vector<bench::GrowthRow>& rows)
   const plot::Axis nodes{"nodes along a side"};
   plot::Curves processor{nodes, {"processor time a step, ms"}, {}}, wall{nodes, {"wall time a step, ms"}, {}};
   for (const bench::GrowthRow& row : rows) {
-    const std::string name = fmt::format("{}, {} threads", bench::solver_name(row.solver), row.thread_count);
+    const std::string name = series_name(bench::solver_name(row.solver), row.thread_count);
     const double cpu_ms = ms_of_each(row.run.cpu_ns, row.run.steps),
                  wall_ms = ms_of_each(row.run.wall_ns, row.run.steps);
     const sim::StepPhases& phases = row.run.phases;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/bench/bench_figures.h"
+#include "cli/bench/series_name.h"
 
 namespace selvage::cli {
 
@@ -22,7 +23,7 @@ plot::Figure figure_of(const std::vector<bench::VerifySheetReport>& reports) {
     const auto size = static_cast<double>(report->faces);
     for (const bench::VerifyMethodReport& method : report->methods) {
       const std::string name =
-          fmt::format("{}, {} threads{}", method.name, method.thread_count, report->planted ? ", pushed through" : "");
+          series_name(method.name, method.thread_count) + (report->planted ? ", pushed through" : "");
       const std::string words = fmt::format(
           "{} faces, {} layers\n{:.3f} s of the processor, {:.3f} s on the wall, {:.3f} s to build\n{} found, {} "
           "differ; {} "

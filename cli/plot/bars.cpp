@@ -10,8 +10,8 @@ using page::Html;
 
 namespace {
 
-constexpr double kRow = 24, kHead = 24, kFoot = 48, kCell = 78;
-constexpr std::size_t kMostOfLabel = 36;
+constexpr double kRow = 24, kHead = 24, kFoot = 48, kCell = 72;
+constexpr std::size_t kMostOfLabel = 30;
 
 }  // namespace
 
