@@ -89,7 +89,8 @@ plot::Figure figure_of(const std::vector<bench::SetReport>& reports) {
                       {"left and low is best; a point a setting; one thread; the exact checker says the truth"},
                       3,
                       {}};
-  const plot::Axis time{fmt::format("time a query, multiple of {}", bench::kBaselineMethod)};
+  const plot::Axis time{
+      fmt::format("time a query, multiple of {} {}", bench::kBaselineMethod, bench::kBaselineSetting)};
   for (const bench::SetReport& report : reports) {
     plot::Curves missed{time, {"missed, share of what touches"}, {}},
         alarms{time, {"false alarms, share of the others"}, {}}, off{time, {"toi off by (p99), share of the step"}, {}};
