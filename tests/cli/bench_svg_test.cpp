@@ -18,7 +18,7 @@ using testing::slurp;
 using testing::spit;
 using testing::TemporaryFolder;
 
-/// A vertex that rests on a face: one query, or 1 of 3 columns of many.
+/// One end of a query: a vertex that rests on a face.
 const std::string kTouch = "1,4,1,4,0,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,1,1,0,1\n";
 
 /// Of each bench, as little as it can do.
@@ -30,12 +30,12 @@ const std::vector<std::vector<std::string>> kBenches = {
     {"verify", "--faces", "100,200", "--layers", "2", "--motion", "--repeat", "1"},
 };
 
-testing::ProgramResult bench(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+testing::ProgramResult run_bench(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "bench");
   return run_program(folder, arguments);
 }
 
-std::size_t occurrences(const std::string& text, const std::string& part) {
+std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + part.size())) ++count;
   return count;
@@ -65,13 +65,13 @@ TEST(BenchSvg, OfEveryBenchIsAPictureWithAllRowsOfItsTables) {
   for (std::vector<std::string> arguments : kBenches) {
     SCOPED_TRACE(arguments[0]);
     arguments.insert(arguments.end(), {"--svg", file, "--json", json});
-    const auto result = bench(folder, arguments);
+    const auto result = run_bench(folder, arguments);
     EXPECT_LE(result.exit_code, 1) << result.err;
     const std::string svg = slurp(file);
     expect_picture(svg);
     const auto report = nlohmann::json::parse(slurp(json));
     // A title is the figure's, or a point's with its row.
-    const std::size_t points = occurrences(svg, "</title></path>"), bars = occurrences(svg, "<rect ") - 1;
+    const std::size_t points = count_of(svg, "</title></path>"), bars = count_of(svg, "<rect ") - 1;
     std::size_t rows = 0;
     if (arguments[0] == "ccd") {
       EXPECT_EQ(bars, report.at("methods").size());
@@ -107,10 +107,10 @@ TEST(BenchSvg, NamesOfStrangersAreText) {
   const TemporaryFolder folder;
   const auto svg = folder.path() / "out.svg";
   const std::string name = "</text><script>\"&'\x01\xFF\xEF\xBF\xBF_vf.csv", file = folder.path() / "q_vf.csv";
-  std::filesystem::create_directory(folder.path() / "<");  // the slash of the name
+  std::filesystem::create_directory(folder.path() / "<");  // what stands before the slash of the name
   const std::string hostile = folder.path() / name;
   spit(hostile, kTouch + kTouch);
-  const auto result = bench(folder, {"queries", hostile, "--repeat", "1", "--svg", svg});
+  const auto result = run_bench(folder, {"queries", hostile, "--repeat", "1", "--svg", svg});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::string picture = slurp(svg);
   expect_picture(picture);
@@ -126,13 +126,13 @@ TEST(BenchSvg, IsRefusedBeforeTheWorkWhereItCannotBeWritten) {
   benches.push_back({"queries", queries});
   for (std::vector<std::string> arguments : benches) {
     arguments.insert(arguments.end(), {"--svg", none});
-    const auto result = bench(folder, arguments);
+    const auto result = run_bench(folder, arguments);
     EXPECT_EQ(result.exit_code, 4) << arguments[0] << result.err;
     EXPECT_EQ(result.out, "") << arguments[0];
     expect_text(result.err, none);
   }
   for (const std::string& taken : {queries, (folder.path() / "out.json").string()}) {
-    const auto result = bench(folder, {"queries", queries, "--json", folder.path() / "out.json", "--svg", taken});
+    const auto result = run_bench(folder, {"queries", queries, "--json", folder.path() / "out.json", "--svg", taken});
     EXPECT_EQ(result.exit_code, 2) << result.err;
     expect_text(result.err, taken);
   }
@@ -142,7 +142,7 @@ TEST(BenchSvg, IsRefusedBeforeTheWorkWhereItCannotBeWritten) {
 
 TEST(BenchSvg, OnStdoutStandsThereAlone) {
   const TemporaryFolder folder;
-  const auto result = bench(folder, {"ccd", "--sheet", "4", "--repeat", "1", "--svg", "/dev/stdout"});
+  const auto result = run_bench(folder, {"ccd", "--sheet", "4", "--repeat", "1", "--svg", "/dev/stdout"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   expect_picture(result.out);
   expect_text(result.err, "one thread; processor time");
