@@ -7,6 +7,7 @@
 #include "sim/bodies/catch_up.h"
 
 namespace selvage::sim {
+
 ScriptedMotion::ScriptedMotion(const Scene& scene, const World& world)
     : scene_(scene), world_(world), blocked_(scene.collision.thickness_m) {
   std::set<std::int32_t> cloth_surfaces;

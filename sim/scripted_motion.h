@@ -41,7 +41,7 @@ class ScriptedMotion {
   [[nodiscard]] const Positions* bow_m() const { return bow_m_.isZero(0) ? nullptr : &bow_m_; }
   /// Who had to wait in a try is known before the next one, which starts from the same state: so the dynamics sees it
   /// stand still. Where it saw it move, cloth took up a motion that never was: pinched between two spheres that stood
-  /// it came to 70 m/s. Rigid bodies try to go on along what blocks them before they stand still.
+  /// it came to 70 m/s. Bodies try to go on along what blocks them before they stand still.
   void wait(const CollisionStepReport& report);
   /// Who is kept from its script in the step: bodies and vertices, as in CollisionStepReport.
   [[nodiscard]] std::pair<std::vector<std::int32_t>, std::vector<VertexId>> waiting() const;
