@@ -111,17 +111,29 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+namespace {
+
+/// Of a whole character of UTF-8: a terminal would obey it, or show the text around it as what it is not.
+bool is_control(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7f;
+  if (character.size() == 2) return byte(0) == 0xc2 && byte(1) < 0xa0;
+  if (character.size() != 3 || byte(0) != 0xe2) return false;
+  const unsigned number = 0x2000U | (byte(1) & 0x3fU) << 6 | (byte(2) & 0x3fU);
+  return (0x2028 <= number && number <= 0x202e) || (0x2066 <= number && number <= 0x2069);
+}
+
+}  // namespace
+
 std::string printable(std::string_view text, std::size_t most_bytes) {
   std::string result;
   while (!text.empty()) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0x80 ? 2 : 1;
     std::string_view character = text.substr(0, length);
-    const bool is_control = lead < 0x20 || lead == 0x7f ||
-                            (lead == 0xc2 && character.size() == 2 && static_cast<unsigned char>(character[1]) < 0xa0);
     const bool is_whole = is_utf8(character);
     text.remove_prefix(is_whole ? character.size() : 1);
-    if (!is_whole || is_control) character = "?";
+    if (!is_whole || is_control(character)) character = "?";
     if (result.size() + character.size() > most_bytes) break;
     result += character;
   }

@@ -64,7 +64,8 @@ NumberFault parse_number(std::string_view token, float& value);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view token);
 
 [[nodiscard]] bool is_utf8(std::string_view text);
-/// Foreign text for a terminal or a report: control characters and bytes that are no UTF-8 become '?'; cut in front of
+/// Foreign text for a terminal or a report: control characters, what turns the order of the text around (U+202A to
+/// U+202E, U+2066 to U+2069), ends of lines (U+2028, U+2029) and bytes that are no UTF-8 become '?'; cut in front of
 /// the character that does not fit into `most_bytes`.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most_bytes = std::string_view::npos);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/fail.h"
+#include "io/file/text.h"
 #include "kernel/assert.h"
 
 namespace selvage::sim {
@@ -19,16 +20,6 @@ std::string describe(const Range& range) {
   }
   if (bounded_below) return fmt::format("a number {} {}", range.lower_open ? "above" : "of at least", range.lower);
   return "a finite number";
-}
-
-// Of ASCII, and of the second page of Unicode (U+0080 to U+009F, in UTF-8), which terminals obey as well.
-bool has_control_character(std::string_view text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if (c < 0x20 || c == 0x7f || (c == 0xc2 && next >= 0x80 && next < 0xa0)) return true;
-  }
-  return false;
 }
 
 // Integers are numbers too: "duration_s = 4".
@@ -187,8 +178,8 @@ std::string TomlTable::text(std::string_view key, std::optional<std::string> fal
   return value_of(key, *node, [&](const toml::node& one) {
     if (!one.is_string()) fail(key, fmt::format("{} must be a string in quotes", key));
     const std::string value = *one.value<std::string>();
-    // Names are shown on terminals, which would obey them.
-    if (has_control_character(value)) fail(key, fmt::format("{} holds a control character; remove it", key));
+    // Names are shown on terminals, which would obey them. TOML is UTF-8.
+    if (io::printable(value) != value) fail(key, fmt::format("{} holds a control character; remove it", key));
     return value;
   });
 }

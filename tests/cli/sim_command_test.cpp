@@ -108,7 +108,8 @@ TEST_F(SimCommand, WhatRepelsIsNear) {
 }
 
 TEST_F(SimCommand, NamesThatATerminalWouldObeyAreRefused) {
-  for (const std::string name : {R"(x\u001b]0;title\u0007)", R"(x\u009b2J)", R"(two\nlines)"}) {
+  for (const std::string name : {R"(x\u001b]0;title\u0007)", R"(x\u009b2J)", R"(two\nlines)", R"(gnp.\u202etxt)",
+                                 R"(a\u2069)", R"(two\u2028lines)"}) {
     std::string text = scene(1, 0.2, 0.2);
     text.replace(text.find("\"sheet\"") + 1, 5, name);
     const auto result = sim(text);
