@@ -127,7 +127,7 @@ struct SequenceOptions {
   bool stop_at_violation = false;
   GroupRules rules = {};
   bool gap = false;   ///< find the smallest gap of all frames that are checked
-  bool weld = false;  ///< vertices with the same bits in every frame are one; reads the whole sequence beforehand
+  bool weld = false;  ///< vertices at the same place in every frame are one; reads the whole sequence beforehand
   /// The frames to check, with the motions that lead to them, [first, second); nothing: all. Part of a sequence.
   std::optional<std::pair<std::size_t, std::size_t>> range = {};
   /// What an earlier call gave to `checkpoint`, with the same sequence and options: its frames are not checked again.

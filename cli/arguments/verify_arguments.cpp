@@ -80,8 +80,9 @@ void add_what_may_touch(CLI::App& command, VerifyArguments& arguments) {
                  "report; may be repeated")
       ->type_name("A,B");
   add_repeatable(command, "--ignore", arguments.ignore, "A is no part of the check; may be repeated")->type_name("A");
-  command.add_flag("--weld", arguments.weld,
-                   "Join vertices that lie at one place, bit for bit, in every frame (split at seams by the writer)");
+  command.add_flag(
+      "--weld", arguments.weld,
+      "Join vertices that lie at one place in every frame: equal numbers, -0 and 0 too (split at seams by the writer)");
 }
 
 void add_long_runs(CLI::App& command, VerifyArguments& arguments) {

@@ -143,6 +143,19 @@ TEST(Allowances, WeldingClosesASeamThatNeverOpens) {
   EXPECT_EQ(open.verdict, Verdict::kViolated);
 }
 
+// Mirroring x in a program negates zeros too. Over the reals the two halves meet, and so they touched.
+TEST(Allowances, WeldingClosesASeamOfAMirroredGarment) {
+  using Corners = std::array<Point, 3>;
+  const Corners right{Point{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, left{Point{-0.0, 0, 0}, {-0.0, 1, 0}, {-1, 0, 0}};
+  io::MeshData mesh;
+  for (const Corners& face : {right, left}) mesh.points.insert(mesh.points.end(), face.begin(), face.end());
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(check({mesh, mesh}, {}).verdict, Verdict::kViolated);
+  const SequenceReport welded = check({mesh, mesh}, {}, true);
+  EXPECT_EQ(welded.verdict, Verdict::kClean);
+  EXPECT_EQ(welded.welded.value().vertices, 2);
+}
+
 // Body faces that lost a corner were left out of all pairs: cloth that they pierce was called clean.
 TEST(Allowances, BodyFacesThatWeldingCollapsesAreCheckedAgainstCloth) {
   const Point low{1, 1, -1}, high{1, 1, 1}, inside{1, 1, 0}, far{1, 1, 9};

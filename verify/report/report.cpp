@@ -72,7 +72,7 @@ std::string motions_line(const SequenceReport& report) {
          " checked, " + std::to_string(report.motions.violated) + " violated\n";
 }
 
-/// Vertices of violations that lie, to the bit, where another of the same violation does.
+/// Vertices of violations that lie exactly where another of the same violation does.
 std::set<std::int32_t> coincident(std::span<const Violation> violations) {
   std::set<std::int32_t> found;
   for (const Violation& violation : violations) {

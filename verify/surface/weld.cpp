@@ -9,17 +9,23 @@
 namespace selvage::verify {
 namespace {
 
-using Bits = std::array<std::uint64_t, 3>;
+/// Equal where the coordinates are, as there is no NaN, and in no order that means anything.
+using Place = std::array<std::uint64_t, 3>;
 
-Bits bits_of(const Point& p) {
-  return {std::bit_cast<std::uint64_t>(p[0]), std::bit_cast<std::uint64_t>(p[1]), std::bit_cast<std::uint64_t>(p[2])};
+/// Compared as bits a subnormal is never taken for a zero, whatever the processor is set to.
+std::uint64_t bits_of(double coordinate) {
+  constexpr std::uint64_t kMinusZero = std::uint64_t{1} << 63;
+  const auto bits = std::bit_cast<std::uint64_t>(coordinate);
+  return bits == kMinusZero ? 0 : bits;
 }
 
-/// Splits vertices into those with the same bits; those without a partner are dropped.
+Place place_of(const Point& p) { return {bits_of(p[0]), bits_of(p[1]), bits_of(p[2])}; }
+
+/// Splits vertices into those at one place; those without a partner are dropped.
 void split(std::vector<std::int32_t> vertices, std::span<const Point> V, std::vector<std::vector<std::int32_t>>& out) {
-  std::vector<std::pair<Bits, std::int32_t>> keyed;
+  std::vector<std::pair<Place, std::int32_t>> keyed;
   keyed.reserve(vertices.size());
-  for (const std::int32_t v : vertices) keyed.emplace_back(bits_of(V[static_cast<std::size_t>(v)]), v);
+  for (const std::int32_t v : vertices) keyed.emplace_back(place_of(V[static_cast<std::size_t>(v)]), v);
   std::sort(keyed.begin(), keyed.end());
   for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
     while (end < keyed.size() && keyed[end].first == keyed[begin].first) ++end;

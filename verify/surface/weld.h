@@ -1,4 +1,4 @@
-// Vertices that lie at one place, bit for bit, in every frame: writers split them at seams and corners.
+// Vertices that lie at one place, without any tolerance, in every frame: writers split them at seams and corners.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace selvage::verify {
 
-/// Shown every frame, knows which vertices never part. -0 and +0 have different bits and are not joined.
+/// Shown every frame, knows which vertices never part. Places are equal as numbers are: -0, which mirroring leaves at a
+/// seam, is 0.
 class Weld {
  public:
   /// A frame more. Throws std::invalid_argument if it has another number of vertices than the first one. The first

@@ -202,11 +202,12 @@ TEST(Weld, JoinsWhatNeverParts) {
   const Point p = {1, 2, 3}, q = {4, 5, 6};
   Weld weld;
   weld.narrow(std::vector<Point>{p, q, p, q, p, {0.0, 0, 0}, {-0.0, 0, 0}});
-  EXPECT_EQ(weld.representatives(), (std::vector<std::int32_t>{0, 1, 0, 1, 0, 5, 6})) << "-0 has other bits";
+  EXPECT_EQ(weld.representatives(), (std::vector<std::int32_t>{0, 1, 0, 1, 0, 5, 5}))
+      << "-0 has other bits and is the same number: garments that were mirrored hold it at their seam";
   weld.narrow(std::vector<Point>{q, q, q, q, p, p, p});
-  EXPECT_EQ(weld.representatives(), (std::vector<std::int32_t>{0, 1, 0, 1, 4, 5, 6})) << "0 and 1 met too late";
-  weld.narrow(std::vector<Point>{q, p, p, p, p, p, p});
-  EXPECT_EQ(weld.representatives(), (std::vector<std::int32_t>{0, 1, 2, 1, 4, 5, 6}));
+  EXPECT_EQ(weld.representatives(), (std::vector<std::int32_t>{0, 1, 0, 1, 4, 5, 5})) << "0 and 1 met too late";
+  weld.narrow(std::vector<Point>{q, p, p, p, p, {0, -0.0, 5e-324}, {0, 0.0, -5e-324}});
+  EXPECT_EQ(weld.representatives(), (std::vector<std::int32_t>{0, 1, 2, 1, 4, 5, 6})) << "not zeros";
   EXPECT_THROW(weld.narrow(std::vector<Point>{p}), std::invalid_argument);
 }
 
