@@ -21,13 +21,29 @@ namespace {
 
 constexpr std::string_view kTemporaryMark = ".tmp-";
 
-/// Random and O_EXCL: process ids repeat between machines that share a file system.
+/// Why nothing can be created in the folder, or 0: by the rights that the process has, not by those of who started it.
+int refused_by(const fs::path& folder) {
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return 0;
+  return errno == EACCES || errno == EPERM || errno == EROFS ? errno : 0;
+}
+
+/// Random and O_EXCL: process ids repeat between machines that share a file system. Where the folder refuses, the error
+/// says so: of a file that may be written nobody would look there.
 PosixFile create_temporary(const fs::path& target) {
   std::random_device random;
   const std::string mark = std::string(kTemporaryMark) + std::to_string((std::uint64_t{random()} << 32) | random());
   const std::string name = target.filename().string().substr(0, NAME_MAX - mark.size());
   fs::path temporary = target.parent_path() / (name + mark);
-  return {std::move(temporary), target, O_WRONLY | O_CREAT | O_EXCL};
+  try {
+    return {std::move(temporary), target, O_WRONLY | O_CREAT | O_EXCL};
+  } catch (const Error&) {
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    const int reason = refused_by(folder);
+    if (reason == 0) throw;
+    file_error(target.string(), "write in its folder", reason,
+               "check the permissions of " + folder.string() +
+                   ", where a new file is written first, which then takes this name");
+  }
 }
 
 [[noreturn]] void fail_as_present(const fs::path& file) {
