@@ -131,6 +131,10 @@ PinSpec read_pin(TomlTable table, const Surface& surface, std::span<const std::s
     if (table.has("vertices")) table.fail("edge", "edge and vertices exclude each other; keep one");
     pin.vertices = sheet_edge(*sheet, table.choice("edge", {"top", "bottom", "left", "right"}));
   } else {
+    if (sheet != nullptr && !table.has("vertices")) {
+      table.fail(
+          "nothing says what it holds; add edge = \"top\", \"bottom\", \"left\" or \"right\", or vertices = [...]");
+    }
     const std::int64_t last = sheet != nullptr ? std::int64_t{sheet->nx} * sheet->ny - 1 : INT32_MAX;
     for (const std::int64_t vertex : table.integers("vertices", 0, last)) {
       pin.vertices.push_back(static_cast<VertexId>(vertex));
@@ -226,6 +230,10 @@ std::vector<ClothSpec> read_cloth(TomlTable table, std::span<const std::string> 
       table.fail("copies", fmt::format("a copy and another part are both called \"{}\"; rename one", copy.name));
     }
     copy.placement.position_m += static_cast<double>(i) * offset;
+    if (!std::ranges::all_of(copy.placement.position_m, [](double x) { return inside(x, kCoordinate); })) {
+      table.fail("copy_offset_m", fmt::format("copy {} is at a coordinate beyond {} m; lower copies or copy_offset_m",
+                                              i + 1, kCoordinate.upper));
+    }
   }
   return all;
 }
