@@ -20,10 +20,10 @@ inline constexpr double kBlockedTime_s = kCatchUpTime_s;
 /// It backs out by this share of the thickness, at a thickness in kCatchUpTime_s, as slowly as it comes back. By half
 /// of that share the fail-safe held 239 vertices there, by twice of it the foot rises and falls by 4 mm.
 inline constexpr double kBackShare = 0.5;
-/// Of a body that deforms what is nearer than so many thicknesses to a vertex that is blocked, and goes against the same
-/// blockage, is led as well, and backs out the less the farther it is. Vertices one by one are pressed in beside each
-/// other: a foot of 642 vertices that slides over a hem took 695 steps and the fail-safe held 654 vertices, with one
-/// thickness 572 and 944, with 2.5 484 and 11, with five 186 and none; standing still one by one 2,185 and 13,255.
+/// Of a body that deforms what is nearer than so many thicknesses to a vertex that is blocked, and goes against the
+/// same blockage, is led as well, and backs out the less the farther it is. Vertices one by one are pressed in beside
+/// each other: a foot of 642 vertices that slides over a hem took 695 steps and the fail-safe held 654 vertices, with
+/// one thickness 572 and 944, with 2.5 484 and 11, with five 186 and none; standing still one by one 2,185 and 13,255.
 inline constexpr double kReachThicknesses = 5;
 /// Blockages of a later step take the place of earlier ones that are as near, from within 11 degrees: what lasts is
 /// bounded by what meets, however short steps are.
@@ -48,9 +48,9 @@ class BlockedWays {
   bool add(std::span<const Blockage> blockages);
   /// Whether the motion of a body's vertices in dt_s goes against a blockage, or has to back out of one. From x to
   /// x_t1, which is changed then by the least translation with which it goes against none: of the whole body where it
-  /// is rigid, of each vertex where it deforms; by no more than ten times its length, so that where blockages leave no
-  /// room the caller has to see that it did not help. Rows as `vertices`, sorted. O(blockages + rows), and for each
-  /// vertex within reach of one that is blocked O(blockages).
+  /// is rigid, of each vertex where it deforms; by no more than some ten times its length, so that where blockages
+  /// leave no room the caller has to see that it did not help. Rows as `vertices`, sorted. O(blockages + rows), and for
+  /// each vertex within reach of one that is blocked O(blockages).
   bool lead_round(std::int32_t body, std::span<const VertexId> vertices, const Positions& x, double dt_s,
                   Positions& x_t1) const;
   /// It is taken.
