@@ -107,6 +107,7 @@ void CcdBench::judge(PairKind kind, const std::vector<Alarm>& alarms, bool gives
   const std::int64_t contacts = kind == PairKind::kVf ? report_.vf_contacts : report_.ee_contacts;
   of_method.alarms += static_cast<std::int64_t>(alarms.size());
   of_method.false_negatives += contacts - static_cast<std::int64_t>(found.size());
+  of_method.gives_toi = gives_toi;
   if (gives_toi) measure_toi(kind, found, toi_errors_[of_method.name]);
 }
 

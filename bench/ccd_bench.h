@@ -28,6 +28,7 @@ struct CcdMethodReport {
   std::int64_t false_positives_beyond_gap = 0;
   std::int64_t unresolved = 0;  ///< counted as alarms
   std::int64_t searched = 0;    ///< kernel: pairs that its lanes left to single queries
+  bool gives_toi = false;
   std::int64_t toi_examined = 0;
   ToiError toi;
   double ns_mean = 0, ns_vf = 0, ns_ee = 0;  ///< a candidate

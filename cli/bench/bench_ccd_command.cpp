@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,10 +48,11 @@ std::string table(const bench::CcdBenchReport& report) {
                       "alarms", "missed", "false", "beyond gap", "unresolved", "late toi", "mean ns", "vf ns", "ee ns",
                       "/textbook", "toi early: median, p99, max");
   for (const bench::CcdMethodReport& method : report.methods) {
+    const std::string late = method.gives_toi ? std::to_string(method.toi.late) : "-";
     text += fmt::format("{:<{}} {:>8} {:>7} {:>6} {:>10} {:>10} {:>8} {:>8.1f} {:>8.1f} {:>8.1f} {:>9.3f}",
                         method.name == bench::kGuestRow ? guest : method.name, width, method.alarms,
                         method.false_negatives, method.false_positives, method.false_positives_beyond_gap,
-                        method.unresolved, method.toi.late, method.ns_mean, method.ns_vf, method.ns_ee, method.ratio);
+                        method.unresolved, late, method.ns_mean, method.ns_vf, method.ns_ee, method.ratio);
     if (method.toi_examined > 0) {
       text +=
           fmt::format("  {:.1e}, {:.1e}, {:.1e}", method.toi.early_median, method.toi.early_p99, method.toi.early_max);
@@ -126,12 +128,12 @@ void add_bench_ccd_command(CLI::App& bench, Job& job) {
       ->allow_extra_args(false)
       ->type_name("BOXES VERDICTS");
   ccd.add_option("--sheet", arguments->sheet, "Vertices along one side of the crumpled sheet")
-      ->check(CLI::Range(2, 2000))
+      ->check(whole_between(2, 2000))
       ->capture_default_str();
   add_plugin(ccd, arguments->plugin);
   add_outputs(ccd, arguments->outputs);
   ccd.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_between(1, 10000))
       ->capture_default_str();
   ccd.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
       ->check(number_from(0))

@@ -1,4 +1,6 @@
 // `selvage bench queries --plugin` and `bench ccd --plugin`: somebody's kernel beside Selvage's, and judged alike.
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,6 +74,16 @@ Measured measure_motion(const TemporaryFolder& folder, const std::string& librar
   spit(file_t0, t0);
   spit(file_t1, t1);
   return measure(folder, library, {"ccd", file_t0, file_t1, "--tolerance", tolerance});
+}
+
+/// What the table says under "late toi" in the first row that begins with `method`.
+std::string late_in_table(const std::string& table, const std::string& method) {
+  constexpr std::string_view kColumn = "late toi";
+  const std::size_t head = table.find("\nmethod "), row = table.find("\n" + method + " ");
+  const std::size_t column = table.find(kColumn, head) - head;
+  if (head == table.npos || row == table.npos || row + column + kColumn.size() > table.size()) return "no such cell";
+  const std::string cell = table.substr(row + column, kColumn.size());
+  return cell.substr(cell.find_last_of(' ') + 1);
 }
 
 }  // namespace
@@ -245,6 +257,8 @@ TEST(BenchPlugin, OnAMotionFalseAlarmsBeyondTheDeclaredGapAreToldFromThoseWithin
     const auto& row = report.at("methods").at("plugin");
     EXPECT_GT(row.at("false_positives"), 0);
     EXPECT_EQ(row.at("false_positives_beyond_gap"), beyond ? row.at("false_positives").get<int>() : 0);
+    EXPECT_EQ(late_in_table(program.out, "kernel"), "0");
+    EXPECT_EQ(late_in_table(program.out, "plugin"), "-") << "it gives no times";
   }
 }
 
