@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -26,6 +27,7 @@
 #include "fuzz/run/campaign_stats.h"
 #include "fuzz/run/driver.h"
 #include "io/file/atomic_file.h"
+#include "io/file/text.h"
 #include "kernel/version.h"
 
 namespace selvage::cli {
@@ -46,21 +48,18 @@ struct FuzzArguments {
   throw UsageError("--time wants seconds, minutes, hours or days, as in 60s, 10m, 2h, 7d");
 }
 
-double parse_seconds(const std::string& text) {
-  std::size_t used = 0;
-  double amount = 0;
-  try {
-    amount = std::stod(text, &used);
-  } catch (const std::logic_error&) {
-    refuse_time();
+double parse_seconds(std::string_view text) {
+  double scale = 1;
+  for (const auto& [unit, seconds] :
+       {std::pair('s', 1.0), std::pair('m', 60.0), std::pair('h', 3600.0), std::pair('d', 86400.0)}) {
+    if (!text.ends_with(unit)) continue;
+    scale = seconds;
+    text.remove_suffix(1);
+    break;
   }
-  const std::string unit = text.substr(used);
-  const double scale = unit.empty() || unit == "s" ? 1
-                       : unit == "m"               ? 60
-                       : unit == "h"               ? 3600
-                       : unit == "d"               ? 86400
-                                                   : 0;
-  if (!(amount > 0) || !std::isfinite(amount * scale) || scale == 0) refuse_time();
+  double amount = 0;
+  const bool is_number = io::parse_number(text, amount) == io::NumberFault::kNone;
+  if (!is_number || !(amount > 0) || !std::isfinite(amount * scale)) refuse_time();
   return amount * scale;
 }
 

@@ -78,12 +78,14 @@ void add_render_command(CLI::App& program, Job& job) {
   add_hide(command, arguments->hidden);
   CLI::Option* frames = add_list(command, "--frames", arguments->frames, "Frames to draw")->check(whole_number());
   command.add_option("--tiles", arguments->tiles, "How many frames, spread evenly in time")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_between(1, 1000))
       ->capture_default_str()
       ->excludes(frames);
-  command.add_option("--columns", arguments->columns, "Tiles a row")->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--columns", arguments->columns, "Tiles a row")
+      ->check(whole_between(1, 100))
+      ->capture_default_str();
   command.add_option("--width", arguments->width, "Pixels of the whole sheet")
-      ->check(CLI::Range(200, 10000))
+      ->check(whole_between(200, 10000))
       ->capture_default_str();
   command.add_option("--azimuth", arguments->view.azimuth_deg, "Where the camera stands about the up axis, degrees")
       ->check(number_between(-360, 360))

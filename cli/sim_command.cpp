@@ -15,6 +15,7 @@
 #include "cli/answer/enclosed_cloth.h"
 #include "cli/answer/part_name.h"
 #include "cli/arguments/choice.h"
+#include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/thread_limit.h"
 #include "cli/process/interrupt.h"
@@ -255,7 +256,7 @@ void add_sim_command(CLI::App& program, Job& job) {
   command.add_option("scene", arguments->scene, "The scene file (docs/scenes.md)")->required();
   command.add_option("-o,--output", arguments->output, "The sequence folder to write")->required();
   command.add_option("--frames", arguments->frames, "Frames to simulate, instead of what the scene says")
-      ->check(CLI::Range(std::int64_t{1}, sim::kMaxFrames));
+      ->check(whole_between(1, sim::kMaxFrames));
   add_threads(command, arguments->threads);
   add_choice(command, "--record", arguments->record,
              {{"frames", io::SequenceKind::kFrames}, {"steps", io::SequenceKind::kSteps}},

@@ -243,7 +243,7 @@ void add_subdivide_command(CLI::App& program, Job& job) {
       ->allow_extra_args(false)
       ->type_name("A");
   command.add_option("--levels", arguments->levels, "How often every face is split into four")
-      ->check(CLI::Range(1, kMaxLevels))
+      ->check(whole_between(1, kMaxLevels))
       ->capture_default_str();
   command.add_option("--frame", arguments->frame, "This frame alone; from 0")->check(whole_number());
   add_threads(command, arguments->threads);

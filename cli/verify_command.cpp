@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/answer/case_output.h"
@@ -37,13 +38,26 @@ verify::ReportContext report_context(const VerifyArguments& arguments, const io:
   return context;
 }
 
+std::pair<std::size_t, std::size_t> range_of(const io::SequenceReader& sequence,
+                                             const verify::SequenceOptions& options) {
+  return options.range.value_or(std::pair<std::size_t, std::size_t>(0, sequence.frame_count()));
+}
+
+/// Not of one frame under a name that is too long for it: nothing could be gone on from before the report is there.
+bool keeps_progress(const VerifyArguments& arguments, const io::SequenceReader& sequence,
+                    const verify::SequenceOptions& options) {
+  if (arguments.json.empty()) return false;
+  const auto [first, end] = range_of(sequence, options);
+  return end - first > 1 || VerifyProgress::can_keep(arguments.json);
+}
+
 /// With a report file, progress is kept beside it until the run is complete.
 verify::SequenceReport check(const VerifyArguments& arguments, const io::SequenceReader& sequence,
                              verify::SequenceOptions options, const verify::ReportContext& context) {
   VerifyProgress progress(arguments.json, context);
   std::optional<verify::SequenceReport> earlier;
   if (arguments.resume) {
-    const auto [first, end] = options.range.value_or(std::pair<std::size_t, std::size_t>(0, sequence.frame_count()));
+    const auto [first, end] = range_of(sequence, options);
     earlier = progress.load({verify::sequence_identity(sequence), static_cast<std::int64_t>(first),
                              static_cast<std::int64_t>(end), static_cast<std::int64_t>(options.check.max_violations)});
   }
@@ -54,7 +68,8 @@ verify::SequenceReport check(const VerifyArguments& arguments, const io::Sequenc
     return !interrupted();
   };
   options.check.stop = interrupted;
-  if (!arguments.json.empty()) options.checkpoint = [&](const auto& report) { progress.note(report); };
+  if (keeps_progress(arguments, sequence, options))
+    options.checkpoint = [&](const auto& report) { progress.note(report); };
   const auto and_what_is_kept = [&](const std::string& what) {
     if (!progress.flush()) return what;
     return what + " (what was checked before it is kept in " + progress.file().string() +
@@ -116,7 +131,9 @@ ExitCode run(const VerifyArguments& arguments) {
   catch_interrupts();
   const auto threads = arguments.threads.hold();
   std::filesystem::path progress;
-  if (!arguments.json.empty()) progress = VerifyProgress::file_of(arguments.json);
+  if (!arguments.json.empty() && VerifyProgress::can_keep(arguments.json)) {
+    progress = VerifyProgress::file_of(arguments.json);
+  }
   require_outputs_apart_from(arguments.sequence, {arguments.json, progress, arguments.html});
   for (const std::filesystem::path& file :
        std::vector<std::filesystem::path>{arguments.json, progress, arguments.html}) {
@@ -127,6 +144,7 @@ ExitCode run(const VerifyArguments& arguments) {
   const verify::SequenceOptions options = sequence_options(arguments, *sequence);
   verify::ReportContext context = report_context(arguments, *sequence, options);
   print_notes(notes_on_groups(arguments, *sequence));
+  if (keeps_progress(arguments, *sequence, options)) VerifyProgress::require_name(arguments.json);
   require_writable_outputs(arguments);
   verify::SequenceReport report = check(arguments, *sequence, options, context);
   std::vector<std::string> on_result = notes_on_clean(arguments, *sequence, options, report);

@@ -10,6 +10,7 @@
 #include "cli/answer/result.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/hidden_groups.h"
+#include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/arguments/sequence_argument.h"
 #include "cli/page/player_page.h"
@@ -55,7 +56,7 @@ void add_view_command(CLI::App& program, Job& job) {
   command
       .add_option("--max-mb", arguments->max_mb,
                   "At most this much of meshes: else every second, third, ... frame only, and the last")
-      ->check(CLI::Range(1, 2000))
+      ->check(whole_between(1, 2000))
       ->capture_default_str();
   add_choice(command, "--up", arguments->up, {{"y", page::UpAxis::kY}, {"z", page::UpAxis::kZ}},
              "The axis that points up (default: z; the page can change it)");

@@ -1,6 +1,8 @@
 #include "cli/answer/verify_progress.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <climits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "cli/answer/verdict.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/terminal.h"
+#include "io/fail.h"
 #include "io/file/atomic_file.h"
 
 namespace selvage::cli {
@@ -41,6 +44,17 @@ void require_same(const verify::SequenceReport& report, const VerifyProgress::Wa
 
 }  // namespace
 
+bool VerifyProgress::can_keep(const std::filesystem::path& report) {
+  return io::is_nameable(file_of(report).filename());
+}
+
+void VerifyProgress::require_name(const std::filesystem::path& report) {
+  if (can_keep(report)) return;
+  const std::size_t added = file_of("").native().size();
+  io::file_error(file_of(report).string(), "keep progress there", ENAMETOOLONG,
+                 fmt::format("shorten the name of the report, beside which it is kept, to {} bytes", NAME_MAX - added));
+}
+
 VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::ReportContext& context)
     : report_file_(std::move(report)),
       file_(file_of(report_file_)),
@@ -49,7 +63,8 @@ VerifyProgress::VerifyProgress(std::filesystem::path report, const verify::Repor
 
 std::optional<verify::SequenceReport> VerifyProgress::load(const Wanted& wanted) const {
   for (const std::filesystem::path& file : {file_, report_file_}) {
-    if (!std::filesystem::is_regular_file(file)) continue;
+    std::error_code absent;  // also of a name that is too long for any file
+    if (!std::filesystem::is_regular_file(file, absent)) continue;
     verify::ParsedReport parsed = verify::parse_report(io::read_file(file), file.string());
     if (parsed.context.program != context_.program || parsed.context.options != context_.options) {
       throw UsageError(file.string() + ": made by another version or with other options; remove it to start anew");

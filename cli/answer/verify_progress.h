@@ -14,6 +14,10 @@ class VerifyProgress {
  public:
   /// FILE.progress, beside the report.
   [[nodiscard]] static std::filesystem::path file_of(std::filesystem::path report) { return report += ".progress"; }
+  /// Whether the name is one that a file can have: that of `report` may be so long that it is not.
+  [[nodiscard]] static bool can_keep(const std::filesystem::path& report);
+  /// Throws io::Error where it is not.
+  static void require_name(const std::filesystem::path& report);
   /// Keeps there the report on the frames that are done. `context` must outlive it.
   VerifyProgress(std::filesystem::path report, const verify::ReportContext& context);
 

@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <oneapi/tbb/global_control.h>
 
+#include "cli/arguments/number_check.h"
+
 namespace selvage::cli {
 
 /// 0: one a core.
@@ -25,7 +27,7 @@ struct ThreadLimit {
 /// --threads; `limit` must outlive the parsing.
 inline void add_threads(CLI::App& command, ThreadLimit& limit) {
   command.add_option("--threads", limit.most, "Number of threads; 0: one a core. Results do not depend on it")
-      ->check(CLI::Range(0, 1024))
+      ->check(whole_between(0, 1024))
       ->capture_default_str();
 }
 

@@ -132,7 +132,7 @@ void add_verify_arguments(CLI::App& command, VerifyArguments& arguments) {
   command
       .add_option("--html-mb", arguments.html_mb,
                   "At most this much of meshes in the page: frames with violations first, then some of the others")
-      ->check(CLI::Range(0, 2000))
+      ->check(whole_between(0, 2000))
       ->capture_default_str();
   command
       .add_option("--cases", arguments.cases,

@@ -106,21 +106,21 @@ void add_bench_broad_command(CLI::App& bench, Job& job) {
   broad.add_option("FRAME_T0", arguments->frame_t0, "Mesh at t = 0 (.obj, .ply)");
   broad.add_option("FRAME_T1", arguments->frame_t1, "The same mesh at t = 1");
   broad.add_option("--largest", arguments->largest, "Faces of the largest sheet")
-      ->check(CLI::Range(10, 10'000'000))
+      ->check(whole_between(10, 10'000'000))
       ->capture_default_str();
   add_list(broad, "--pleats", arguments->pleat_advances,
            "How far an edge takes a sheet along, in edges: 0.1 is 10 layers")
       ->check(number_between(0.01, 1))
       ->capture_default_str();
   add_list(broad, "--threads", arguments->options.thread_counts, "Numbers of threads")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_between(1, 1024))
       ->capture_default_str();
   broad.add_option("--sample", arguments->options.sampled, "Vertices and edges compared with brute force")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(whole_between(1, 1'000'000))
       ->capture_default_str();
   add_outputs(broad, arguments->outputs);
   broad.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_between(1, 10000))
       ->capture_default_str();
   broad.callback([arguments, &job] { job = [arguments] { return bench_broad(*arguments); }; });
 }

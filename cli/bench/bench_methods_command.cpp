@@ -8,6 +8,7 @@
 
 #include "bench/method_bench.h"
 #include "cli/answer/result.h"
+#include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/bench/bench_figures.h"
 #include "cli/bench/bench_outputs.h"
@@ -88,16 +89,16 @@ void add_bench_methods_command(CLI::App& bench, Job& job) {
   methods.add_option("FRAME_T0", arguments->frame_t0, "Mesh at t = 0 (.obj, .ply)");
   methods.add_option("FRAME_T1", arguments->frame_t1, "The same mesh at t = 1");
   methods.add_option("--sheet", arguments->sheet, "Vertices along one side of the crumpled sheet; 0: without it")
-      ->check(CLI::Range(0, 2000))
+      ->check(whole_between(0, 2000))
       ->capture_default_str();
   methods.add_option("--most", arguments->most, "Candidates of a mesh that are asked, about; spread over all")
-      ->check(CLI::Range(1, 100'000'000))
+      ->check(whole_between(1, 100'000'000))
       ->capture_default_str();
   methods.add_option("--hard", arguments->hard, "Queries of each group of hard classes, about; 0: without them")
-      ->check(CLI::Range(0, 10'000'000))
+      ->check(whole_between(0, 10'000'000))
       ->capture_default_str();
   methods.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_between(1, 10000))
       ->capture_default_str();
   add_outputs(methods, arguments->outputs);
   methods.callback([arguments, &job] { job = [arguments] { return bench_methods(*arguments); }; });

@@ -133,7 +133,7 @@ void add_bench_queries_command(CLI::App& bench, Job& job) {
   add_plugin(queries, arguments->plugin);
   add_outputs(queries, arguments->outputs);
   queries.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_between(1, 10000))
       ->capture_default_str();
   queries.add_option("--tolerance", arguments->options.tolerance, "The kernel's tolerance at the end of the step")
       ->check(number_from(0))

@@ -9,6 +9,7 @@
 #include "cli/answer/result.h"
 #include "cli/arguments/choice.h"
 #include "cli/arguments/list_option.h"
+#include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/bench/bench_figures.h"
 #include "cli/bench/bench_outputs.h"
@@ -94,22 +95,23 @@ void add_bench_sim_command(CLI::App& bench, Job& job) {
                {bench::solver_name(sim::Solver::kImplicit), sim::Solver::kImplicit}},
               "explicit (default), implicit, or a list of them with commas; the first is the baseline");
   add_list(sim, "--growth", options.growth_nodes, "Nodes along a side of the sheets that grow")
-      ->check(CLI::Range(2, 2000))
+      ->check(whole_between(2, 2000))
       ->capture_default_str();
   add_list(sim, "--threads", options.thread_counts, "Numbers of threads, for growth")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_between(1, 1024))
       ->capture_default_str();
   sim.add_option("--steps", options.growth_steps, "Collision steps of each sheet that grows")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_between(1, 1000))
       ->capture_default_str();
   sim.add_option("--finest-mesh", options.finest_mesh, "Nodes along a side of the finest mesh that swings")
+      ->check(whole_number())
       ->check(CLI::IsMember({17, 33, 65}))
       ->capture_default_str();
   sim.add_option("--module-nodes", options.module_nodes, "Nodes along a side of the sheet that gets modules")
-      ->check(CLI::Range(2, 1000))
+      ->check(whole_between(2, 1000))
       ->capture_default_str();
   sim.add_option("--repeat", options.repeat, "Runs of each short scene")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_between(1, 1000))
       ->capture_default_str();
   add_outputs(sim, arguments->outputs);
   sim.callback([arguments, &job] { job = [arguments] { return bench_sim(*arguments); }; });

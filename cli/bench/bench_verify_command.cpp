@@ -8,6 +8,7 @@
 #include "bench/verify_bench.h"
 #include "cli/answer/result.h"
 #include "cli/arguments/list_option.h"
+#include "cli/arguments/number_check.h"
 #include "cli/arguments/output_check.h"
 #include "cli/bench/bench_figures.h"
 #include "cli/bench/bench_outputs.h"
@@ -70,16 +71,16 @@ void add_bench_verify_command(CLI::App& bench, Job& job) {
                   "selvage bench verify --faces 50000,500000 --motion --json out.json");
   const auto arguments = std::make_shared<VerifyBenchArguments>();
   add_list(verify, "--faces", arguments->options.faces, "Faces of the sheets")
-      ->check(CLI::Range(100, 20'000'000))
+      ->check(whole_between(100, 20'000'000))
       ->capture_default_str();
   verify.add_option("--layers", arguments->options.layers, "Layers (default: 10 below 100,000 faces, 20 above)")
-      ->check(CLI::Range(2, 1000));
+      ->check(whole_between(2, 1000));
   verify.add_flag("--motion", arguments->options.motion, "Measure the check of the motion between two frames too");
   add_list(verify, "--threads", arguments->options.thread_counts, "Numbers of threads")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_between(1, 1024))
       ->capture_default_str();
   verify.add_option("--repeat", arguments->options.repeat, "Timed passes")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_between(1, 10000))
       ->capture_default_str();
   add_outputs(verify, arguments->outputs);
   verify.callback([arguments, &job] { job = [arguments] { return bench_verify(*arguments); }; });

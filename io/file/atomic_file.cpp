@@ -121,9 +121,11 @@ fs::path behind_links(const fs::path& file) {
   return target;
 }
 
+bool is_nameable(const fs::path& name) { return name.native().size() <= NAME_MAX; }
+
 void require_nameable(const fs::path& file) {
   for (const fs::path& name : file) {
-    if (name.native().size() > NAME_MAX) file_error(file.string(), "write", ENAMETOOLONG);
+    if (!is_nameable(name)) file_error(file.string(), "write", ENAMETOOLONG);
   }
 }
 

@@ -45,6 +45,9 @@ class AtomicFile {
 /// lead round in a circle.
 [[nodiscard]] std::filesystem::path behind_links(const std::filesystem::path& file);
 
+/// Whether there may be files of that name, which is no path: at most NAME_MAX bytes.
+[[nodiscard]] bool is_nameable(const std::filesystem::path& name);
+
 /// Throws Error(kFile) where the name of `file`, or of a folder in its path, is longer than any that there are
 /// (NAME_MAX): to be called before work whose result would have that name.
 void require_nameable(const std::filesystem::path& file);

@@ -42,7 +42,7 @@ TEST(Options, ANumberIsFinite) {
 }
 
 TEST(Options, ANumberThatWouldBeRoundedToZeroIsRefused) {
-  for (const std::string value : {"1e-400", "0x1p-1100", "1e-9999"}) {
+  for (const std::string value : {"1e-400", "-1e-400", "1e-9999"}) {
     const std::string words = "'" + value + "' is too small: it would be rounded to 0";
     expect_usage_errors({
         {{"verify", "none.obj", "--min-distance", value}, "--min-distance", words},
@@ -51,6 +51,49 @@ TEST(Options, ANumberThatWouldBeRoundedToZeroIsRefused) {
     });
   }
   for (const std::string value : {"0", "0e-400", "5e-324", "1e-310"}) {
+    EXPECT_EQ(run_program({"verify", "none.obj", "--min-distance", value}).exit_code, 4) << value << ": no such file";
+  }
+}
+
+// As in files, where the same text is refused.
+TEST(Options, ANumberIsDecimal) {
+  for (const std::string value : {"0x1", "0X1p3", "-0x1", "0x1p-1100", "0x", "1f", "1,5", " 1", "1 "}) {
+    const std::string words = "'" + value + "' is not a number ";
+    expect_usage_errors({
+        {{"verify", "none.obj", "--min-distance", value}, "--min-distance", words + "from 0 up"},
+        {{"verify", "none.obj", "--max-violations", value}, "--max-violations", words + "from 0 to"},
+        {{"fuzz", "ccd", "--cases", value}, "--cases", words + "from 1 to"},
+        {{"fuzz", "ccd", "--cases", "1", "--case-time", value}, "--case-time", words + "above 0"},
+        {{"render", "none", "-o", "a.png", "--azimuth", value}, "--azimuth", words + "from -360 to 360"},
+    });
+  }
+  for (const std::string value : {"0x10s", "0x1d", "0x10", " 1s", "1 s", "1ss", "s", "-1s", "1e999d", "nans"}) {
+    expect_usage_errors({{{"fuzz", "ccd", "--time", value}, "--time", "60s"}});
+  }
+  // "010" was 8.
+  for (const std::string value : {"0x10", "0X10", "010", "+010", "1e2", "1.5", " 16", "99999999999999999999"}) {
+    const std::string words = "'" + value + "' is not a ";
+    expect_usage_errors({
+        {{"render", "none", "-o", "a.png", "--tiles", value}, "--tiles", words + "whole number from 1 to 1000"},
+        {{"render", "none", "-o", "a.png", "--columns", value}, "--columns", words},
+        {{"render", "none", "-o", "a.png", "--width", value}, "--width", words},
+        {{"verify", "none.obj", "--threads", value}, "--threads", words + "whole number from 0 to 1024"},
+        {{"verify", "none.obj", "--html-mb", value}, "--html-mb", words},
+        {{"view", "none", "-o", "a.html", "--max-mb", value}, "--max-mb", words},
+        {{"subdivide", "none", "-o", "none", "--levels", value}, "--levels", words},
+        {{"bench", "ccd", "--repeat", value}, "--repeat", words},
+        {{"bench", "broad", "--threads", "1," + value}, "--threads", words},
+        {{"bench", "sim", "--growth", value}, "--growth", words},
+    });
+  }
+  for (const std::string value : {"0x11", "017", "021"}) {
+    expect_usage_errors({
+        {{"bench", "sim", "--finest-mesh", value}, "--finest-mesh", "'" + value + "' is not a whole number"},
+        {{"render", "none", "-o", "a.png", "--frames", value}, "--frames", "'" + value + "' is not a whole number"},
+        {{"fuzz", "step", "--cases", "1", "--seed", value}, "--seed", "'" + value + "' is not a whole number"},
+    });
+  }
+  for (const std::string value : {"+1", "1e0", ".5", "1.", "00.5"}) {
     EXPECT_EQ(run_program({"verify", "none.obj", "--min-distance", value}).exit_code, 4) << value << ": no such file";
   }
 }
@@ -173,7 +216,7 @@ TEST(Options, ANameThatNoFileCanHaveIsFourBeforeTheWork) {
   EXPECT_EQ(run_program(folder, {"verify", mesh, "--json", report}).exit_code, 0);
   const std::vector<std::string> kCommands[] = {
       {"verify", mesh, "--json", json},
-      {"verify", mesh, "--json", path_of(250, ".json")},  // progress is kept in NAME.json.progress
+      {"verify", mesh, mesh, "--json", path_of(247, ".json")},  // progress is kept in NAME.json.progress
       {"verify", mesh, "--html", json},
       {"verify", mesh, "--cases", json},
       {"verify", mesh, "--json", folder.path() / std::string(256, 'n') / "report.json"},
@@ -206,6 +249,34 @@ TEST(Options, ANameThatNoFileCanHaveIsFourBeforeTheWork) {
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     EXPECT_LT(entry.path().filename().string().size(), 40U) << entry.path();
+  }
+}
+
+// Of one frame nothing is kept: the report follows at once.
+TEST(Options, OnlyWhatKeepsProgressNeedsANameForIt) {
+  const testing::TemporaryFolder folder;
+  const std::string mesh = folder.path() / "a.obj";
+  testing::spit(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto json_of = [&](std::size_t length) {
+    return (folder.path() / (std::string(length - 5, 'n') + ".json")).string();
+  };
+  for (const std::vector<std::string>& of_one_frame :
+       {std::vector<std::string>{mesh}, {mesh, "--resume"}, {mesh, mesh, "--shard", "2/2"}}) {
+    std::vector<std::string> arguments = {"verify", "--json", json_of(255)};
+    arguments.insert(arguments.end(), of_one_frame.begin(), of_one_frame.end());
+    const auto result = run_program(folder, arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::remove(json_of(255)));
+  }
+  EXPECT_EQ(run_program(folder, {"verify", mesh, mesh, "--json", json_of(246)}).exit_code, 0);
+  for (const std::size_t length : {247, 255}) {
+    const auto result = run_program(folder, {"verify", mesh, mesh, "--json", json_of(length)});
+    EXPECT_EQ(result.exit_code, 4) << result.out;
+    const std::string words = json_of(length) +
+                              ".progress: cannot keep progress there: File name too long; shorten the name of the "
+                              "report, beside which it is kept, to 246 bytes";
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(json_of(length)));
   }
 }
 
