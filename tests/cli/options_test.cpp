@@ -269,7 +269,7 @@ TEST(Options, OnlyWhatKeepsProgressNeedsANameForIt) {
     EXPECT_TRUE(std::filesystem::remove(json_of(255)));
   }
   EXPECT_EQ(run_program(folder, {"verify", mesh, mesh, "--json", json_of(246)}).exit_code, 0);
-  for (const std::size_t length : {247, 255}) {
+  for (const std::size_t length : {247U, 255U}) {
     const auto result = run_program(folder, {"verify", mesh, mesh, "--json", json_of(length)});
     EXPECT_EQ(result.exit_code, 4) << result.out;
     const std::string words = json_of(length) +
