@@ -1,4 +1,4 @@
-// The scripted vertices of a scene in a step: where they go, and which of them have to stand still (S4).
+// The scripted vertices of a scene in a step: where they go, and which of them are kept from their scripts (S4).
 #pragma once
 
 #include <cstdint>

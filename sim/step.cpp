@@ -96,11 +96,12 @@ bool Simulation::shorten_for_scripts() {
   return way != ScriptedMotion::Way::kBent;
 }
 
-// With half the step where a try failed; with those at rest that had to wait, then in the step that was meant, since
-// who cannot move in the shortest step stands still in that.
+// With half the step where a try failed. With those led along what blocks them that had to wait, or at rest where that
+// did not help (ScriptedMotion::wait()); then in the step that was meant, since who cannot move as his script says in
+// the shortest step does not in that.
 Simulation::Try Simulation::find_good_try(StepResult& result) {
   const StepClock::State meant = clock_.state();
-  std::vector<VertexId> without_room;  // before bodies stood still
+  std::vector<VertexId> without_room;  // before bodies waited
   for (;;) {
     Try tried = try_step(result);
     CollisionStepReport& report = tried.safe.report;
