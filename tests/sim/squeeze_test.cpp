@@ -10,6 +10,7 @@
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "tests/sim/exact_step.h"
+#include "tests/sim/foot_scene.h"
 #include "tests/squeeze_scene.h"
 
 namespace selvage {
@@ -191,42 +192,21 @@ TEST(Squeeze, WhatHasWaitedFarFromItsScriptDoesNotJump) {
 
 namespace {
 
-// Cloth on the ground, on which a foot steps 3.5 mm too deep, and slides on by 0.3 m.
-constexpr const char* kFoot = R"(
-squeeze = "yield"
-gravity_m_s2 = [0, 0, -9.81]
-[time]
-frames_per_s = 30
-frames = 24
-max_step_s = 0.0167
-[collision]
-thickness_m = 0.004
-friction_static = 0.5
-friction_kinetic = 0.4
-[[cloth]]
-sheet = {nx = 16, ny = 16, width_m = 0.4, height_m = 0.4}
-position_m = [0, 0, 0.0045]
-density_kg_m2 = 0.2
-stretch_n_m = 60
-shear_n_m = 20
-damping_ratio = 0.1
-[[body]]
-name = "foot"
-sphere = {radius_m = 0.03, subdivisions = 2}
+/// It slides on by 0.3 m, and is lifted.
+Scene foot_scene() {
+  const std::string foot = R"(sphere = {radius_m = 0.03, subdivisions = 2}
 position_m = [0.1, 0, 0.06]
 interpolation = "linear"
 key = [{time_s = 0}, {time_s = 0.2, position_m = [0, 0, -0.0335]}, {time_s = 0.3, position_m = [0, 0, -0.0335]},
-       {time_s = 0.7, position_m = [0.3, 0, -0.0335]}, {time_s = 0.8, position_m = [0.3, 0, 0.1]}]
-[[body]]
-name = "ground"
-sheet = {nx = 2, ny = 2, width_m = 20, height_m = 20}
-)";
+       {time_s = 0.7, position_m = [0.3, 0, -0.0335]}, {time_s = 0.8, position_m = [0.3, 0, 0.1]}])";
+  return parse_scene(testbed::foot_scene_text(foot), "foot.toml");
+}
 
 }  // namespace
 
 // It stood still where it was pressed, and leapt after its script when it was lifted, with the cloth.
 TEST(Squeeze, ABodyGoesOnAlongWhatBlocksIt) {
-  Simulation simulation(parse_scene(kFoot, "foot.toml"));
+  Simulation simulation(foot_scene());
   const Collider& foot = simulation.world().colliders.front();
   const std::int32_t cloth = simulation.world().cloth_vertex_count;
   double farthest_behind_m = 0, fastest_m_s = 0;
@@ -237,9 +217,7 @@ TEST(Squeeze, ABodyGoesOnAlongWhatBlocksIt) {
     ASSERT_EQ(step.report.status, StepStatus::kSafe);
     ASSERT_EQ(violations(simulation.world(), before, simulation.x()), 0);
     EXPECT_EQ(step.report.fail_safe_vertices, 0);
-    const Positions now = simulation.x()(foot.vertices(), Eigen::all);
-    const Positions script = foot.placed_at(simulation.clock().time_s(), sim::Precision::kFloat64, simulation.x());
-    farthest_behind_m = std::max(farthest_behind_m, (script - now).rowwise().norm().maxCoeff());
+    farthest_behind_m = std::max(farthest_behind_m, testbed::behind_script_m(simulation, foot));
     const bool waits_now = !step.report.waiting_bodies.empty();
     EXPECT_EQ(step.report.waiting_vertices, waits_now ? foot.vertices() : std::vector<VertexId>{});
     waits += std::ssize(step.report.waiting_bodies);
@@ -249,12 +227,11 @@ TEST(Squeeze, ABodyGoesOnAlongWhatBlocksIt) {
   EXPECT_GT(waits, 10);
   EXPECT_LT(farthest_behind_m, 0.012) << "0.28 where it stood still; it keeps off by 2 mm";
   EXPECT_LT(fastest_m_s, 5) << "its script goes at 0.75 m/s, and at 1.3 m/s when it is lifted";
-  EXPECT_EQ(Positions(simulation.x()(foot.vertices(), Eigen::all)),
-            foot.placed_at(simulation.clock().time_s(), sim::Precision::kFloat64, simulation.x()));
+  EXPECT_EQ(testbed::behind_script_m(simulation, foot), 0);
 }
 
 TEST(Squeeze, WhatBlocksABodyIsPartOfTheState) {
-  const Scene scene = parse_scene(kFoot, "foot.toml");
+  const Scene scene = foot_scene();
   Simulation through(scene);
   while (through.state().blocked.empty()) {
     ASSERT_LT(through.clock().frame(), 24);

@@ -1,72 +1,10 @@
 #include "sim/dynamics/stage_contacts.h"
 
-#include "sim/dynamics/implicit_dynamics.h"
 #include "tests/property.h"
-#include "tests/sim/mechanics.h"
+#include "tests/sim/dynamics/stage_contact_scene.h"
 
 namespace selvage::sim::testbed {
 namespace {
-
-constexpr double kStageThickness = 0.25, kStageStep = 0.125;
-
-/// How bodies move in the collision step, and the part of it that the stage is.
-struct StageMotion {
-  Vec3 bodies = Vec3::Zero();  ///< m, in all of the collision step
-  StageSpan span{0, 1, kStageStep};
-  Vec3 cloth_before = Vec3::Zero();  ///< m, before the span
-};
-
-/// One contact of four vertices, of which the first `cloth_count` are cloth, and what a stage adds for it.
-struct OneStageContact {
-  Mesh mesh = make_mesh(4, Faces{{1, 2, 3}});
-  SurfaceParts parts{mesh};
-  VertexFaces faces{mesh};
-  ContactTable properties{mesh, {}, {}};
-  std::vector<double> inverse_mass, resistance_kg;
-  Positions x, x_t1, cloth_x;
-  HeldContacts held;
-  StageContacts stage;
-
-  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, double load_m_s2,
-                  bool is_beyond = false)
-      : OneStageContact(pair, cloth_count, friction, ContactLoads{{{0, 0, load_m_s2}}, {}}, is_beyond) {}
-  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, double friction, const ContactLoads& loads,
-                  bool is_beyond = false)
-      : OneStageContact(pair, cloth_count, contact(pair, friction, is_beyond), loads, {}) {}
-  OneStageContact(const RandomPair& pair, Eigen::Index cloth_count, const RepulsionContact& contact,
-                  const ContactLoads& loads, const StageMotion& motion)
-      : inverse_mass(pair.inverse_mass.begin(), pair.inverse_mass.end()),
-        resistance_kg(resistances(pair)),
-        x(rows(pair.x_t0)),
-        x_t1(x.rowwise() + motion.bodies.transpose()),
-        cloth_x(x.topRows(cloth_count).rowwise() + motion.cloth_before.transpose()),
-        held({contact}, loads, HeldSurface{mesh, parts, faces, properties, inverse_mass, cloth_count, -Vec3::UnitZ()},
-             x, x_t1, kStageStep, 1),
-        stage(held, cloth_x, inverse_mass, resistance_kg, motion.span) {}
-
-  static std::vector<double> resistances(const RandomPair& pair) {
-    std::vector<double> result;
-    for (const double w : pair.inverse_mass) result.push_back(w > 0 ? 2 / w : 1);
-    return result;
-  }
-  static Positions rows(const PairVectors& vectors) {
-    Positions result(4, 3);
-    for (Eigen::Index i = 0; i < 4; ++i) result.row(i) = vectors[static_cast<std::size_t>(i)];
-    return result;
-  }
-  static RepulsionContact contact(const RandomPair& pair, double friction, bool is_beyond = false) {
-    RepulsionContact result = contact_of(pair, kStageThickness);
-    result.is_beyond = is_beyond;
-    result.properties.friction_static = result.properties.friction_kinetic = friction;
-    return result;
-  }
-  [[nodiscard]] Positions forces(const Positions& u) {
-    stage.look(u);
-    Positions result(u.rows(), 3);
-    for (Eigen::Index i = 0; i < u.rows(); ++i) result.row(i) = stage.force_at(i);
-    return result;
-  }
-};
 
 Positions random_displacements(Eigen::Index count, double bound) {
   Positions result(count, 3);
@@ -77,15 +15,6 @@ Positions random_displacements(Eigen::Index count, double bound) {
 RandomPair pressed_pair() {
   const RandomPair pair = random_contact(number_between(0.5, 1.5) * kStageThickness);
   RC_PRE(lever_share(pair.interaction) == 1);
-  return pair;
-}
-
-/// By 0.3 m; the face is a body's.
-RandomPair vertex_above_a_face() {
-  RandomPair pair;
-  pair.inverse_mass = {2, 0, 0, 0};
-  pair.interaction = make_interaction(PairKind::kVf, {0, 1, 2, 3}, {1, 0.25, 0.25, 0.5}, pair.inverse_mass);
-  pair.x_t0 = {Vec3(0, 0, 0.3), Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
   return pair;
 }
 
@@ -390,110 +319,6 @@ TEST(StageContacts, WhatWasNotSolvedGoesNoFartherThanItDid) {
 
 /// In steps of backward Euler it is after the first one where the body lets it be, and in the last one it has the
 /// body's velocity and is borne.
-TEST(StageContacts, WhatLiesOnABodyGoesWithIt) {
-  const RandomPair pair = vertex_above_a_face();
-  const double gravity_m_s2 = 10;
-  for (const int steps : {1, 2, 5}) {
-    SCOPED_TRACE(steps);
-    const Vec3 way(0.01, -0.005, 0.1);
-    OneStageContact one(pair, 1, OneStageContact::contact(pair, 1), {}, {way});
-    ImplicitDynamicsOptions options;
-    options.fields.gravity_m_s2 = {0, 0, -gravity_m_s2};
-    options.step_s = 1.001 * kStageStep / steps;
-    const SpringSystem none({}, 1);
-    Motion motion{one.x.topRows(1), Positions::Zero(1, 3)};
-    motion.v(0, 2) = -1;
-    const DynamicsReport report =
-        ImplicitDynamics(none, options).advance(motion, one.x.topRows(1), one.inverse_mass, kStageStep, &one.held);
-    EXPECT_EQ(report.unconverged, 0);
-    EXPECT_EQ(report.solves, steps);
-    const double known_m = 1e-4;  // what contacts bear is found to a ten-thousandth
-    EXPECT_NEAR(motion.x(0, 2), kStageThickness + way.z(), known_m);
-    if (steps == 1) {
-      EXPECT_NEAR(motion.v(0, 2), (motion.x(0, 2) - 0.3) / kStageStep, 1e-7);
-    } else {
-      EXPECT_LT((motion.v.row(0).transpose() - way / kStageStep).norm(), steps * known_m / kStageStep);
-      ASSERT_EQ(one.held.loads().vf.size(), 1U);
-      const double load_m_s2 = one.held.loads().vf.front().acceleration_m_s2;
-      if (steps == 5) {
-        EXPECT_NEAR(load_m_s2, gravity_m_s2, 0.01 * gravity_m_s2);
-      }
-    }
-  }
-}
-
-/// Two vertices on a spring swing beside the one that lies on the face, at their own accuracy.
-TEST(StageContacts, ClothThatMeetsNothingTakesTwoStagesBesideOthersThatDo) {
-  Positions x(6, 3);
-  x << 0, 0, 0.3, 5, 0, 0, 6.1, 0, 0, -1, -1, 0, 1, -1, 0, 0, 1, 0;
-  const Mesh mesh = make_mesh(6, Faces{{3, 4, 5}});
-  const SurfaceParts parts(mesh);
-  const VertexFaces faces(mesh);
-  const ContactTable properties(mesh, {}, {});
-  const std::vector<double> inverse_mass{2, 2, 3, 0, 0, 0};
-  RepulsionContact contact;
-  contact.interaction = make_interaction(PairKind::kVf, {0, 3, 4, 5}, {1, 0.25, 0.25, 0.5}, inverse_mass);
-  contact.normal = Vec3::UnitZ();
-  contact.distance = 0.3;
-  contact.properties.thickness_m = kStageThickness;
-  HeldContacts held({contact}, {}, HeldSurface{mesh, parts, faces, properties, inverse_mass, 3, -Vec3::UnitZ()}, x, x,
-                    kStageStep, 1);
-  const SpringSystem springs({Spring{1, 2, SpringKind::kStructural, 1, 20, 0}}, 3);
-  ImplicitDynamicsOptions options;
-  options.strain = {.strain = 0, .strain_rate = 0};
-  options.step_s = kStageStep / 3;
-  Motion alone{x.topRows(3), Positions::Zero(3, 3)};
-  alone.v(0, 2) = -1;
-  alone.v(2, 1) = 0.3;
-  Motion beside = alone;
-  const PositionsRef script = x.topRows(3);
-  ImplicitDynamics(springs, options).advance(alone, script, inverse_mass, kStageStep);
-  ImplicitDynamics(springs, options).advance(beside, script, inverse_mass, kStageStep, &held);
-  EXPECT_NEAR(beside.x(0, 2), kStageThickness, 1e-4);
-  EXPECT_NEAR(alone.x(0, 2), 0.3 - kStageStep, 1e-7);
-  EXPECT_LT((beside.x - alone.x).bottomRows(2).norm(), 1e-8);
-  EXPECT_LT((beside.v - alone.v).bottomRows(2).norm(), 1e-7);
-}
-
-/// A pin, a vertex on a spring at it, and a body below: in a frame that moves with all of them they do the same.
-TEST(StageContacts, PinsGoOnWhileOthersAreInContact) {
-  const auto moved = [](const Vec3& drift_m, double limit) {
-    Positions x(5, 3);
-    x << 0, 0, 0.3, 1, 0, 0.3, -1, -1, 0, 1, -1, 0, 0, 1, 0;
-    const Positions x_t1 = x.rowwise() + drift_m.transpose();
-    const Mesh mesh = make_mesh(5, Faces{{2, 3, 4}});
-    const SurfaceParts parts(mesh);
-    const VertexFaces faces(mesh);
-    const ContactTable properties(mesh, {}, {});
-    const std::vector<double> inverse_mass{2, 0, 0, 0, 0};
-    RepulsionContact contact;
-    contact.interaction = make_interaction(PairKind::kVf, {0, 2, 3, 4}, {1, 0.25, 0.25, 0.5}, inverse_mass);
-    contact.normal = Vec3::UnitZ();
-    contact.distance = 0.3;
-    contact.properties.thickness_m = kStageThickness;
-    HeldContacts held({contact}, {}, HeldSurface{mesh, parts, faces, properties, inverse_mass, 2, -Vec3::UnitZ()}, x,
-                      x_t1, kStageStep, 1);
-    const SpringSystem springs({Spring{0, 1, SpringKind::kStructural, 1, 3, 0.1}}, 2);
-    ImplicitDynamicsOptions options;
-    options.strain = {.strain = limit, .strain_rate = 0};
-    options.step_s = kStageStep / 2;
-    Motion motion{x.topRows(2), Positions::Zero(2, 3)};
-    motion.v.row(0) << -1, 0, -1;
-    motion.v.rowwise() += drift_m.transpose() / kStageStep;
-    ImplicitDynamics(springs, options).advance(motion, x_t1.topRows(2), inverse_mass, kStageStep, &held);
-    motion.x.rowwise() -= drift_m.transpose();
-    motion.v.rowwise() -= drift_m.transpose() / kStageStep;
-    return motion;
-  };
-  const Motion at_rest = moved(Vec3::Zero(), 0), drifts = moved({0.4, -0.3, 0.2}, 0);
-  EXPECT_NEAR(at_rest.x(0, 2), kStageThickness, 1e-4);
-  EXPECT_GT((at_rest.x.row(1) - at_rest.x.row(0)).norm(), 1.08);
-  EXPECT_LT((drifts.x - at_rest.x).norm(), 1e-4);
-  EXPECT_LT((drifts.v - at_rest.v).norm(), 2e-3);
-  const Motion limited = moved(Vec3::Zero(), 0.05);
-  EXPECT_NEAR((limited.x.row(1) - limited.x.row(0)).norm(), 1.05, 1e-3);
-}
-
 /// The only corner that can move has a small weight: left to the collision step, and its load does not wait for later.
 TEST(StageContacts, AContactOfALimitedLeverKeepsNoLoad) {
   for (const double weight : {0.5, 0.01}) {
