@@ -76,7 +76,7 @@ std::string describe(const Scene& scene, const World& world) {
       line("pin", fmt::format("{}, {} vertices{}", pin.name(), pin.vertices().size(), carrier));
     }
   }
-  if (scene.squeeze == SqueezePolicy::kYield) line("squeezed", "bodies give way to the cloth, or wait");
+  if (scene.squeeze == SqueezePolicy::kYield) line("squeezed", "bodies wait for the cloth, or go on along it");
   const char* what = "contact";
   for (const std::string& part : describe(contact_of(scene.collision), scene.collision.repulsion)) {
     line(what, part);
