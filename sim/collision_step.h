@@ -80,8 +80,9 @@ struct CollisionStepReport {
 struct CollisionStepResult {
   Positions x;  ///< #V by 3: certified where the status is kSafe, else V_t0; exactly the doubles to store
   /// #V by 3, m/s: the average velocity (x - V_t0) / dt after impulses, before rounding to x; at most the largest
-  /// finite double. Impulses keep momentum and angular momentum; a zone that turns by an angle in the step is at the
-  /// end of a chord, which keeps sin(angle) / angle of the latter about its axis (docs/guarantee-step.md).
+  /// finite double. Impulses keep momentum and angular momentum, but for `held` contacts whose normal is not the line
+  /// of their points at V_t0, which keep the first alone; a zone that turns by an angle in the step is at the end of a
+  /// chord, which keeps sin(angle) / angle of the latter about its axis (docs/guarantee-step.md).
   Positions velocity;
   /// Contacts beside `held` that pressed, and collisions that repulsions left, as contacts: dynamics that hold contacts
   /// should know of them in another try from the same V_t0. None without repulsion.

@@ -46,8 +46,9 @@ SlipGeometry make_slip_geometry(const Interaction& interaction, const PairVector
     return slip;
   }
   add_rotation(interaction, x_t0, slip);
-  // r is parallel to the normal, so the normal impulse (7.2) and the tangential one do not feel each other. Across it
-  // an impulse turns the pair about r x t, which takes its share of the mobility back.
+  // Where r is parallel to the normal, as of contacts that were found at the start of the step, the normal impulse
+  // (7.2) and the tangential one do not feel each other. Across it an impulse turns the pair about r x t, which takes
+  // its share of the mobility back.
   const Vec3 t = normal.unitOrthogonal(), s = normal.cross(t);
   const Vec3 about_t = slip.r.cross(t), about_s = slip.r.cross(s);
   const Vec3 turned_t = slip.inverse_inertia * about_t, turned_s = slip.inverse_inertia * about_s;

@@ -47,8 +47,8 @@ struct FrictionLoad {
 /// Changes of the displacements of a pair that has pressed along `normal` (unit) by load.pressed > 0; nothing where
 /// nothing slips or rubs. It sticks where the sum of its frictions in the step stays within the static cone, else
 /// slides on to the kinetic one. Alone it adds no energy: it removes a share in [0, 1] of the tangential slip, by a
-/// projection orthogonal (in the masses) to the normal impulse. Adds to load.rubbed. REQUIRES the same pair, x_t0 and
-/// normal for a load.
+/// projection that is orthogonal (in the masses) to the normal impulse where the points are apart along the normal.
+/// Adds to load.rubbed. REQUIRES the same pair, x_t0 and normal for a load.
 [[nodiscard]] std::optional<PairVectors> friction_change(const Interaction& interaction, const PairVectors& x_t0,
                                                          const PairVectors& displacement, const Vec3& normal,
                                                          const FrictionCoefficients& friction, FrictionLoad& load);

@@ -227,33 +227,70 @@ TEST(CollisionStepProperties, NeitherHistoryNorAnAbandonedTryChangesAResult) {
   EXPECT_GT(taken, 20);
 }
 
+/// Three layers of cloth that an attack brings together, of which nothing adds energy.
+StepScene closed_scene() {
+  StepScene scene;
+  Noise noise(*rc::gen::arbitrary<std::uint64_t>());
+  random_options(scene);
+  scene.options.repulsion_stiffness_n_m = 0;
+  scene.options.tolerance_m = 0;  // the push to the tolerance is the one thing that adds energy
+  scene.options.max_impulse_rounds = 10;
+  add_layers(scene, 3, noise);
+  for (double& inverse_mass : scene.inverse_mass) inverse_mass = inverse_mass > 0 ? inverse_mass : 1;
+  attack(scene, static_cast<Attack>(integer_in(1, 4)), noise);
+  return scene;
+}
+
+/// Whether the step kept the momentum about the positions at its start, too: not if it had zones, whose chords keep
+/// sin(angle) / angle of it only.
+enum class Keeps { kLinear, kBoth };
+void expect_kept(const StepScene& scene, const CollisionStepResult& result, Keeps keeps) {
+  const Positions before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
+  RC_ASSERT(energy(scene, result.velocity) <= energy(scene, before) * (1 + 1e-12));
+  double scale = 0;
+  for (Eigen::Index v = 0; v < before.rows(); ++v) {
+    scale += before.row(v).norm() / scene.inverse_mass[static_cast<std::size_t>(v)];
+  }
+  RC_ASSERT((linear_momentum(scene, result.velocity) - linear_momentum(scene, before)).norm() <= 1e-12 * scale);
+  if (keeps == Keeps::kLinear || result.report.zone_rounds > 0) return;
+  RC_ASSERT((angular_momentum(scene, result.velocity) - angular_momentum(scene, before)).norm() <= 1e-12 * scale);
+}
+
 TEST(CollisionStepProperties, ImpulsesAndFrictionKeepMomentumAndAddNoEnergy) {
   int steps_with_impulses = 0;
   check_property(60, 104, [&] {
-    StepScene scene;
-    Noise noise(*rc::gen::arbitrary<std::uint64_t>());
-    random_options(scene);
-    scene.options.repulsion_stiffness_n_m = 0;
-    scene.options.tolerance_m = 0;  // the push to the tolerance is the one thing that adds energy
-    scene.options.max_impulse_rounds = 10;
-    add_layers(scene, 3, noise);
-    for (double& inverse_mass : scene.inverse_mass) inverse_mass = inverse_mass > 0 ? inverse_mass : 1;
-    attack(scene, static_cast<Attack>(integer_in(1, 4)), noise);
-    const Positions before = (scene.V_candidate - scene.V_t0) / scene.dt_s;
+    const StepScene scene = closed_scene();
     const CollisionStepResult result = scene.step();
     RC_ASSERT(exact_defect(scene, result) == "");
     RC_PRE(result.report.fail_safe_rounds == 0);
-    RC_ASSERT(energy(scene, result.velocity) <= energy(scene, before) * (1 + 1e-12));
-    double scale = 0;
-    for (Eigen::Index v = 0; v < before.rows(); ++v) {
-      scale += before.row(v).norm() / scene.inverse_mass[static_cast<std::size_t>(v)];
-    }
-    RC_ASSERT((linear_momentum(scene, result.velocity) - linear_momentum(scene, before)).norm() <= 1e-12 * scale);
-    if (result.report.zone_rounds > 0) return;  // a zone's chord keeps angular momentum to sin(angle) / angle only
-    steps_with_impulses += result.report.impulse_rounds > 0 ? 1 : 0;
-    RC_ASSERT((angular_momentum(scene, result.velocity) - angular_momentum(scene, before)).norm() <= 1e-12 * scale);
+    expect_kept(scene, result, Keeps::kBoth);
+    steps_with_impulses += result.report.zone_rounds == 0 && result.report.impulse_rounds > 0 ? 1 : 0;
   });
   EXPECT_GT(steps_with_impulses, 10);  // else the property says nothing
+}
+
+/// Those that were found repel along the line of their points at the start. Those of collisions repel along the normal
+/// of the collision, which is another line: they turn a pair.
+TEST(CollisionStepProperties, HeldContactsKeepMomentumAndAddNoEnergy) {
+  int found_repelled = 0, met_repelled = 0;
+  check_property(60, 105, [&] {
+    StepScene scene = closed_scene();
+    scene.options.repulsion = true;
+    const Mesh mesh = scene.mesh();
+    CollisionStep step(mesh, scene.options);
+    const auto step_with = [&](const std::vector<RepulsionContact>& held, Keeps keeps, int& repelled) {
+      const auto result = step(scene.V_t0, scene.V_candidate, scene.bodies(), scene.dt_s, {}, held);
+      RC_ASSERT(exact_defect(scene, result) == "");
+      if (result.report.fail_safe_rounds == 0) expect_kept(scene, result, keeps);
+      repelled += !held.empty() && result.report.repulsions > 0 ? 1 : 0;
+      return result;
+    };
+    const auto found = step.find_contacts(scene.V_t0, scene.V_candidate, scene.bodies());
+    const auto first = step_with(found, Keeps::kBoth, found_repelled);
+    step_with(first.met, Keeps::kLinear, met_repelled);
+  });
+  EXPECT_GT(found_repelled, 10);
+  EXPECT_GT(met_repelled, 10);
 }
 
 }  // namespace selvage::sim::testbed
