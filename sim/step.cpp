@@ -248,6 +248,8 @@ bool Simulation::energizes(const std::vector<RepulsionContact>& held, bool is_ne
   return allowance_.energizes(step, script_.inverse_mass(), clock_.dt_s(), is_new);
 }
 
+// Section 5: "If there were no repulsions or collisions" the velocity is that of the dynamics, "otherwise" it comes
+// from the midstep velocity (7.6), in those parts of the cloth that the collision step has changed.
 void Simulation::commit(Try& tried) {
   const Eigen::Index cloth = world_.cloth_vertex_count;
   const CollisionStepResult& safe = tried.safe;

@@ -1,6 +1,7 @@
 // One time step of a scene, as section 5 of the paper lists it: a step size (step_clock.h), a candidate from the
-// dynamics (run_dynamics()), repulsions and collisions (resolve_collisions()), velocities (commit()); tried again with
-// half the step where that is asked (find_good_try()).
+// dynamics (run_dynamics()), repulsions and collisions (resolve_collisions(): sections 7.2 to 7.5, in the order in
+// which collision_attempt.cpp has them), velocities (commit()); tried again with half the step where that is asked
+// (find_good_try()).
 #pragma once
 
 #include <memory>
