@@ -47,9 +47,9 @@ inline constexpr double kLeastMobility = 0x1p-100;
 /// Whether cloth alone takes part, so that momentum is kept: no vertex of the pair is scripted.
 [[nodiscard]] bool is_closed(const Interaction& interaction);
 
-/// A vertex moves at most this many times the relative change asked for. The plain formula w m^-1 / K, the lever, stays
-/// below 1.3 where all corners of a feature are free; it grows without bound where the only free corner of a pinned
-/// triangle has a weight near 0, and would throw that corner away.
+/// A vertex moves at most this many times the relative change asked for. The plain formula w m^-1 / K, the lever, is at
+/// most (1 + sqrt(3)) / 2 = 1.37 where all corners of a feature are free and of one mass; it grows without bound where
+/// the only free corner of a pinned triangle, or by far its lightest, has a weight near 0, and would throw that away.
 inline constexpr double kMaxLever = 8;
 /// The share in (0, 1] of an impulse that kMaxLever lets through: all up to it, then (kMaxLever / lever)^2. So what is
 /// moved fades out where it helps ever less, kMaxLever^2 / lever times what was asked for: of 8 times for any lever,
