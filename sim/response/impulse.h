@@ -41,7 +41,9 @@ inline constexpr double kPushTolerances = 2;
 
 /// The relative displacement that the pair must gain along a direction in which it is `gap_t0` apart at the start and
 /// approaches by -`displacement`: all of the approach (completely inelastic), and the push that is missing at the end.
-/// The push adds energy, at most that of the speed kPushTolerances * tolerance / dt.
+/// The push adds energy, at most that of the speed kPushTolerances * tolerance / dt. It stands where the paper has the
+/// spring of 7.2, for pairs that are near at the end and move apart already: that need not reach the tolerance, and
+/// here pairs that approach are pushed, too.
 [[nodiscard]] double collision_change(double gap_t0, double displacement, double tolerance);
 
 /// The impulse of one collision (paper, 7.4). A closed pair is stopped along the line of its two points at t = 0: on
