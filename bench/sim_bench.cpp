@@ -9,7 +9,6 @@
 namespace selvage::bench {
 namespace {
 
-constexpr double kSwingSide = 0.5;
 /// The finest step of either solver; implicit ones begin at one a frame, explicit ones where they are stable.
 constexpr int kFinestSubsteps = 256, kFirstExplicitSubsteps = 64;
 

@@ -7,8 +7,6 @@
 namespace selvage::bench {
 namespace {
 
-constexpr double kFramesPerSecond = 30;
-
 sim::Scene parse(sim::Solver solver, const std::string& rest) {
   return sim::parse_scene(fmt::format("solver = \"{}\"\n{}", solver_name(solver), rest), "bench sim");
 }
@@ -43,7 +41,7 @@ sim::Scene swing_scene(sim::Solver solver, int nodes, int substeps) {
   return parse(solver, std::string(kGravity) + "strain_limit = 0\n" +
                            (solver == sim::Solver::kExplicit ? "strain_rate_limit = 0\n" : "") +
                            time_table(8, fmt::format("dynamics_step_s = {}\n", step_s)) +
-                           "[collision]\nrepulsion = false\n" + sheet(nodes, 0.5, 60) +
+                           "[collision]\nrepulsion = false\n" + sheet(nodes, kSwingSide, 60) +
                            "[[cloth.pin]]\nedge = \"top\"\n");
 }
 

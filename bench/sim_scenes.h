@@ -8,6 +8,9 @@
 
 namespace selvage::bench {
 
+inline constexpr double kFramesPerSecond = 30;
+inline constexpr double kSwingSide = 0.5;  ///< of the sheet of swing_scene, metres
+
 /// As scene files name it.
 [[nodiscard]] const char* solver_name(sim::Solver solver);
 

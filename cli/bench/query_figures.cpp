@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,10 +19,6 @@ plot::Cell unsafe_count(std::int64_t count) { return {std::to_string(count), cou
 
 std::string guest_label(const std::string& method, const std::optional<bench::GuestFacts>& guest) {
   return guest && method == bench::kGuestRow ? fmt::format("{} {}", method, guest->name) : method;
-}
-
-double share(std::int64_t part, std::int64_t whole) {
-  return static_cast<double>(part) / static_cast<double>(std::max<std::int64_t>(1, whole));
 }
 
 }  // namespace
@@ -82,34 +78,6 @@ plot::Figure figure_of(const bench::CcdBenchReport& report) {
            "one thread; times of impact (toi) in parts of the step; red: what no collision code may do"},
           1,
           {std::move(bars)}};
-}
-
-plot::Figure figure_of(const std::vector<bench::SetReport>& reports) {
-  plot::Figure figure{"Methods of collision detection: errors against time",
-                      {"left and low is best; a point a setting; one thread; the exact checker says the truth"},
-                      3,
-                      {}};
-  const plot::Axis time{
-      fmt::format("time a query, multiple of {} {}", bench::kBaselineMethod, bench::kBaselineSetting)};
-  for (const bench::SetReport& report : reports) {
-    plot::Curves missed{time, {"missed, share of what touches"}, {}},
-        alarms{time, {"false alarms, share of the others"}, {}}, off{time, {"toi off by (p99), share of the step"}, {}};
-    for (const bench::SettingReport& row : report.settings) {
-      const std::string words = fmt::format(
-          "{}: {} missed, {} false alarms, {} gave up\n{} late, by {:.1e}; early p50 {:.1e}, p99 {:.1e}\n{:.0f} ns, "
-          "{:.2f} "
-          "of the baseline",
-          row.setting, row.misses, row.false_alarms, row.gave_up, row.toi.late, row.toi.late_max, row.toi.early_median,
-          row.toi.early_p99, row.ns, row.ratio);
-      missed.add(row.method, {row.ratio, share(row.misses, report.touching), words});
-      alarms.add(row.method, {row.ratio, share(row.false_alarms, report.vf + report.ee - report.touching), words});
-      if (row.toi_examined > 0) off.add(row.method, {row.ratio, row.toi_off_p99, words});
-    }
-    figure.panels.emplace_back(plot::Heading{fmt::format("{} ({}): {} vf + {} ee, {} touch", report.name, report.what,
-                                                         report.vf, report.ee, report.touching)});
-    for (plot::Curves* curves : {&missed, &alarms, &off}) figure.panels.emplace_back(std::move(*curves));
-  }
-  return figure;
 }
 
 }  // namespace selvage::cli

@@ -1,4 +1,4 @@
-// What a line of a picture is called.
+// What lines of a picture are called.
 #pragma once
 
 #include <string>
@@ -8,9 +8,14 @@
 
 namespace selvage::cli {
 
+/// "2 threads".
+[[nodiscard]] inline std::string threads_name(int thread_count) {
+  return fmt::format("{} thread{}", thread_count, thread_count == 1 ? "" : "s");
+}
+
 /// "cgal, 2 threads".
 [[nodiscard]] inline std::string series_name(std::string_view method, int thread_count) {
-  return fmt::format("{}, {} thread{}", method, thread_count, thread_count == 1 ? "" : "s");
+  return fmt::format("{}, {}", method, threads_name(thread_count));
 }
 
 }  // namespace selvage::cli

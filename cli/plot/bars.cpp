@@ -41,7 +41,10 @@ Html draw(const Bars& bars, const Box& box) {
   for (std::size_t i = 0; i < bars.bars.size(); ++i) {
     const Bar& bar = bars.bars[i];
     const double y = top + kRow * static_cast<double>(i), base = y + kRow / 2 + 4;
-    drawn += rectangle(left, y + 5, scale.place(bar.value) - left, kRow - 10, bar.is_ours ? kOurs : kOthers);
+    const double pale_end = scale.place(std::min(bar.pale, bar.value));
+    if (bar.pale > 0) drawn += rectangle(left, y + 5, pale_end - left, kRow - 10, kPale);
+    const double begin = bar.pale > 0 ? pale_end : left;
+    drawn += rectangle(begin, y + 5, scale.place(bar.value) - begin, kRow - 10, bar.is_ours ? kOurs : kOthers);
     drawn += words(left - 8, base, bar.label, {.anchor = Anchor::kEnd, .is_bold = bar.is_ours, .most = kMostOfLabel});
     for (std::size_t k = 0; k < bar.cells.size(); ++k) {
       drawn +=

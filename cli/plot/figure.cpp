@@ -13,25 +13,13 @@ using page::Html;
 
 namespace {
 
-constexpr double kWidth = 1080, kMargin = 20, kCurvesHeight = 300;
+constexpr double kWidth = 1080, kMargin = 20;
 constexpr std::size_t kMostOfLine = 150;
-
-Legend legend_of(const Figure& figure) {
-  std::vector<std::string> names;
-  for (const auto& panel : figure.panels) {
-    const auto* const curves = std::get_if<Curves>(&panel);
-    if (curves == nullptr) continue;
-    for (const Series& series : curves->series) {
-      if (std::ranges::find(names, series.name) == names.end()) names.push_back(series.name);
-    }
-  }
-  return Legend(std::move(names));
-}
 
 /// Draws from above to below.
 class Drawing {
  public:
-  explicit Drawing(const Figure& figure) : figure_(figure), legend_(legend_of(figure)) {
+  explicit Drawing(const Figure& figure) : figure_(figure), legend_(figure) {
     add_line(figure.title, {.size = 17, .is_bold = true, .most = 100}, 26);
     for (const std::string& note : figure.notes) add_line(note, {.colour = kQuiet, .most = kMostOfLine}, 17);
     y_ += 8;
@@ -61,18 +49,25 @@ class Drawing {
 
   void add_legend() {
     double x = kMargin;
-    for (const std::string& name : legend_.names()) {
+    const auto add_name = [&](const std::string& name, bool is_guide) {
       constexpr std::size_t kMost = 60;
-      const double width = 30 + width_of(std::min(kMost, character_count(name)), 12);
+      const double width = 36 + width_of(std::min(kMost, character_count(name)), 12);
       if (x > kMargin && x + width > kWidth - kMargin) {
         x = kMargin;
         y_ += 20;
       }
-      drawn_ += legend_.marker(name, x + 6, y_ + 8) + words(x + 16, y_ + 12, name, {.most = kMost});
+      drawn_ +=
+          is_guide ? guide(fmt::format("M{} {}h20", pixels(x), pixels(y_ + 8))) : legend_.marker(name, x + 10, y_ + 8);
+      drawn_ += words(x + 24, y_ + 12, name, {.most = kMost});
       x += width;
-    }
-    if (!legend_.names().empty()) y_ += 26;
+    };
+    for (const std::string& name : legend_.names()) add_name(name, false);
+    for (const std::string& name : legend_.guides()) add_name(name, true);
+    if (x > kMargin) y_ += 26;
   }
+
+  /// Where there are more beside each other they are less wide.
+  [[nodiscard]] double curves_height() const { return figure_.columns > 2 ? 260 : 300; }
 
   void add(const Heading& heading) {
     end_row();
@@ -82,7 +77,7 @@ class Drawing {
   void add(const Curves& curves) {
     if (column_ == figure_.columns) end_row();
     const double width = (kWidth - 2 * kMargin) / figure_.columns;
-    drawn_ += draw(curves, legend_, {kMargin + column_ * width, y_, width, kCurvesHeight});
+    drawn_ += draw(curves, legend_, {kMargin + column_ * width, y_, width, curves_height()});
     ++column_;
   }
 
@@ -93,7 +88,7 @@ class Drawing {
   }
 
   void end_row() {
-    if (column_ > 0) y_ += kCurvesHeight;
+    if (column_ > 0) y_ += curves_height();
     column_ = 0;
   }
 

@@ -1,6 +1,7 @@
 // A picture of measurements: what it holds, and the SVG that a browser shows of it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,19 +14,26 @@ enum class ScaleKind { kLinear, kLogarithmic };
 struct Axis {
   std::string label;  ///< with the unit
   ScaleKind kind = ScaleKind::kLogarithmic;
+  std::optional<double> reference = std::nullopt;  ///< a grey line at this number
+  std::vector<double> holds = {};                  ///< numbers that the axis shows, whatever the points are
 };
 
 /// Numbers from 0 up; one that is not finite is drawn at an end of its axis.
 struct Point {
   double x = 0, y = 0;
-  std::string row;  ///< all that the table says of it: shown where the mouse rests on the point
+  std::string row;           ///< all that the table says of it: shown where the mouse rests on the point
+  std::string label = {};    ///< stands beside the point where there is room
+  bool starts_line = false;  ///< no line leads to it from the point before
 };
+
+/// A guide is a broken grey line, for what is not measured.
+enum class Look { kLineAndMarkers, kMarkers, kGuide };
 
 /// Drawn with one colour and one marker wherever the name comes up again in a figure.
 struct Series {
   std::string name;
   std::vector<Point> points;
-  bool has_line = true;
+  Look look = Look::kLineAndMarkers;
 };
 
 struct Curves {
@@ -33,8 +41,11 @@ struct Curves {
   std::vector<Series> series;
 
   /// At the end of the series of that name, which is made where there is none.
-  void add(const std::string& name, Point point, bool has_line = true);
+  void add(const std::string& name, Point point, Look look = Look::kLineAndMarkers);
 };
+
+/// Gives all of them the same scales: a place in one means what it means in the others.
+void share_scales(const std::vector<Curves*>& panels);
 
 struct Cell {
   std::string text;
@@ -46,6 +57,7 @@ struct Bar {
   double value = 0;
   std::vector<Cell> cells;  ///< one for each of the columns
   bool is_ours = false;     ///< in colour
+  double pale = 0;          ///< up to this value the colour is pale
 };
 
 /// A bar a row, with columns of a table beside it.

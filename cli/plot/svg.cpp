@@ -56,6 +56,11 @@ Html path(std::string_view data, std::string_view fill, std::string_view stroke,
   return element("path", {{"d", data}, {"fill", fill}, {"stroke", stroke}}, more) + Html{"\n"};
 }
 
+Html guide(std::string_view data) {
+  return element("path", {{"d", data}, {"fill", "none"}, {"stroke", "#777777"}, {"stroke-dasharray", "2 3"}}, {}) +
+         Html{"\n"};
+}
+
 Html title(std::string_view text) { return element("title", {}, page::text(text)); }
 
 std::size_t character_count(std::string_view text) {

@@ -15,6 +15,8 @@ namespace selvage::cli::plot {
 /// `more` is a title() or nothing.
 [[nodiscard]] page::Html path(std::string_view data, std::string_view fill, std::string_view stroke,
                               const page::Html& more = {});
+/// A broken line along the path, for what is not measured.
+[[nodiscard]] page::Html guide(std::string_view data);
 /// "12.5"; never "-0.0".
 [[nodiscard]] std::string pixels(double length);
 

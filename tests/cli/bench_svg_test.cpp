@@ -82,7 +82,11 @@ TEST(BenchSvg, OfEveryBenchIsAPictureWithAllRowsOfItsTables) {
         rows += motion.at("methods").size();
         moved += motion.at("incremental").size();
       }
-      EXPECT_EQ(points, 3 * rows + moved);
+      const std::size_t of_one_thread = rows / 2, motions = report.at("motions").size();
+      EXPECT_EQ(points, 3 * rows + moved + motions + of_one_thread);
+      for (const char* text : {"1 thread", "2 threads", "candidate pairs a face", "sheet pleated by 0.1"}) {
+        expect_text(svg, ">" + std::string(text) + "</text>");
+      }
     } else if (arguments[0] == "methods") {
       std::size_t times = 0;
       for (const auto& set : report.at("sets")) {
@@ -90,15 +94,25 @@ TEST(BenchSvg, OfEveryBenchIsAPictureWithAllRowsOfItsTables) {
         rows += set.at("settings").size();
       }
       EXPECT_EQ(points, 2 * rows + times);
+      EXPECT_GT(count_of(svg, ">0.001 m</text>"), 0U) << "the ends of a line say which is which";
     } else if (arguments[0] == "sim") {
-      for (const char* table : {"time_steps", "meshes", "growth"}) rows += 2 * report.at(table).size();
-      EXPECT_EQ(points, rows);
-      EXPECT_EQ(bars, report.at("conservation").size() + report.at("modules").size());
+      for (const char* table : {"time_steps", "meshes"}) rows += 3 * report.at(table).size();
+      const std::size_t sizes = 2, phases = 3;
+      EXPECT_EQ(points, rows + 2 * report.at("growth").size() + phases * sizes);
+      // A module's bar is in two colours, but for the first.
+      EXPECT_EQ(bars, report.at("conservation").size() + 2 * report.at("modules").size() - 1);
+      for (const char* text : {"second order", "step of the dynamics, ms", "edge of the mesh, mm", "dynamics",
+                               "velocity", "springs alone", "nothing: the same again"}) {
+        expect_text(svg, ">" + std::string(text) + "</text>");
+      }
     } else {
       for (const auto& sheet : report.at("sheets")) {
         for (const auto& method : sheet.at("methods")) rows += method.at("examined") > 0 ? 6 : 5;
       }
       EXPECT_EQ(points, rows);
+      for (const char* text : {"Clean sheets", "20 vertices pushed through the next layer", "share decided exactly"}) {
+        EXPECT_GE(count_of(svg, ">" + std::string(text) + "</text>"), 1U) << text;
+      }
     }
   }
 }
