@@ -38,11 +38,12 @@ const char* solver_name(sim::Solver solver) { return solver == sim::Solver::kExp
 
 sim::Scene swing_scene(sim::Solver solver, int nodes, int substeps) {
   const double step_s = 1 / kFramesPerSecond / substeps;
-  return parse(solver, std::string(kGravity) + "strain_limit = 0\n" +
-                           (solver == sim::Solver::kExplicit ? "strain_rate_limit = 0\n" : "") +
-                           time_table(8, fmt::format("dynamics_step_s = {}\n", step_s)) +
-                           "[collision]\nrepulsion = false\n" + sheet(nodes, kSwingSide, 60) +
-                           "[[cloth.pin]]\nedge = \"top\"\n");
+  return parse(solver,
+               std::string(kGravity) + "strain_limit = 0\n" +
+                   (solver == sim::Solver::kExplicit ? "strain_rate_limit = 0\n" : "") +
+                   time_table(8, fmt::format("dynamics_step_s = {}\nmax_step_s = {}\n", step_s, 1 / kFramesPerSecond)) +
+                   "[collision]\nrepulsion = false\n" + sheet(nodes, kSwingSide, 60) +
+                   "[[cloth.pin]]\nedge = \"top\"\n");
 }
 
 sim::Scene meeting_scene(sim::Solver solver) {

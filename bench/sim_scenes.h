@@ -16,7 +16,7 @@ inline constexpr double kSwingSide = 0.5;  ///< of the sheet of swing_scene, met
 
 /// A square sheet, held along one edge, swings down from level for 8 frames. No damping, no drag, no limits on strain,
 /// no repulsions, no contact: energy is constant, and positions have a limit as the step goes to zero. `substeps` of
-/// the dynamics in a frame.
+/// the dynamics in a frame, however few: the bound of implicit steps that scenes have by default is lifted.
 [[nodiscard]] sim::Scene swing_scene(sim::Solver solver, int nodes, int substeps);
 
 /// Two sheets meet in weightless space with friction and touch for most of 15 frames: momentum is constant, and energy
