@@ -31,6 +31,5 @@ def describe(build):
         "compiler": output_of(compiler.group(1), "--version").splitlines()[0] if compiler else "unknown",
         "flags": flags.group(1) if flags else "unknown",
         "commit": output_of("git", "rev-parse", "--short=12", "HEAD"),
-        "changed_files": len([line for line in output_of("git", "status", "--porcelain", "--untracked-files=no").splitlines()
-                              if line and not line.endswith(".svg")]),
+        "changed_files": len(output_of("git", "status", "--porcelain", "--untracked-files=no").splitlines()),
     }

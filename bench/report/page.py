@@ -1,6 +1,8 @@
 """Writes the page: bench/report/page.md with the tables and the circumstances of the measurements filled in."""
 import string
 
+import sentences
+
 
 def table(header, rows):
     lines = ["| " + " | ".join(header) + " |", "|" + " --- |" * len(header)]
@@ -15,11 +17,9 @@ def ratio(value):
     return f"{value:.2f}" if value < 100 else f"{value:,.0f}"
 
 
-def cloth_table(methods):
+def cloth_table(cloth):
     rows = []
-    for of in methods["sets"]:
-        if len(of["name"]) == 1:
-            continue
+    for of in cloth["sets"]:
         for row in of["settings"]:
             has_toi = row["toi_examined"] > 0
             rows.append([of["name"], row["method"], row["setting"], row["misses"], row["false_alarms"],
@@ -31,11 +31,9 @@ def cloth_table(methods):
 HARD_SETTINGS = [("textbook", "1e-06 m"), ("additive", "0.9"), ("inclusion", "0.0001 of size"), ("kernel", "0 m"), ("exact", "")]
 
 
-def hard_table(methods):
+def hard_table(hard):
     rows = []
-    for of in methods["sets"]:
-        if len(of["name"]) > 1:
-            continue
+    for of in hard["sets"]:
         found = {(row["method"], row["setting"]): row for row in of["settings"]}
         cells = [f"{found[key]['misses']} / {found[key]['false_alarms']} / {ratio(found[key]['ratio'])}" for key in HARD_SETTINGS]
         rows.append([f"{of['name']}: {of['what']}", of["vf"] + of["ee"], of["touching"], *cells])
@@ -87,10 +85,9 @@ def circumstances(machine):
             + f"; load {start[0]} at the start and {end[0]} at the end of {machine['minutes']:.0f} minutes.")
 
 
-def take_home(methods, verify, sim):
+def take_home(cloth, hard, verify, sim):
     """What a reader takes home, in at most ten lines: from the measurements, so that it is of the same run as all below."""
-    frames = next(of for of in methods["sets"] if len(of["name"]) > 1)
-    hard = [of for of in methods["sets"] if len(of["name"]) == 1]
+    frames, hard = cloth["sets"][0], hard["sets"]
 
     def setting(of, method, name):
         return next(row for row in of["settings"] if row["method"] == method and row["setting"] == name)
@@ -128,8 +125,9 @@ def take_home(methods, verify, sim):
 
 def write(template, reports, machine, results, page):
     text = string.Template(template.read_text()).substitute(
-        machine=circumstances(machine), take_home=take_home(reports["methods"], reports["verify"], reports["sim"]),
-        cloth_table=cloth_table(reports["methods"]), hard_table=hard_table(reports["methods"]),
+        machine=circumstances(machine), results=results, **sentences.quoted(reports),
+        take_home=take_home(reports["cloth"], reports["hard"], reports["verify"], reports["sim"]),
+        cloth_table=cloth_table(reports["cloth"]), hard_table=hard_table(reports["hard"]),
         checker_table=checker_table(reports["verify"]), accuracy_table=accuracy_table(reports["sim"]),
-        conservation_table=conservation_table(reports["sim"]), micro_table=micro_table(reports["micro"]), results=results)
+        conservation_table=conservation_table(reports["sim"]), micro_table=micro_table(reports["micro"]))
     page.write_text(text)

@@ -16,9 +16,6 @@ import time
 import machine
 import micro
 import page
-import plot_methods
-import plot_scaling
-import plot_sim
 import tables
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -26,13 +23,13 @@ SOURCE = HERE.parent.parent
 
 # name of the report: arguments in full, arguments when quick
 RUNS = {
-    "methods": ("methods --sheet 100 --most 40000 --hard 1000 --repeat 3",
-                "methods --sheet 40 --most 10000 --hard 200 --repeat 2"),
-    "verify": ("verify --faces 20000,100000,500000 --motion --repeat 1", "verify --faces 5000,20000 --motion --repeat 1"),
+    "cloth": ("methods --sheet 100 --most 40000 --hard 0 --repeat 3", "methods --sheet 40 --most 10000 --hard 0 --repeat 2"),
+    "hard": ("methods --sheet 0 --hard 1000 --repeat 3", "methods --sheet 0 --hard 200 --repeat 2"),
+    "verify": ("verify --faces 20000,100000,500000 --motion --repeat 3", "verify --faces 5000,20000 --motion --repeat 1"),
     "broad": ("broad --largest 100000 --repeat 3", "broad --largest 20000 --repeat 1"),
     "crumple": ("broad --largest 30000 --pleats 1,0.5,0.2,0.1,0.05 --repeat 3",
                 "broad --largest 10000 --pleats 1,0.2,0.05 --repeat 1"),
-    "sim": ("sim --solvers explicit,implicit --growth 30,60,120,240,400 --steps 1 --finest-mesh 33 --repeat 1",
+    "sim": ("sim --solvers explicit,implicit --growth 30,60,120,240,400 --steps 1 --finest-mesh 33 --repeat 3",
             "sim --solvers explicit,implicit --growth 20,40 --finest-mesh 17 --module-nodes 20 --repeat 1"),
 }
 
@@ -45,8 +42,9 @@ def public_frames():
 
 
 def measure(build, name, arguments, results):
-    command = [str(build / "cli" / "selvage"), "bench", *arguments.split(), "--json", str(results / f"{name}.json")]
-    if name == "methods":
+    command = [str(build / "cli" / "selvage"), "bench", *arguments.split(), "--json", str(results / f"{name}.json"),
+               "--svg", str(results / f"{name}.svg")]
+    if name == "cloth":
         command[3:3] = public_frames()
     start = time.monotonic()
     print(f"bench: {name} ...", end="", file=sys.stderr, flush=True)
@@ -63,12 +61,13 @@ def main():
     parser.add_argument("--page", type=pathlib.Path, required=True, help="the page to write")
     parser.add_argument("--quick", action="store_true", help="small sizes: two minutes")
     parser.add_argument("--only", nargs="*", choices=list(RUNS), help="run these again, keep the other reports of the folder")
-    parser.add_argument("--plots", action="store_true", help="measure nothing: draw and write what the folder holds")
+    parser.add_argument("--page-only", action="store_true",
+                        help="measure nothing: write the page, and the CSV files, of the reports that the folder holds")
     options = parser.parse_args()
     options.results.mkdir(parents=True, exist_ok=True)
     about_file = options.results / "machine.json"
     codes = []
-    if not options.plots:
+    if not options.page_only:
         about = machine.describe(options.build)
         about["load_before"], start = machine.load(), time.monotonic()
         for name in options.only or RUNS:
@@ -81,10 +80,6 @@ def main():
         about_file.write_text(json.dumps(about, indent=2) + "\n")
     reports = {name: json.loads((options.results / f"{name}.json").read_text()) for name in (*RUNS, "micro")}
     tables.write_all(reports, options.results)
-    plot_methods.plot(reports["methods"], options.results)
-    plot_scaling.plot_checker(reports["verify"], options.results)
-    plot_scaling.plot_broad(reports["broad"], reports["crumple"], options.results)
-    plot_sim.plot(reports["sim"], options.results)
     options.page.parent.mkdir(parents=True, exist_ok=True)
     page.write(HERE / "page.md", reports, json.loads(about_file.read_text()),
                os.path.relpath(options.results, options.page.parent), options.page)

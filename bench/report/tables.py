@@ -26,7 +26,8 @@ def write(file, rows):
 
 
 def write_all(reports, folder):
-    write(folder / "methods.csv", nested(reports["methods"]["sets"], "settings"))
+    for name in ("cloth", "hard"):
+        write(folder / f"{name}.csv", nested(reports[name]["sets"], "settings"))
     write(folder / "verify.csv", nested(reports["verify"]["sheets"], "methods"))
     for name in ("broad", "crumple"):
         write(folder / f"{name}.csv", nested(reports[name]["motions"], "methods"))

@@ -43,9 +43,8 @@ SetPanels panels_of(const bench::SetReport& report) {
                    {time, error("toi off by (p99), share of step"), {}}};
   for (const bench::SettingReport& row : report.settings) {
     const std::string words = fmt::format(
-        "{}: {} missed, {} false alarms, {} gave up\n{} late, by {:.1e}; early p50 {:.1e}, p99 {:.1e}\n{:.0f} ns, "
-        "{:.2f} "
-        "of the baseline",
+        "{}: {} missed, {} false alarms, {} gave up\n{} late, by {:.1e}; early p50 {:.1e}, p99 {:.1e}\n"
+        "{:.0f} ns, {:.2f} of the baseline",
         row.setting, row.misses, row.false_alarms, row.gave_up, row.toi.late, row.toi.late_max, row.toi.early_median,
         row.toi.early_p99, row.ns, row.ratio);
     const std::string label = row.setting.substr(0, row.setting.find(" of "));

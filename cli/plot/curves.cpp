@@ -85,7 +85,7 @@ Html draw(const Curves& curves, const Legend& legend, const Box& box) {
   }
   drawn += line(left, bottom, right, bottom, kQuiet) + line(left, top, left, bottom, kQuiet);
   drawn += words((left + right) / 2, bottom + 35, curves.x.label, {.anchor = Anchor::kMiddle});
-  drawn += words(box.x + 14, (top + bottom) / 2, curves.y.label, {.anchor = Anchor::kMiddle, .is_upright = true});
+  drawn += words(box.x + 11, (top + bottom) / 2, curves.y.label, {.anchor = Anchor::kMiddle, .is_upright = true});
   for (const Series& series : curves.series) {
     const std::string data = lines_of(series, x, y);
     if (series.look == Look::kGuide) {
