@@ -56,3 +56,13 @@ set(SELVAGE_FP_OPTIONS
   -ffp-contract=off -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math -fsigned-zeros)
 add_library(selvage_fp_model INTERFACE)
 target_compile_options(selvage_fp_model INTERFACE ${SELVAGE_FP_OPTIONS})
+
+# For which vector units lanes are compiled. Where AVX3_DL is the baseline (-march=native on an Ice Lake or later) Highway 1.0.3
+# does not compile; AVX3 serves. On AArch64 NEON serves, which all of them have. Vectors of SVE have no size that a compiler knows,
+# and so are members of nothing. And as one unit of several NEON would be compiled with an attribute that g++ does not give to the
+# constructors which it makes itself, so that nothing could be chosen as the program starts: Highway does not where it takes the
+# header for that to be missing.
+add_library(selvage_vector_units INTERFACE)
+target_compile_definitions(selvage_vector_units INTERFACE
+  "HWY_DISABLED_TARGETS=(HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)"
+  $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>:TOOLCHAIN_MISS_SYS_AUXV_H>)
