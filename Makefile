@@ -2,7 +2,7 @@
 SELVAGE := build/release/cli/selvage
 DEMO    := demo
 
-.PHONY: help setup build program demo test readers pages asan tsan clang coverage docs same-bits fuzz libfuzzer afl mutants names agreement cluster bench micro instructions format tidy clean
+.PHONY: help setup build program demo test readers pages asan tsan clang aarch64 coverage docs same-bits fuzz libfuzzer afl mutants names agreement cluster bench micro instructions format tidy clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -57,6 +57,13 @@ clang: setup  ## build and test with clang++: the same bits are asserted
 	cmake --preset clang --log-level=WARNING
 	cmake --build --preset clang
 	ctest --preset clang
+
+aarch64: setup  ## build for AArch64 and run the short tests under QEMU: the same bits are asserted
+	@cmake/setup packages-aarch64.txt
+	cmake/aarch64_sysroot build/aarch64-sysroot
+	cmake --preset aarch64 --log-level=WARNING
+	cmake --build --preset aarch64
+	ctest --preset aarch64
 
 coverage: setup  ## every line and branch of the kernel is tested, but for those that docs/measurements/coverage.md excuses
 	@cmake/setup packages-clang.txt

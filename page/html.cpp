@@ -9,7 +9,7 @@ Html text(std::string_view plain) {
   for (std::size_t i = 0; i < plain.size();) {
     const std::size_t length = character_length(plain.substr(i));
     const char c = plain[i];
-    const bool forbidden = length == 1 && (c == '\x7f' || (c >= 0 && c < ' ' && c != '\n' && c != '\t'));
+    const bool forbidden = length == 1 && (c == '\x7f' || (c < ' ' && c != '\n' && c != '\t'));
     const bool none = length == 3 && (plain.substr(i, 3) == "\xEF\xBF\xBE" || plain.substr(i, 3) == "\xEF\xBF\xBF");
     if (length == 0 || forbidden || none) {
       result.code += kReplacement;
