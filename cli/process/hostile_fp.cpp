@@ -14,6 +14,15 @@ constexpr unsigned kFlushAndDenormals = 0x8040;  // MXCSR: FTZ bit 15, DAZ bit 6
 unsigned control() { return _mm_getcsr(); }
 void set_control(unsigned value) { _mm_setcsr(value); }
 constexpr bool kCanFlush = true;
+#elif defined(__aarch64__)
+constexpr unsigned kFlushAndDenormals = 1U << 24;  // FPCR: FZ (Arm ARM, C5.2.8)
+unsigned control() {
+  unsigned long value = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(value));
+  return static_cast<unsigned>(value);
+}
+void set_control(unsigned value) { asm volatile("msr fpcr, %0" : : "r"(static_cast<unsigned long>(value)) : "memory"); }
+constexpr bool kCanFlush = true;
 #else
 constexpr unsigned kFlushAndDenormals = 0;
 unsigned control() { return 0; }

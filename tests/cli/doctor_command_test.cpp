@@ -41,7 +41,6 @@ TEST(DoctorCommand, HereAllIsSound) {
   EXPECT_NE(report["versions"].get<std::string>().find("GMP"), std::string::npos);
 }
 
-#if defined(__SSE2__)
 TEST(DoctorCommand, WhatAGuardRepairsIsNamedAndNotFatal) {
   const TemporaryFolder folder;
   const auto doctor = run_program(folder, {"doctor"}, SELVAGE_FLUSHED_PROGRAM);
@@ -57,7 +56,6 @@ TEST(DoctorCommand, WhatAGuardRepairsIsNamedAndNotFatal) {
   EXPECT_NE(verify.err.find("subnormal results are flushed to zero"), std::string::npos) << verify.err;
   EXPECT_EQ(std::count(verify.err.begin(), verify.err.end(), '\n'), 1) << verify.err;
 }
-#endif
 
 TEST(DoctorCommand, WhatCannotBeRepairedIsSixEverywhere) {
   const TemporaryFolder folder;

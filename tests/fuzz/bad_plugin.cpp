@@ -11,16 +11,14 @@
 #include <fenv.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#include <xmmintrin.h>
 
 #include "fuzz/selvage-plugin.h"
+#include "tests/fp_control.h"
 #if defined(INVENTS_FAILURES)
 #include "fuzz/run/worker.h"
 #endif
 
 namespace {
-
-[[maybe_unused]] constexpr unsigned kFlushToZero = 0x8000, kRoundUp = 0x4000;  // MXCSR
 
 #if defined(HAS_A_BAD_NAME)
 // A line break, the start of a command to the terminal, a byte that is no UTF-8; then a character across the 63rd byte.
@@ -113,9 +111,9 @@ void answer(int32_t kind, const selvage_query* query, selvage_answer* answer) {
   last_query = *query;
   last_answer = *answer;
 #elif defined(CHANGES_ROUNDING)
-  _mm_setcsr(_mm_getcsr() | kRoundUp);
+  selvage::testing::set_fp_control(selvage::testing::fp_control() | selvage::testing::kRoundUp);
 #elif defined(SETS_FTZ)
-  _mm_setcsr(_mm_getcsr() | kFlushToZero);
+  selvage::testing::set_fp_control(selvage::testing::fp_control() | selvage::testing::kFlushToZero);
 #elif defined(WRITES_TO_FILES)
   for (int file = 3; file < 64; ++file) [[maybe_unused]] const auto ignored = write(file, "{}\n", 3);
 #elif defined(INVENTS_FAILURES)

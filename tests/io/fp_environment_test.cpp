@@ -14,13 +14,10 @@
 #include "io/sequence/sequence_json.h"
 #include "io/sequence/sequence_outputs.h"
 #include "io/sequence/sequence_readers.h"
+#include "tests/fp_control.h"
 #include "tests/io/npy_builder.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/io/zip_writer.h"
-
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
 
 namespace selvage::io {
 namespace {
@@ -146,13 +143,11 @@ TEST_P(FpEnvironment, ChangesNothingThatIsReadOrWritten) {
     EXPECT_EQ(after, rounding) << "the caller's mode is kept";
     EXPECT_TRUE(read == expected) << "rounding mode " << rounding;
   }
-#if defined(__x86_64__)
-  const unsigned found = _mm_getcsr();
-  _mm_setcsr(found | 0x8040U);  // FTZ and DAZ, as a library built with -ffast-math leaves them
+  const unsigned found = testing::fp_control();
+  testing::set_fp_control(found | testing::kFlushing);  // as a library built with -ffast-math leaves it
   const std::string read = reading.bytes();
-  _mm_setcsr(found);
+  testing::set_fp_control(found);
   EXPECT_TRUE(read == expected) << "subnormal numbers flushed";
-#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FpEnvironment, ::testing::Range(std::size_t{0}, readings().size()),

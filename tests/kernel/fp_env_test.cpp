@@ -1,14 +1,16 @@
 #include "kernel/fp_env.h"
 
 #include <cfenv>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include "tests/fp_control.h"
 
 namespace selvage {
+
+using testing::fp_control;
+using testing::set_fp_control;
 
 namespace {
 
@@ -56,18 +58,18 @@ TEST_F(FpEnvTest, ACleanEnvironmentIsLeftAlone) {
   EXPECT_FALSE(guard.repaired());
 }
 
-#if defined(__SSE2__)
-
-constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040, kInvalidMask = 0x0080;
-
 TEST_F(FpEnvTest, FlushingIsSeenAndRepaired) {
-  const unsigned clean = _mm_getcsr();
+  const unsigned clean = fp_control();
   struct Case {
     unsigned bits, defects;
   };
-  for (const Case& c : {Case{kFlushToZero, kFpFlush}, Case{kDenormalsAreZero, kFpDenormals},
-                        Case{kFlushToZero | kDenormalsAreZero, kFpFlush | kFpDenormals}}) {
-    _mm_setcsr(clean | c.bits);
+  std::vector<Case> cases = {{testing::kFlushing, kFpFlush | kFpDenormals}};
+#if defined(__x86_64__)
+  cases.push_back({testing::kFlushToZero, kFpFlush});
+  cases.push_back({testing::kDenormalsAreZero, kFpDenormals});
+#endif
+  for (const Case& c : cases) {
+    set_fp_control(clean | c.bits);
     const unsigned defects = fp_env_defects();
     bool repaired = false;
     unsigned inside = 1;
@@ -76,29 +78,32 @@ TEST_F(FpEnvTest, FlushingIsSeenAndRepaired) {
       repaired = guard.repaired();
       inside = fp_env_defects();
     }
-    const unsigned after = _mm_getcsr();
-    _mm_setcsr(clean);
+    const unsigned after = fp_control();
+    set_fp_control(clean);
     EXPECT_EQ(defects, c.defects);
     EXPECT_TRUE(repaired);
     EXPECT_EQ(inside, 0U);
-    EXPECT_EQ(after & (kFlushToZero | kDenormalsAreZero), c.bits);
+    EXPECT_EQ(after & testing::kFlushing, c.bits);
   }
 }
 
+// Processors for AArch64 need not have traps.
+#if defined(__x86_64__)
+
 TEST_F(FpEnvTest, TrapsAreOffInsideTheGuard) {
-  const unsigned clean = _mm_getcsr();
-  _mm_setcsr(clean & ~kInvalidMask);
+  constexpr unsigned kInvalidMask = 0x0080;
+  const unsigned clean = fp_control();
+  set_fp_control(clean & ~kInvalidMask);
   bool masked = false;
   {
     const FpEnvGuard guard;
-    masked = (_mm_getcsr() & kInvalidMask) != 0;
+    masked = (fp_control() & kInvalidMask) != 0;
   }
-  const unsigned after = _mm_getcsr();
-  _mm_setcsr(clean);
+  const unsigned after = fp_control();
+  set_fp_control(clean);
   EXPECT_TRUE(masked);
   EXPECT_EQ(after & kInvalidMask, 0U);
 }
-
 #endif
 
 }  // namespace selvage

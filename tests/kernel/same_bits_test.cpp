@@ -10,12 +10,9 @@
 #include "kernel/ccd.h"
 #include "kernel/fp_env.h"
 #include "kernel/proximity.h"
+#include "tests/fp_control.h"
 #include "tests/kernel/random_points.h"
 #include "tests/same_bits/hash.h"
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
 
 namespace selvage {
 
@@ -81,16 +78,13 @@ TEST(SameBits, DirectedRoundingOfTheCallerChangesNothing) {
   }
 }
 
-#if defined(__SSE2__)
 TEST(SameBits, FlushingOfTheCallerChangesNothing) {
-  constexpr unsigned kFtz = 0x8000, kDaz = 0x0040;
   const std::vector<AnyQuery> all = queries();
-  const unsigned clean = _mm_getcsr();
-  _mm_setcsr(clean | kFtz | kDaz);
+  const unsigned clean = testing::fp_control();
+  testing::set_fp_control(clean | testing::kFlushing);
   const std::uint64_t hash = hash_of_answers(all);
-  _mm_setcsr(clean);
+  testing::set_fp_control(clean);
   EXPECT_EQ(hash, kGoldenHash);
 }
-#endif
 
 }  // namespace selvage

@@ -4,20 +4,21 @@
 #include <cfenv>
 #include <fstream>
 
-#include <xmmintrin.h>
-
 #include "sim/contact/contact_table.h"
 #include "sim/contact/rest_pairs.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/step.h"
 #include "sim/subdivision/subdivision.h"
+#include "tests/fp_control.h"
 #include "tests/sim/small_scene.h"
 #include "tests/sim/step_scene.h"
 
 namespace selvage::sim::testbed {
 namespace {
 
-constexpr unsigned kFlushAndDenormalsAreZero = 0x8040;
+using selvage::testing::fp_control;
+using selvage::testing::kFlushing;
+using selvage::testing::set_fp_control;
 
 /// Two sheets on each other: parallel edges, whose nearest points are found by dividing by zero.
 StepScene two_sheets() {
@@ -68,7 +69,7 @@ TEST(HostEnvironment, DoesNotChangeASimulation) {
     const Positions plain = simulated_in([] {}, solver);
     EXPECT_EQ(simulated_in([] { feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW); }, solver), plain) << solver;
     EXPECT_EQ(simulated_in([] { std::fesetround(FE_UPWARD); }, solver), plain) << solver;
-    EXPECT_EQ(simulated_in([] { _mm_setcsr(_mm_getcsr() | kFlushAndDenormalsAreZero); }, solver), plain) << solver;
+    EXPECT_EQ(simulated_in([] { set_fp_control(fp_control() | kFlushing); }, solver), plain) << solver;
   }
 }
 
@@ -107,7 +108,7 @@ TEST(HostEnvironment, ThatFlushesSubnormalsLosesNoThickness) {
   selvage::testing::in_host_environment([] {}, look);
   const std::vector<RestPair> plain = pairs;
   ASSERT_GT(plain.size(), 100U);
-  selvage::testing::in_host_environment([] { _mm_setcsr(_mm_getcsr() | kFlushAndDenormalsAreZero); }, look);
+  selvage::testing::in_host_environment([] { set_fp_control(fp_control() | kFlushing); }, look);
   EXPECT_TRUE(pairs == plain) << pairs.size();
   EXPECT_EQ(thickness, 2e-311);
   EXPECT_EQ(tolerance, 1e-312);

@@ -10,12 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
-
 #include "io/sequence.h"
 #include "io/sequence/sequence_readers.h"
+#include "tests/fp_control.h"
 #include "tests/io/point_cache_builder.h"
 #include "tests/public_data.h"
 #include "tests/verify/frames.h"
@@ -426,7 +423,6 @@ TEST(SequenceCheck, CountsWhatCgalCountsInPublicSequences) {
   }
 }
 
-#if defined(__x86_64__)
 /// The reader widens float32 to double; under "denormals are zero" a subnormal one would be read as zero.
 TEST(SequenceCheck, FramesAreReadUnderTheGuard) {
   std::string cache = testing::pc2(6, 0, 1);
@@ -437,12 +433,11 @@ TEST(SequenceCheck, FramesAreReadUnderTheGuard) {
   base.points.resize(6);
   base.triangles = {{0, 1, 2}, {3, 4, 5}};
   const auto sequence = io::open_point_cache(io::in_memory(cache), io::PointCacheFormat::kPc2, base, "in");
-  const unsigned found = _mm_getcsr();
-  _mm_setcsr(found | 0x8040U);  // FTZ and DAZ, as a library built with -ffast-math leaves them
+  const unsigned found = testing::fp_control();
+  testing::set_fp_control(found | testing::kFlushing);  // as a library built with -ffast-math leaves it
   const SequenceReport report = check_sequence(*sequence, {});
-  _mm_setcsr(found);
+  testing::set_fp_control(found);
   EXPECT_EQ(report.verdict, Verdict::kClean);
 }
-#endif
 
 }  // namespace selvage::verify

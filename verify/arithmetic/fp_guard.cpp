@@ -18,8 +18,9 @@ constexpr unsigned kControlWanted = 0x1f80;
 unsigned read_control() { return _mm_getcsr(); }
 void write_control(unsigned control) { _mm_setcsr(control); }
 #else
-// FPCR: exception traps bits 8-12 and 15, rounding mode bits 22-23 (0: to nearest), FZ bit 24.
-constexpr unsigned kControlBits = 0x01c09f00;
+// FPCR: FIZ, AH and NEP bits 0-2 (of newer processors), exception traps bits 8-12 and 15, rounding mode bits 22-23 (0:
+// to nearest), FZ bit 24.
+constexpr unsigned kControlBits = 0x01c09f07;
 constexpr unsigned kControlWanted = 0;
 
 unsigned read_control() {

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include <xmmintrin.h>
-
+#include "tests/fp_control.h"
 #include "tests/sim/repair/untangle_scene.h"
 
 namespace selvage::sim::testbed {
@@ -77,13 +76,12 @@ TEST(Untangle, WhatACollisionStepRefusesIsAskedBeforeAnythingMoves) {
 TEST(Untangle, LayersThatInterpenetrate) { expect_repaired(interpenetrating_layers(), 0.02); }
 
 TEST(Untangle, SameBitsWhateverRoundingTheCallerHas) {
-  constexpr unsigned kUpwards = 0x4000;  // of MXCSR
   const StepScene scene = interpenetrating_layers();
   const UntangleResult expected = untangle_scene(scene);
-  const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | kUpwards);
+  const unsigned before = selvage::testing::fp_control();
+  selvage::testing::set_fp_control(before | selvage::testing::kRoundUp);
   const UntangleResult result = untangle_scene(scene);
-  _mm_setcsr(before);
+  selvage::testing::set_fp_control(before);
   EXPECT_EQ(result.x, expected.x);
 }
 

@@ -3,8 +3,8 @@
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
+#include "tests/fp_control.h"
 #include "tests/verify/motion_families.h"
 #include "verify/decision/exact_motion.h"
 
@@ -99,13 +99,12 @@ TEST(PlantedMisses, AreNotReported) {
   }
 }
 
-#if defined(__x86_64__)
 TEST(ExactMotion, RepairsAHostileEnvironmentAndRestoresIt) {
   // Subnormal coordinates: with FTZ or DAZ all differences are zero, and everything would seem to touch.
   Draw draw(24);
-  const unsigned usual = _mm_getcsr();
-  constexpr unsigned kFtz = 0x8000, kDaz = 0x0040, kUp = 0x4000, kDown = 0x2000, kZero = 0x6000;
-  for (const unsigned hostile : {kFtz | kDaz, kUp, kDown, kZero, kFtz | kDaz | kZero}) {
+  using namespace selvage::testing;
+  const unsigned usual = fp_control();
+  for (const unsigned hostile : {kFlushing, kRoundUp, kRoundDown, kRoundToZero, kFlushing | kRoundToZero}) {
     for (int i = 0; i < 200; ++i) {
       MotionCase motion = i % 2 == 0 ? testbed::planted_miss(draw, 3, 1) : testbed::planted_vf_hit(draw, 3).motion;
       for (auto* points : {&motion.x_t0, &motion.x_t1}) {
@@ -113,18 +112,17 @@ TEST(ExactMotion, RepairsAHostileEnvironmentAndRestoresIt) {
           for (double& coordinate : point) coordinate = std::ldexp(coordinate, -1074);
         }
       }
-      _mm_setcsr(usual | hostile);
+      set_fp_control(usual | hostile);
       const bool touches = exact_vf_motion(motion.x_t0, motion.x_t1, Detail::kDecision).touches;
       const int sign = compare_first_touch(motion.x_t0, motion.x_t1, true, 1.0);
-      const unsigned after = _mm_getcsr();
-      _mm_setcsr(usual);
+      const unsigned after = fp_control();
+      set_fp_control(usual);
       ASSERT_EQ(touches, i % 2 == 1) << i << motion;
       ASSERT_LE(touches ? sign : 0, 0);
-      ASSERT_EQ(after & ~0x3fU, (usual | hostile) & ~0x3fU);  // but for the exception flags
+      ASSERT_EQ(after & ~kExceptionFlags, (usual | hostile) & ~kExceptionFlags);
     }
   }
 }
-#endif
 
 }  // namespace
 }  // namespace selvage::verify
