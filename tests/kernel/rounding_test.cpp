@@ -2,6 +2,7 @@
 // that is exceeded is wrong, one that is never approached is loose.
 #include "kernel/arithmetic/rounding.h"
 
+#include <array>
 #include <type_traits>
 #include <utility>
 
@@ -224,6 +225,23 @@ TEST(SupportError, HoldsInDoublesAtEveryMagnitude) { check_supports<double>(8000
 TEST(SupportError, HoldsInDoubleDoublesAtEveryMagnitude) { check_supports<DoubleDouble>(4000, 0.02); }
 TEST(DeterminantError, HoldsInDoublesAtEveryMagnitude) { check_cubics<double>(6000, 0.05); }
 TEST(DeterminantError, HoldsInDoubleDoublesAtEveryMagnitude) { check_cubics<DoubleDouble>(3000, 0.001); }
+
+/// g++ 12 with -O2 hands the doubles back, as they were, in `back`, unless it is told not to (SelvageToolchain.cmake).
+[[gnu::noinline]] void to_floats_and_back(const std::array<double, 2>& x, std::array<float, 2>& floats,
+                                          std::array<double, 2>& back) {
+  floats[0] = static_cast<float>(x[0]);
+  floats[1] = static_cast<float>(x[1]);
+  back[0] = static_cast<double>(floats[0]);
+  back[1] = static_cast<double>(floats[1]);
+}
+
+TEST(Compiler, RoundsDoublesThatBecomeFloatsSideBySide) {
+  std::array<float, 2> floats{};
+  std::array<double, 2> back{};
+  to_floats_and_back({0x1.0000001p0, 0x1.fffffffp-2}, floats, back);
+  EXPECT_EQ(floats, (std::array<float, 2>{0x1p0F, 0x1p-1F}));
+  EXPECT_EQ(back, (std::array<double, 2>{0x1p0, 0x1p-1}));
+}
 
 /// The rows that LaneMotion makes of a mesh of one magnitude or of mixed ones, near its origin or far from it.
 TEST(NearError, HoldsAtEveryMagnitude) {
