@@ -67,6 +67,7 @@ target_compile_options(selvage_fp_model INTERFACE
 # constructors which it makes itself, so that nothing could be chosen as the program starts: Highway does not where it takes the
 # header for that to be missing.
 add_library(selvage_vector_units INTERFACE)
+target_link_libraries(selvage_vector_units INTERFACE hwy::hwy)
 target_compile_definitions(selvage_vector_units INTERFACE
   "HWY_DISABLED_TARGETS=(HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)"
   $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>:TOOLCHAIN_MISS_SYS_AUXV_H>)

@@ -39,11 +39,9 @@ struct Shown {
 std::string lines_of(const Series& series, const Scale& x, const Scale& y) {
   std::string data;
   for (const Point& point : series.points) {
-    data += fmt::format("{}{} {}",
-                        data.empty()        ? "M"
-                        : point.starts_line ? " M"
-                                            : " L",
-                        pixels(x.place(point.x)), pixels(y.place(point.y)));
+    if (!data.empty()) data += ' ';
+    const bool starts = data.empty() || point.starts_line;
+    data += fmt::format("{}{} {}", starts ? 'M' : 'L', pixels(x.place(point.x)), pixels(y.place(point.y)));
   }
   return data;
 }

@@ -62,7 +62,7 @@ Scale::Scale(ScaleKind kind, const std::vector<double>& values, double begin, do
   if (most == 0) least = most = 1;
   if (kind == ScaleKind::kLinear) {
     const double step = round_up(most / (kMostTicks - 2));
-    high_ = step * std::ceil(most / step * (1 - 1e-9));
+    high_ = step * std::ceil(most / step * (1 - 1e-9));  // shares up to 1 end at 1, whatever is rounded
     return;
   }
   const double margin = std::max(1.3, std::sqrt(12 / (most / least)));  // so that there is a decade, and two ticks

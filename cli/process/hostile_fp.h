@@ -1,6 +1,7 @@
 // Floating-point environments in which the libraries must answer as in a sound one.
 #pragma once
 
+#include <cfenv>
 #include <vector>
 
 namespace selvage::cli {
@@ -8,7 +9,7 @@ namespace selvage::cli {
 struct HostileFp {
   const char* name;
   int rounding;  ///< as for fesetround()
-  bool flushes;  ///< FTZ and DAZ, where the processor is known (x86)
+  bool flushes;  ///< subnormal results and operands
 };
 [[nodiscard]] const std::vector<HostileFp>& hostile_environments();
 
@@ -21,8 +22,7 @@ class HostileScope {
   ~HostileScope();
 
  private:
-  int rounding_;
-  unsigned control_;
+  std::fenv_t found_{};
 };
 
 }  // namespace selvage::cli

@@ -1,9 +1,10 @@
 """docs/measurements/speed-against-error.md is what bench/report/page.md and the measurements of bench/results make, and
-it shows the pictures of bench/results, all of them.
+shows all pictures of bench/results.
 
     tests/bench/page_test.py SOURCE
 
-Whoever edits the page alone would lose it with the next `make bench`. Exit code 1 if the two differ, with the lines, or if a picture is missing or shown nowhere.
+Whoever edits the page alone would lose it with the next `make bench`. Exit code 1 if the two differ, with the lines, or
+if a picture is missing or shown nowhere.
 """
 import difflib
 import json

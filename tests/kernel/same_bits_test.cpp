@@ -68,6 +68,15 @@ std::uint64_t hash_of_answers(const std::vector<AnyQuery>& all) {
 
 TEST(SameBits, TheHashOfTheAnswersIsTheGoldenOne) { EXPECT_EQ(hash_of_answers(queries()), kGoldenHash); }
 
+// What tests/same_bits compares between the compilers of one machine, here between processors.
+TEST(SameBits, TheHashesOfEveryEntryOfTheKernelAreTheGoldenOnes) {
+  Hash of_queries, of_meshes;
+  testing::add_query_answers(of_queries);
+  testing::add_mesh_answers(of_meshes);
+  EXPECT_EQ(of_queries.value(), 0xfba1900a6054b437U);
+  EXPECT_EQ(of_meshes.value(), 0xdf84f698c62b48f5U);
+}
+
 TEST(SameBits, DirectedRoundingOfTheCallerChangesNothing) {
   const std::vector<AnyQuery> all = queries();
   for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
