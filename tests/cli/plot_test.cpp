@@ -64,6 +64,7 @@ TEST(PlotScale, PlacesAscendWithinTheAxisWhateverTheNumbers) {
   EXPECT_LT(errors.place(0), errors.place(1e-9) - 20) << "0 is apart";
   EXPECT_NE(none.ticks().front().label, "0");
   EXPECT_GT(Scale(ScaleKind::kLogarithmic, {1, 9}, 400, 100).place(1), 300) << "upwards";
+  EXPECT_EQ(Scale(ScaleKind::kLinear, {0, 1}, 100, 400).place(1), 400) << "all of a whole is at the end";
 }
 
 TEST(PlotFigure, IsTheSameBytesOfTheSameNumbers) {
