@@ -89,14 +89,11 @@ def take_home(cloth, hard, verify, sim):
     """What a reader takes home, in at most ten lines: from the measurements, so that it is of the same run as all below."""
     frames, hard = cloth["sets"][0], hard["sets"]
 
-    def setting(of, method, name):
-        return next(row for row in of["settings"] if row["method"] == method and row["setting"] == name)
-
     def hard_sum(method, name, key):
-        return f"{sum(setting(of, method, name)[key] for of in hard):,}"
+        return f"{sum(sentences.settings(of, method, name)[0][key] for of in hard):,}"
 
-    kernel, batches = setting(frames, "kernel", "0 m"), setting(frames, "kernel in batches", "0 m")
-    hard_ratios = [setting(of, "kernel", "0 m")["ratio"] for of in hard]
+    kernel, batches = (sentences.settings(frames, name, "0 m")[0] for name in ("kernel", "kernel in batches"))
+    hard_ratios = [sentences.settings(of, "kernel", "0 m")[0]["ratio"] for of in hard]
     sheet = max((sheet for sheet in verify["sheets"] if not sheet["planted"]), key=lambda sheet: sheet["faces"])
     one = {method["name"]: method for method in sheet["methods"] if method["threads"] == 1}
     explicit = min((row for row in sim["time_steps"] if row["solver"] == "explicit"), key=lambda row: row["substeps"])

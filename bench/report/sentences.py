@@ -19,6 +19,11 @@ def of_methods(cloth, hard):
     return {
         "cloth_batches": between([row["ratio"] for row in batches], "{:.2f}"),
         "cloth_kernel": between([row["ratio"] for row in kernel], "{:.2f}"),
+        "cloth_misses": sum(row["misses"] for of in cloth["sets"] for method in ("kernel", "kernel in batches")
+                            for row in settings(of, method)),
+        "cloth_alarms": sum(row["false_alarms"] for row in kernel + batches),
+        "hard_misses": sum(row["misses"] for of in hard["sets"] for method in ("kernel", "inclusion", "exact")
+                           for row in settings(of, method)),
         "cloth_off": f"{max(row['off_p99'] for row in kernel):.1e}",
         "hard_lost": f"{100 * max(lost):.0f} %",
         "hard_off": f"{settings(worst, 'kernel', '0 m')[0]['off_p99']:.1e}",
@@ -64,8 +69,10 @@ def of_broad_phase(broad, crumple):
     return quoted
 
 
-def of_growth(sim):
-    quoted = {}
+def of_simulator(sim):
+    fewest = {solver: min(row["substeps"] for row in sim["time_steps"] if row["solver"] == solver)
+              for solver in ("explicit", "implicit")}
+    quoted = {"longer_steps": fewest["explicit"] // fewest["implicit"]}
     for solver in ("explicit", "implicit"):
         rows = [row for row in sim["growth"] if row["solver"] == solver and row["threads"] == 1]
         first, last = (rows[i]["ms_a_step"] / rows[i]["vertices"] for i in (0, -1))
@@ -75,4 +82,4 @@ def of_growth(sim):
 
 def quoted(reports):
     return {**of_methods(reports["cloth"], reports["hard"]), **of_checker(reports["verify"]),
-            **of_broad_phase(reports["broad"], reports["crumple"]), **of_growth(reports["sim"])}
+            **of_broad_phase(reports["broad"], reports["crumple"]), **of_simulator(reports["sim"])}
