@@ -70,6 +70,7 @@ TEST(SameBits, TheHashOfTheAnswersIsTheGoldenOne) { EXPECT_EQ(hash_of_answers(qu
 
 // What tests/same_bits compares between the compilers of one machine, here between processors.
 TEST(SameBits, TheHashesOfEveryEntryOfTheKernelAreTheGoldenOnes) {
+  const FpEnvGuard guard;  // for the questions, which are asked under a flushing library as well (fast_math_test.cpp)
   Hash of_queries, of_meshes;
   testing::add_query_answers(of_queries);
   testing::add_mesh_answers(of_meshes);
