@@ -1,7 +1,6 @@
 // Where a vertex is, as the checker takes it: stored doubles.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -17,7 +16,8 @@ using Point = std::array<double, 3>;
 template <std::size_t N>
 void require_finite(const std::array<Point, N>& points, const char* asked) {
   for (const Point& point : points) {
-    if (!std::ranges::all_of(point, [](double x) { return std::isfinite(x); })) {
+    // Not by an algorithm, whose loop takes g++ 12 twice the instructions: an eighth of what a filter's decision takes.
+    if (!(std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))) {
       throw std::invalid_argument(std::string(asked) + ": a coordinate is not finite");
     }
   }
