@@ -163,11 +163,6 @@ void BoxColumns::hold(MotionBoxes boxes) {
   boxes_ = boxes;
 }
 
-void BoxColumns::copy_row(std::size_t row, const BoxColumns& from, std::size_t from_row) {
-  t0.copy_row(row, from.t0, from_row);
-  if (boxes_ == MotionBoxes::kMoving) t1.copy_row(row, from.t1, from_row);
-}
-
 MovingBox BoxColumns::row(std::size_t row) const {
   return {t0.row(row), (boxes_ == MotionBoxes::kMoving ? t1 : t0).row(row)};
 }
@@ -186,13 +181,6 @@ Box BoxColumns::Bounds::row(std::size_t row) const {
     box.upper[axis] = upper[axis][row];
   }
   return box;
-}
-
-void BoxColumns::Bounds::copy_row(std::size_t row, const Bounds& from, std::size_t from_row) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lower[axis][row] = from.lower[axis][from_row];
-    upper[axis][row] = from.upper[axis][from_row];
-  }
 }
 
 }  // namespace selvage

@@ -20,7 +20,12 @@ struct BoxColumns {
 
     void set(std::size_t row, const Box& box);
     [[nodiscard]] Box row(std::size_t row) const;
-    void copy_row(std::size_t row, const Bounds& from, std::size_t from_row);
+    void copy_row(std::size_t row, const Bounds& from, std::size_t from_row) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lower[axis][row] = from.lower[axis][from_row];
+        upper[axis][row] = from.upper[axis][from_row];
+      }
+    }
   };
   Bounds t0, t1;  ///< swept boxes are in t0 alone
   std::vector<std::uint64_t> key;
@@ -32,8 +37,11 @@ struct BoxColumns {
   /// What kind of boxes the rows hold from now on; t1 is to be set anew where they move.
   void hold(MotionBoxes boxes);
   [[nodiscard]] MotionBoxes boxes() const { return boxes_; }
-  /// Of `from`, which holds the same kind.
-  void copy_row(std::size_t row, const BoxColumns& from, std::size_t from_row);
+  /// Of `from`, which holds the same kind. Here, to be inlined: a search copies each partner that a cluster has.
+  void copy_row(std::size_t row, const BoxColumns& from, std::size_t from_row) {
+    t0.copy_row(row, from.t0, from_row);
+    if (boxes_ == MotionBoxes::kMoving) t1.copy_row(row, from.t1, from_row);
+  }
   [[nodiscard]] MovingBox row(std::size_t row) const;
   [[nodiscard]] std::size_t row_count() const { return row_count_; }
 

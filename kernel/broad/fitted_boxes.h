@@ -20,10 +20,13 @@ class FittedBoxes {
              const CandidateOptions& options);
 
   [[nodiscard]] MovingBox vertex(VertexId v) const {
-    return {t0_.vertices[static_cast<std::size_t>(v)], last().vertices[static_cast<std::size_t>(v)]};
+    return {t0_.vertices[static_cast<std::size_t>(v)], (is_moving() ? t1_ : t0_).vertices[static_cast<std::size_t>(v)]};
   }
-  [[nodiscard]] MovingBox cluster(TreeRef ref) const {
-    return {t0_.clusters[static_cast<std::size_t>(~ref)], last().clusters[static_cast<std::size_t>(~ref)]};
+  /// Whether the cluster's box overlaps `box`, of the same kind.
+  [[nodiscard]] bool overlaps(TreeRef ref, const MovingBox& box) const {
+    const Box& first = t0_.clusters[static_cast<std::size_t>(~ref)];
+    if (!is_moving()) return overlap(first, box.t0);  // half as many comparisons, and no copy of what holds both
+    return overlap(MovingBox{first, t1_.clusters[static_cast<std::size_t>(~ref)]}, box);
   }
   /// Rows as in FaceClusters::faces and ::edges; the key is feature * 2^32 + row.
   [[nodiscard]] const BoxColumns& faces() const { return faces_; }
@@ -53,7 +56,7 @@ class FittedBoxes {
   };
   using End = BoxColumns::Bounds BoxColumns::*;
 
-  [[nodiscard]] const Boxes& last() const { return faces_.boxes() == MotionBoxes::kMoving ? t1_ : t0_; }
+  [[nodiscard]] bool is_moving() const { return faces_.boxes() == MotionBoxes::kMoving; }
   /// All boxes of one end, of the motion from V_a to V_b.
   void fit(const Mesh& mesh, const FaceClusters& clusters, const PositionsRef& V_a, const PositionsRef& V_b,
            double reach, Boxes& boxes, End end);

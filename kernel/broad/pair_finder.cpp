@@ -181,7 +181,7 @@ class PairFinder {
       if (ref >= 0) {
         const std::size_t begin = FaceClusters::kFanOut * static_cast<std::size_t>(ref);
         ranges.add(begin, begin + clusters_.nodes[static_cast<std::size_t>(ref)].child_count);
-      } else if (overlap(boxes_.cluster(ref), box)) {
+      } else if (boxes_.overlaps(ref, box)) {
         out.push_back(word);
       }
     }
