@@ -186,6 +186,14 @@ TEST(BoxHierarchy, ClustersOfDifferentDepths) {
   const auto [mesh, V] = sheet(23, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i, j, i * j % 3); });
   ASSERT_EQ(mesh.faces.size(), 1058U);
   expect_brute_force(mesh, V, V, {});
+  Positions mirrored = V;  // one half passes through the other, whose boxes it reaches at neither end
+  for (Eigen::Index v = 0; v < V.rows(); ++v) {
+    if (V(v, 0) > 12) mirrored(v, 0) = -V(v, 0);
+  }
+  for (const MotionBoxes boxes : {MotionBoxes::kSwept, MotionBoxes::kMoving}) {
+    expect_brute_force(mesh, V, mirrored, {0, {}, boxes});
+    expect_brute_force(mesh, mirrored, V, {0, {}, boxes});
+  }
 }
 
 TEST(BoxHierarchy, AllVerticesCoincide) {
