@@ -116,7 +116,8 @@ bool Search::clear_precisely(const TickInterval& interval, double suspect) {
   std::int32_t left = options_.max_intervals - result_.intervals;
   const auto contact = first_precise_contact(*precise_motion_, interval, suspect, left);
   result_.intervals = options_.max_intervals - left;
-  return !contact || answer(*contact);
+  if (!contact) return true;
+  return answer(*contact);
 }
 
 /// Whether the features are in contact at the begin of an interval with these signs, as far as doubles can tell.

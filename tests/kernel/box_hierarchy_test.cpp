@@ -182,6 +182,23 @@ TEST(BoxHierarchy, NoFacesAndOneFace) {
 
 /// Of 1058 faces each of the widest nodes has 132 or 133, and so both clusters, of 16 faces, and nodes, of 17, below
 /// it.
+TEST(BoxHierarchy, FitsMeshesOfItsSize) {
+  Faces F(2, 3);
+  F << 0, 1, 2, 1, 3, 2;
+  const Mesh mesh = make_mesh(4, F);
+  const BoxHierarchy hierarchy(mesh);
+  EXPECT_TRUE(hierarchy.fits(mesh));
+  Mesh other = mesh;
+  ++other.vertex_count;
+  EXPECT_FALSE(hierarchy.fits(other));
+  other = mesh;
+  other.edges.pop_back();
+  EXPECT_FALSE(hierarchy.fits(other));
+  other = mesh;
+  other.faces.pop_back();
+  EXPECT_FALSE(hierarchy.fits(other));
+}
+
 TEST(BoxHierarchy, ClustersOfDifferentDepths) {
   const auto [mesh, V] = sheet(23, [](VertexId i, VertexId j) { return Eigen::RowVector3d(i, j, i * j % 3); });
   ASSERT_EQ(mesh.faces.size(), 1058U);
