@@ -53,7 +53,7 @@ struct CollisionLimits {
 /// candidate or not. A step without motion (V_t0 = V_t1) is a step: pairs within tolerance are found, touching ones
 /// with toi_lower 0. `hierarchy` belongs to `mesh` (fits() is asked) and is refit here; `active` as in
 /// CandidateOptions. REQUIRES validate() == kNone of the positions and of the options, which it asks. In parallel;
-/// results are ordered, and equal bits for any thread count (K7). Memory is O(#V + #F + most_listed + #collisions),
+/// results are ordered, and equal bits for any thread count (K7). Memory is O(#V + #F + most_listed + collisions),
 /// also where features cross in the step so far that there are O(#F^2) candidates, and it takes as long, unless
 /// `limits` ends it: then the report is not complete, names none, and has a toi_lower of 0.
 [[nodiscard]] CollisionReport find_collisions(const Mesh& mesh, BoxHierarchy& hierarchy, const PositionsRef& V_t0,
