@@ -59,7 +59,7 @@ ByteCase scene_case(std::string scene, std::int64_t steps) {
   return {&scene_kind(), std::to_string(steps), std::move(scene)};
 }
 
-SceneTrial try_scene(const std::string& text, std::int64_t steps) {
+SceneTrial try_scene(const std::string& text, std::int64_t steps, std::int64_t jammed) {
   const sim::Scene scene = sim::parse_scene(text, "the scene of the case");
   sim::Simulation simulation(scene);
   const verify::Topology topology = topology_of(simulation.world());
@@ -69,7 +69,7 @@ SceneTrial try_scene(const std::string& text, std::int64_t steps) {
     trial.retrial.unfit = "the scene begins in contact";
     return trial;
   }
-  while (trial.steps < steps && simulation.clock().frame() < scene.time.frame_count) {
+  while (trial.steps < steps && jammed > 0 && simulation.clock().frame() < scene.time.frame_count) {
     const Positions x_t0 = simulation.x();
     const sim::CollisionStepReport report = simulation.step().report;
     if (report.status == sim::StepStatus::kInvalidInput) {
@@ -80,6 +80,7 @@ SceneTrial try_scene(const std::string& text, std::int64_t steps) {
     trial.with_collisions += report.first_collisions > 0;
     trial.with_zones += report.zone_rounds > 0;
     trial.with_fail_safe += report.fail_safe_vertices > 0;
+    jammed -= report.zone_rounds > 0 || report.fail_safe_vertices > 0;
     if (touches(topology, x_t0, simulation.x(), "step " + std::to_string(trial.steps), facts)) {
       trial.retrial.failure = "touches";
       return trial;

@@ -1,6 +1,8 @@
 // A scene that is simulated for some steps as a case.
 #pragma once
 
+#include <limits>
+
 #include "fuzz/kept/byte_case.h"
 
 namespace selvage::fuzz {
@@ -14,7 +16,9 @@ struct SceneTrial {
   bool stopped = false;
   Retrial retrial;  ///< unfit: the scene begins in contact, which the program refuses
 };
-/// Up to `steps` steps, until the first failure. Throws io::Error where it is no scene.
-[[nodiscard]] SceneTrial try_scene(const std::string& scene, std::int64_t steps);
+/// Up to `steps` steps, `jammed` of them with impact zones or the fail-safe, until the first failure. Throws io::Error
+/// where it is no scene.
+[[nodiscard]] SceneTrial try_scene(const std::string& scene, std::int64_t steps,
+                                   std::int64_t jammed = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace selvage::fuzz
