@@ -1,5 +1,6 @@
 #include "sim/dynamics/stage_contacts.h"
 
+#include "sim/dynamics/implicit_dynamics.h"
 #include "tests/property.h"
 #include "tests/sim/dynamics/stage_contact_scene.h"
 
