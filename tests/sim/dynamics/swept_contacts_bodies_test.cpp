@@ -2,6 +2,8 @@
 #include <array>
 #include <utility>
 
+#include <gtest/gtest.h>
+
 #include "sim/dynamics/central_differences.h"
 #include "tests/sim/dynamics/swept_contact_scenes.h"
 
